@@ -9,7 +9,10 @@ use clap::builder::StyledStr;
 const GROUPS: [(&str, &[&str]); 4] = [
     (
         "Working with a service (--server, or RUBMAP_SERVER and RUBMAP_TOKEN)",
-        &["upload", "plan", "sweep", "submit", "watch", "ls", "get", "report", "open", "cancel", "rm"],
+        &[
+            "upload", "plan", "sweep", "submit", "watch", "ls", "get", "report", "open", "pause", "continue",
+            "cancel", "rm",
+        ],
     ),
     ("Without a service", &["demo", "study", "case", "fields", "modes", "repeat", "generate", "import"]),
     #[cfg(not(feature = "cluster"))]

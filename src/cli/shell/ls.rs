@@ -49,6 +49,8 @@ enum Status {
     Accepted,
     /// Being computed
     Running,
+    /// Set aside
+    Paused,
     /// Finished
     Successful,
     /// Could not be computed
@@ -62,6 +64,7 @@ impl From<Status> for JobStatus {
         match status {
             Status::Accepted => Self::Accepted,
             Status::Running => Self::Running,
+            Status::Paused => Self::Paused,
             Status::Successful => Self::Successful,
             Status::Failed => Self::Failed,
             Status::Dismissed => Self::Dismissed,

@@ -89,7 +89,7 @@ fn words(of: Option<&Difference>, laid_out: usize) -> String {
     let percent = 100.0 * CONFIDENCE;
     let mean = short(of.map_or(0.0, |of| of.mean));
     match of {
-        None => "no design is known with both models yet".to_owned(),
+        None => "no design is known with both models".to_owned(),
         Some(&Difference { pairs, from: Some(from), to: Some(to), resolution, verdict, .. }) => {
             let [from, to, resolution] = [from, to, resolution].map(short);
             let known =

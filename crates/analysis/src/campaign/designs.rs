@@ -28,6 +28,11 @@ pub(crate) fn designs(
     points.iter().map(|point| quantiles(point, distributions)).collect()
 }
 
+/// The values of the design of this `index` that is added for a threshold, but for the parameter of that: they go on along a Sobol sequence.
+pub(crate) fn added(index: usize, seed: u32, distributions: &[&Distribution]) -> Vec<f64> {
+    quantiles(&sobol_point(index, distributions.len(), seed), distributions.iter().copied())
+}
+
 /// The values at a point of the unit cube.
 pub(super) fn quantiles<'a>(
     point: &[f64],

@@ -13,6 +13,7 @@ pub(super) fn designs_of(asked: &ResolvedCampaign, points: &[Point]) -> Vec<Camp
         diverged: 0,
         failed: 0,
         not_settled: 0,
+        message: None,
         by_speed: vec![None; speeds.len()],
         severity: None,
         worst_speed_rad_s: None,
@@ -36,6 +37,9 @@ pub(super) fn designs_of(asked: &ResolvedCampaign, points: &[Point]) -> Vec<Camp
         outcome.failed += u32::from(point.status == PointStatus::Failed);
         outcome.not_settled += u32::from(is_unsettled(of, point));
         outcome.by_speed[speed as usize] = severity(of, point);
+        if point.status == PointStatus::Failed && outcome.message.is_none() {
+            outcome.message.clone_from(&point.message);
+        }
     }
     for design in &mut designs {
         for outcome in std::iter::once(&mut design.outcome).chain(&mut design.compared) {

@@ -176,8 +176,7 @@ fn answers_of_few_designs_are_honest() {
     for (size, spread, probability, within, batch) in [(8, 0.05, 0.8, 0.05, 4), (32, 0.02, 0.95, 0.02, 32)] {
         let tolerance = json!({"name": "tolerance", "at": ["/scene/damping/modal_ratio"], "change": "multiply", "distribution": "normal",
             "mean": 1.0, "standard_deviation": spread, "from": 0.7, "to": 1.3});
-        let threshold =
-            json!({"parameter": "clearance", "probability": probability, "within": within, "batch": batch});
+        let threshold = json!({"parameter": "clearance", "probability": probability, "within": within, "batch": batch, "most_designs": 300});
         let exact = 0.3 + spread * rubmap_numerics::sampling::quantile::standard_normal(probability);
         let (mut ended, mut right) = (0, 0);
         for seed in 0..40 {
@@ -213,6 +212,66 @@ fn a_single_parameter_is_enclosed() {
     assert!((told.value.unwrap() - (1.0 / 0.7 - 1.0)).abs() < 1e-6, "{told:?}");
     // Each round leaves a tenth.
     assert!(ended.designs() <= 5 + 6 * 9 && told.met_within == Some(true), "{}", ended.designs());
+}
+
+/// Damping that a tolerance may bring beyond 1 is refused, though the designs that are given have none of it.
+#[test]
+fn designs_that_may_be_added_are_held_against_the_model() {
+    let damping = json!({"name": "d", "at": ["/scene/damping/modal_ratio"], "from": 0.08, "to": 20.0});
+    let threshold = json!({"parameter": "clearance", "within": 0.01, "batch": 8, "most_designs": 40});
+    let asked = json!({
+        "parameters": [clearance("clearance", 0.0, 1.0), damping], "design": {"kind": "list", "points": [[0.0, 0.1], [0.1, 0.1]]},
+        "limit": 0.7, "threshold": threshold,
+    });
+    let refused = resolve(asked).unwrap_err();
+    assert_eq!((refused.len(), refused[0].pointer.as_str()), (1, "/parameters/1"), "{refused:?}");
+}
+
+/// A severity that rises again crosses a limit three times: neither is there one value, nor is anything simulated twice.
+#[test]
+fn a_limit_that_is_crossed_again_is_said_to_be() {
+    let threshold = json!({"parameter": "clearance", "within": 1e-3, "batch": 8});
+    let asked = resolve(json!({
+        "parameters": [clearance("clearance", 0.0, 1.0)], "design": {"kind": "sobol", "size": 64}, "limit": 0.7, "threshold": threshold,
+    }));
+    let severity =
+        |values: &[f64], _: u32| 1.0 - values[0] + if (0.4..0.5).contains(&values[0]) { 0.5 } else { 0.0 };
+    let (ended, found) = to_its_end(asked.unwrap(), severity);
+    let told = answer(&ended, &found).threshold.unwrap();
+    assert_eq!((told.met_within, told.value, ended.designs()), (Some(false), None, 64));
+    let (from, to) = (told.from.unwrap(), told.to.unwrap());
+    assert!(from < 0.3 && from > 0.28 && to > 0.5 && to < 0.52, "{told:?}");
+    assert!(told.message.contains("more than once"), "{}", told.message);
+}
+
+/// One design that meets the limit, as most do: the first batch goes over the whole range.
+#[test]
+fn a_threshold_far_from_the_first_designs_is_found() {
+    let threshold = json!({"parameter": "clearance", "within": 1e-3, "batch": 8});
+    let asked = resolve(json!({
+        "parameters": [clearance("clearance", 0.0, 1.0)], "design": {"kind": "list", "points": [[0.9]]}, "limit": 0.85, "threshold": threshold,
+    }));
+    let severity = |values: &[f64], _: u32| 1.0 - values[0];
+    let (ended, found) = to_its_end(asked.unwrap(), severity);
+    let told = answer(&ended, &found).threshold.unwrap();
+    assert!(told.met_within == Some(true) && (told.value.unwrap() - 0.15).abs() < 1e-3, "{told:?}");
+}
+
+/// Rounds of which nothing is known end a campaign, and it says why.
+#[test]
+fn nothing_is_added_where_nothing_settles() {
+    let threshold = json!({"parameter": "clearance", "within": 1e-3, "batch": 4});
+    let asked = resolve(json!({
+        "parameters": [clearance("clearance", 0.0, 1.0)], "design": {"kind": "sobol", "size": 4}, "limit": 0.5, "threshold": threshold,
+    }))
+    .unwrap();
+    let severity = |values: &[f64], _: u32| 1.0 - values[0];
+    let mut found = points(&asked, 0, severity);
+    let longer = more_designs(&asked, &found).unwrap();
+    found.extend(points(&longer, asked.simulations(), severity).into_iter().map(on_its_way));
+    assert_eq!(more_designs(&longer, &found), None);
+    let message = answer(&longer, &found).threshold.unwrap().message;
+    assert!(message.contains("4 of 8 finished designs are left out"), "{message}");
 }
 
 #[test]

@@ -18,11 +18,16 @@ pub(super) struct Answer {
     pub(super) value: Option<f64>,
     /// Between which values the answer is open; an end is infinite where the designs do not bound it.
     pub(super) open: Option<(f64, f64)>,
+    /// Whether a parameter that varies alone crosses the limit more than once, between the ends of `open`: no value divides its range.
+    pub(super) is_crossed_again: bool,
 }
 
 /// Reads `cases`: values of the parameter, and whether the limit is met there; whether that parameter `varies_alone`.
 pub(super) fn answer(cases: &[(f64, bool)], asked: &Threshold, varies_alone: bool) -> Answer {
     let fragility = fragility::fit(cases);
+    if varies_alone && matches!(fragility, Some(Fragility::Curve(_))) {
+        return Answer { fragility, value: None, open: crossings(cases), is_crossed_again: true };
+    }
     let (value, open) = match fragility {
         Some(Fragility::Apart { below, above, rising }) => {
             let open = if varies_alone {
@@ -38,13 +43,23 @@ pub(super) fn answer(cases: &[(f64, bool)], asked: &Threshold, varies_alone: boo
         }
         Some(Fragility::Always | Fragility::Never) | None => (None, None),
     };
-    Answer { fragility, value, open }
+    Answer { fragility, value, open, is_crossed_again: false }
+}
+
+/// From the last case before the first crossing of the limit to the first one after the last.
+fn crossings(cases: &[(f64, bool)]) -> Option<(f64, f64)> {
+    let mut sorted = cases.to_vec();
+    sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let crossing = |pair: &&[(f64, bool)]| pair[0].1 != pair[1].1;
+    let first = sorted.windows(2).find(crossing)?;
+    let last = sorted.windows(2).rfind(crossing)?;
+    Some((first[0].0, last[1].0))
 }
 
 impl Answer {
     /// Whether the value is known to `within` either way.
     pub(super) fn is_within(&self, within: f64) -> bool {
-        self.open.is_some_and(|(low, high)| high - low <= 2.0 * within)
+        !self.is_crossed_again && self.open.is_some_and(|(low, high)| high - low <= 2.0 * within)
     }
 }
 
@@ -64,7 +79,9 @@ pub(super) fn threshold(asked: &ResolvedCampaign, outcomes: &[&DesignOutcome]) -
         met_within: threshold.within.map(|within| found.is_within(within)),
         decided: cases.len() as u32,
         shares: shares(cases, &found),
-        message: words(&found, &threshold.parameter, threshold.probability) + beyond(&found, range),
+        message: words(&found, &threshold.parameter, threshold.probability)
+            + beyond(&found, range)
+            + &left_out(outcomes),
         parameter: threshold.parameter.clone(),
     })
 }
@@ -78,7 +95,7 @@ pub(super) fn cases(asked: &ResolvedCampaign, outcomes: &[&DesignOutcome], index
 
 fn thresholds(found: &Answer) -> Option<(f64, f64)> {
     match found.fragility {
-        Some(Fragility::Curve(curve)) => {
+        Some(Fragility::Curve(curve)) if !found.is_crossed_again => {
             Some(curve.thresholds()).filter(|(mean, deviation)| mean.is_finite() && deviation.is_finite())
         }
         _ => None,
@@ -97,7 +114,7 @@ fn shares(mut cases: Vec<(f64, bool)>, found: &Answer) -> Vec<ThresholdShare> {
         let cases = &cases[group * cases.len() / groups..(group + 1) * cases.len() / groups];
         let (first, last) = (cases.first()?, cases.last()?);
         let expected = match found.fragility {
-            Some(Fragility::Curve(curve)) => {
+            Some(Fragility::Curve(curve)) if !found.is_crossed_again => {
                 Some(cases.iter().map(|(x, _)| curve.probability(*x)).sum::<f64>() / cases.len() as f64)
             }
             _ => None,
@@ -119,10 +136,30 @@ fn beyond(found: &Answer, range: Option<(f64, f64)>) -> &'static str {
     }
 }
 
+/// What is to be said of designs that are finished and count nowhere.
+fn left_out(outcomes: &[&DesignOutcome]) -> String {
+    let finished = outcomes.iter().filter(|outcome| outcome.finished as usize == outcome.by_speed.len());
+    let unknown = finished.clone().filter(|outcome| !outcome.is_complete()).count();
+    if unknown == 0 {
+        return String::new();
+    }
+    format!(
+        "; {unknown} of {} finished designs are left out, as some of their speeds had not settled or could not be integrated",
+        finished.count()
+    )
+}
+
 fn words(found: &Answer, parameter: &str, probability: f64) -> String {
     let percent = short(100.0 * probability);
     match (found.fragility, found.value, found.open) {
         (None, ..) => "no design has been decided yet".to_owned(),
+        (_, _, Some((low, high))) if found.is_crossed_again => {
+            let (low, high) = (short(low), short(high));
+            format!(
+                "{parameter} crosses the limit more than once between {low} and {high}: no single value has designs that meet the limit on one \
+                 side only"
+            )
+        }
         (Some(Fragility::Always), ..) => {
             format!(
                 "all designs so far meet the limit, whatever their {parameter}: widen its range, or lower the limit"

@@ -1,6 +1,6 @@
 //! A campaign, held against its model.
 
-use crate::campaign::designs::{designs, levels};
+use crate::campaign::designs::{added, designs, levels};
 use crate::error::Violation;
 use crate::model::ModelFacts;
 use crate::request::sweep::default_peak_prominence;
@@ -104,9 +104,9 @@ pub fn resolve_campaign(
     };
     check_simulations(&mut found, &settings, sweep.speeds.count());
     if found.0.is_empty() {
-        check_designs(&mut found, &settings, &settings.sweep, facts);
+        check_designs(&mut found, &settings, &settings.sweep, (facts, &distributions));
         if let (Some(sweep), Some(compared)) = (&settings.compared, compared) {
-            check_designs(&mut found, &settings, sweep, &compared.facts);
+            check_designs(&mut found, &settings, sweep, (&compared.facts, &distributions));
         }
     }
     found.finish(ResolvedCampaign { sweep, compared: other, distributions, settings })
@@ -220,7 +220,7 @@ fn check_parameters(
 }
 
 /// Columns of tables and arrays of results that stand beside those of parameters.
-const COLUMNS: [&str; 19] = [
+const COLUMNS: [&str; 21] = [
     "design",
     "severity",
     "worst_speed_rad_s",
@@ -230,6 +230,8 @@ const COLUMNS: [&str; 19] = [
     "failed",
     "not_settled",
     "speeds_rad_s",
+    "speeds_rpm",
+    "speeds_hz",
     "speed_rpm",
     "by_speed",
     "parameter",
@@ -253,9 +255,11 @@ fn check_names(found: &mut Findings, parameters: &[Parameter], severity: Severit
             "a column of the results is called so: choose another",
         );
         found.require(
-            !name.contains(['/', '\\']) && !name.contains(char::is_control),
+            !name.contains(['/', '\\', '\u{fffe}', '\u{ffff}'])
+                && !name.contains(char::is_control)
+                && !name.trim().is_empty(),
             &format!("/parameters/{index}/name"),
-            "a column of tables and archives is called so: no slashes, no control characters",
+            "a column of tables and archives is called so: not blank, no slashes, no control characters",
         );
     }
 }
@@ -337,9 +341,9 @@ fn check_threshold(
     let Some(threshold) = threshold else { return };
     found.require(limit.is_some(), "/limit", "a threshold is where a limit is met: give one");
     found.require(
-        threshold.probability > 0.0 && threshold.probability < 1.0,
+        (1e-6..=1.0 - 1e-6).contains(&threshold.probability),
         "/threshold/probability",
-        "above 0 and below 1",
+        "between 0.000001 and 0.999999",
     );
     found.require(
         (1..=DESIGNS as u32).contains(&threshold.batch),
@@ -368,6 +372,11 @@ fn check_threshold(
             "designs are added between `from` and `to`: give both",
         );
         found.require(
+            within < to - from,
+            "/threshold/within",
+            "less than the parameter's range, which is known to so much already",
+        );
+        found.require(
             distribution.is_continuous() && parameters[index].distribution != DistributionKind::Values,
             "/threshold/within",
             "designs can be added between others only where the parameter takes every value: leave this away",
@@ -390,22 +399,24 @@ fn check_severity(found: &mut Findings, severity: Severity, sweep: &ResolvedSwee
     found.require(there, "/severity", format!("there is none without {needs}"));
 }
 
-/// Every design of a `sweep` must be sound; what is wrong with one is said at the parameter that moves the field, if one does.
+/// Every design of a `sweep` must be sound, those that may be added as well, at both ends of the threshold's parameter. What is wrong with one
+/// is said at the parameter that moves the field, if one does.
 fn check_designs(
     found: &mut Findings,
     settings: &CampaignSettings,
     sweep: &SweepRequest,
-    facts: &ModelFacts,
+    (facts, distributions): (&ModelFacts, &[Option<Distribution>]),
 ) {
     let sweep = match written(sweep) {
         Ok(sweep) => sweep,
         Err(violations) => return found.0.extend(violations),
     };
-    for (index, values) in settings.designs.iter().enumerate() {
+    let laid_out = settings.designs.iter().cloned().enumerate();
+    for (index, values) in laid_out.chain(that_may_be_added(settings, distributions)) {
         if found.0.len() >= TOLD {
             break;
         }
-        let checked = changed(sweep.clone(), &settings.parameters, values)
+        let checked = changed(sweep.clone(), &settings.parameters, &values)
             .and_then(|sweep| resolve_sweep(sweep, facts).map(drop));
         for violation in checked.err().unwrap_or_default() {
             let moves = |parameter: &Parameter| {
@@ -421,7 +432,7 @@ fn check_designs(
                 let said = settings
                     .parameters
                     .iter()
-                    .zip(values)
+                    .zip(&values)
                     .map(|(parameter, value)| format!("{} = {value}", parameter.name));
                 let said = said.collect::<Vec<_>>().join(", ");
                 found.0.push(Violation::new(
@@ -431,4 +442,27 @@ fn check_designs(
             }
         }
     }
+}
+
+/// Indices and values of designs that may be added for a threshold, each with its parameter at either end: all others are as they will be.
+fn that_may_be_added(
+    settings: &CampaignSettings,
+    distributions: &[Option<Distribution>],
+) -> Vec<(usize, Vec<f64>)> {
+    let threshold = settings.threshold.as_ref().filter(|threshold| threshold.within.is_some());
+    let all: Option<Vec<&Distribution>> = distributions.iter().map(Option::as_ref).collect();
+    let (Some(threshold), Some(distributions)) = (threshold, all) else { return Vec::new() };
+    let index = settings.parameters.iter().position(|parameter| parameter.name == threshold.parameter);
+    let Some(index) = index else { return Vec::new() };
+    let (from, to) = distributions[index].range();
+    let seed = settings.design.seed.unwrap_or(0);
+    let ends = |design: usize| {
+        let values = added(design, seed, &distributions);
+        [from, to].map(|end| {
+            let mut values = values.clone();
+            values[index] = end;
+            (design, values)
+        })
+    };
+    (settings.designs.len()..threshold.most_designs as usize).flat_map(ends).collect()
 }

@@ -67,6 +67,9 @@ pub struct DesignOutcome {
     /// Those of them that had not settled at the end of their revolutions, so that nobody knows what they would come to.
     #[serde(default)]
     pub not_settled: u32,
+    /// Why one of those that failed did.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub message: Option<String>,
     /// Severity by speed; null where it is not known.
     pub by_speed: Vec<Option<f64>>,
     /// The largest of them, once all are known.
