@@ -182,6 +182,7 @@ class DesignOutcome(TypedDict):
     failed: int
     finished: int
     meets_limit: NotRequired[bool | None]
+    message: NotRequired[str | None]
     not_settled: NotRequired[int]
     severity: NotRequired[float | None]
     worst_speed_rad_s: NotRequired[float | None]
