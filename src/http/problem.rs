@@ -339,9 +339,9 @@ impl From<Box<PackageError>> for Problem {
 impl From<SubmitError> for Problem {
     fn from(error: SubmitError) -> Self {
         match error {
-            SubmitError::UnknownModel(_) => {
+            SubmitError::UnknownModel { at, .. } => {
                 let message = format!("{error}; upload it with POST /v1/models first");
-                Self::violations(Kind::InvalidRequest, vec![Violation::new("/model", message)])
+                Self::violations(Kind::InvalidRequest, vec![Violation::new(at, message)])
             }
             SubmitError::Refused(violations) => Self::violations(Kind::InvalidRequest, violations),
             SubmitError::Limit(reached) => reached.into(),

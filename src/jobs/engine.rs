@@ -222,7 +222,7 @@ impl Engine {
         self.revise(job, request, job.speeds).await
     }
 
-    /// Stops all computations of a job that wants no work any more, or none for now, and drops its waiting tasks.
+    /// Stops all computations of a job that has ended or is set aside, and drops its waiting tasks.
     pub(super) fn retire(&self, id: JobId) {
         self.tasks.withdraw(id);
         self.computing.acquit(id);

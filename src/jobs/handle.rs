@@ -40,9 +40,14 @@ pub struct Jobs {
 /// Why a job was not accepted.
 #[derive(Debug, thiserror::Error)]
 pub enum SubmitError {
-    /// Its model is not there.
-    #[error("there is no model {0:?}")]
-    UnknownModel(String),
+    /// A model is not there.
+    #[error("there is no model {model:?}")]
+    UnknownModel {
+        /// Its id.
+        model: String,
+        /// JSON pointer to where the request names it.
+        at: &'static str,
+    },
     /// It asks for something impossible; all violations at once.
     #[error("the request cannot be met")]
     Refused(Vec<Violation>),
@@ -155,7 +160,7 @@ impl Jobs {
         match kept.await.map_err(|_| Panicked { message: "a job was being kept".to_owned() })?? {
             Insertion::Accepted => Ok(()),
             Insertion::Limit(reached) => Err(SubmitError::Limit(reached)),
-            Insertion::UnknownModel => Err(SubmitError::UnknownModel(model)),
+            Insertion::UnknownModel => Err(SubmitError::UnknownModel { model, at: "/model" }),
             Insertion::KeyTaken => Err(SubmitError::KeyTaken),
         }
     }
@@ -218,13 +223,7 @@ impl Jobs {
         let compared = match &request.compared_model {
             None => None,
             Some(model) => {
-                let facts = self.facts(whose, model).await.map_err(|error| match error {
-                    SubmitError::UnknownModel(_) => {
-                        let message = format!("{error}; upload it with POST /v1/models first");
-                        SubmitError::Refused(vec![Violation::new("/compared_model", message)])
-                    }
-                    error => error,
-                })?;
+                let facts = self.facts_of(whose, model, "/compared_model").await?;
                 let mut sensors = request.sensors.clone();
                 self.place(model, &mut sensors).await?.map_err(SubmitError::Refused)?;
                 Some(run::ComparedModel { facts, sensors })
@@ -308,12 +307,22 @@ impl Jobs {
     }
 
     async fn facts(&self, whose: &Principal, model: &str) -> Result<run::ModelFacts, SubmitError> {
+        self.facts_of(whose, model, "/model").await
+    }
+
+    /// Facts of a model that the request names `at` this place.
+    async fn facts_of(
+        &self,
+        whose: &Principal,
+        model: &str,
+        at: &'static str,
+    ) -> Result<run::ModelFacts, SubmitError> {
         let model = self
             .engine
             .store
             .model(model, whose.only())
             .await?
-            .ok_or_else(|| SubmitError::UnknownModel(model.to_owned()))?;
+            .ok_or_else(|| SubmitError::UnknownModel { model: model.to_owned(), at })?;
         Ok(model.facts)
     }
 

@@ -5,6 +5,7 @@ use serde_json::{Value, json};
 use super::app::{Api, TestApp, sweep_of};
 use super::formats::{get, table};
 use super::model;
+use super::npz::Npz;
 use super::program::Program;
 
 /// A grid of clearance and damping over the three slowest speeds of [`sweep_of`].
@@ -129,6 +130,34 @@ async fn severities_of(api: &Api, model: &str, request: &Value, values: &Value) 
     map["points"].as_array().unwrap().iter().map(largest).collect()
 }
 
+/// No parameter may be called as anything else in tables and archives of this campaign.
+async fn columns_are_no_names(api: &Api, request: &Value, id: &str) {
+    let named: Vec<&str> = request["parameters"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|parameter| parameter["name"].as_str().unwrap())
+        .collect();
+    let mut columns = std::collections::BTreeSet::new();
+    for units in ["rad_s", "rpm", "hz"] {
+        let path = format!("/v1/jobs/{id}/campaign?units={units}");
+        let csv = get(api, &format!("{path}&format=csv"), &[]).await.good();
+        columns.extend(table(csv.text())[0].iter().map(|&name| name.to_owned()));
+        let npz = get(api, &format!("{path}&format=npz"), &[]).await.good();
+        columns.extend(Npz::read(npz.body()).names().into_iter().map(str::to_owned));
+    }
+    for column in columns.iter().filter(|column| !named.contains(&column.as_str())) {
+        let mut request = request.clone();
+        request["parameters"][0]["name"] = json!(column);
+        let refused = api.post("/v1/campaigns/plan", &request).await;
+        assert_eq!(
+            (refused.status.as_u16(), refused.text("/errors/0/pointer").as_str()),
+            (422, "/parameters/0/name"),
+            "{column}"
+        );
+    }
+}
+
 /// Sensitivities of a real wheel: damping alone, which the severity depends on, and the seed of a mistuning of next to nothing.
 #[tokio::test]
 async fn sensitivities_are_told() {
@@ -149,6 +178,7 @@ async fn sensitivities_are_told() {
     assert_eq!(found["sensitivities"]["blocks"], json!(8));
     assert!(of(0, "total") > 0.3 && of(0, "total_error") > 0.0, "{}", found["sensitivities"]);
     assert!(of(1, "total") < 1e-3, "{}", found["sensitivities"]);
+    columns_are_no_names(api, &request, &id).await;
     app.stop().await;
 }
 
@@ -190,7 +220,7 @@ async fn two_models_are_compared() {
     assert_eq!(found["plan"]["steps"], plan["estimate"]["steps"]);
     let csv = get(api, &format!("/v1/jobs/{id}/campaign?format=csv"), &[]).await.good();
     assert!(table(csv.text())[0].contains(&"compared_amplitude_mm"), "{}", csv.text());
-    get(api, &format!("/v1/jobs/{id}/campaign?format=npz"), &[]).await.good();
+    columns_are_no_names(api, &request, &id).await;
     let svg = get(api, &format!("/v1/jobs/{id}/campaign?format=svg"), &[]).await.good();
     assert!(svg.text().contains("difference, compared less own"));
 

@@ -86,30 +86,27 @@ fn limits_met(pairs: &[(&DesignOutcome, &DesignOutcome)]) -> LimitsMet {
 }
 
 fn words(of: Option<&Difference>, laid_out: usize) -> String {
-    let percent = 100.0 * CONFIDENCE;
-    let mean = short(of.map_or(0.0, |of| of.mean));
-    match of {
-        None => "no design is known with both models".to_owned(),
-        Some(&Difference { pairs, from: Some(from), to: Some(to), resolution, verdict, .. }) => {
-            let [from, to, resolution] = [from, to, resolution].map(short);
-            let known =
-                format!("{mean}, between {from} and {to} with a confidence of {percent} % ({pairs} pairs)");
-            match verdict {
-                DifferenceVerdict::Greater => {
-                    format!("the model that is compared is more severe, by {known}")
-                }
-                DifferenceVerdict::Smaller => format!("the model that is compared is less severe: {known}"),
-                DifferenceVerdict::Undecided => format!(
-                    "the models do not differ by more than the errors of the difference, which is {known}; severities are known to {resolution}"
-                ),
-            }
-        }
-        Some(_) if laid_out == 1 => format!(
-            "with the one design that there is, the difference is {mean}: let a number vary, such as a seed of mistuning, to learn \
-             whether it is more than chance"
-        ),
-        Some(_) => {
+    let Some(&Difference { pairs, mean, from, to, resolution, verdict, .. }) = of else {
+        return "no design is known with both models".to_owned();
+    };
+    let [mean, resolution] = [mean, resolution].map(short);
+    let (Some(from), Some(to)) = (from.map(short), to.map(short)) else {
+        return if laid_out == 1 {
+            format!(
+                "with the one design that there is, the difference is {mean}: let a number vary, such as a seed of mistuning, to learn \
+                 whether it is more than chance"
+            )
+        } else {
             format!("with the one design that is known with both models so far, the difference is {mean}")
-        }
+        };
+    };
+    let percent = 100.0 * CONFIDENCE;
+    let known = format!("{mean}, between {from} and {to} with a confidence of {percent} % ({pairs} pairs)");
+    match verdict {
+        DifferenceVerdict::Greater => format!("the model that is compared is more severe, by {known}"),
+        DifferenceVerdict::Smaller => format!("the model that is compared is less severe: {known}"),
+        DifferenceVerdict::Undecided => format!(
+            "the models do not differ by more than the errors of the difference, which is {known}; severities are known to {resolution}"
+        ),
     }
 }

@@ -13,8 +13,8 @@ use crate::result::Point;
 /// with the probability, within its range, and once over all of that where the first designs lie on one side; the others go on along a Sobol
 /// sequence in their distributions. Each batch depends on nothing but the results before it. None follows one of which nothing is known.
 pub fn more_designs(campaign: &ResolvedCampaign, points: &[Point]) -> Option<ResolvedCampaign> {
-    let (threshold, index) = campaign.threshold()?;
-    let within = threshold.within?;
+    let (threshold, within) = campaign.settings.sought()?;
+    let index = campaign.settings.parameter(&threshold.parameter)?;
     let distributions: Vec<&Distribution> = campaign.distributions.iter().flatten().collect();
     let designs = designs_of(campaign, points);
     let own: Vec<_> = designs.iter().map(|design| &design.outcome).collect();

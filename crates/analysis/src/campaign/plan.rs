@@ -19,9 +19,9 @@ pub fn plan_campaign(
     let compared = campaign.compared.as_ref().zip(compared);
     let compared =
         compared.map(|(sweep, (facts, reduced))| plan_sweep(sweep, facts, reduced, calibration, workers));
-    let own = estimate(&scene, campaign.designs() as f64, workers);
-    let other = compared.as_ref().map(|plan| estimate(plan, campaign.designs() as f64, workers));
     let designs = campaign.designs() as u32;
+    let own = estimate(&scene, designs, workers);
+    let other = compared.as_ref().map(|plan| estimate(plan, designs, workers));
     CampaignPlan {
         designs,
         designs_at_most: campaign.designs_at_most(),
@@ -46,17 +46,17 @@ fn side_by_side(one: Estimate, other: Estimate) -> Estimate {
 }
 
 /// So many designs, each as dear as the sweep that was planned; speeds of all of them run side by side.
-fn estimate(scene: &SweepPlan, designs: f64, workers: usize) -> Option<Estimate> {
+fn estimate(scene: &SweepPlan, designs: u32, workers: usize) -> Option<Estimate> {
     let one = scene.estimate.as_ref()?;
     let times = |range: CostRange, factor: f64| CostRange {
         free: factor * range.free,
         contact: factor * range.contact,
     };
-    let computing_time_s = times(one.computing_time_s, designs);
+    let computing_time_s = times(one.computing_time_s, designs.into());
     // What is left over at the end of a single sweep is filled by the next design.
     let wall_time_s = times(computing_time_s, 1.0 / workers.max(1) as f64);
     Some(Estimate {
-        steps: one.steps.saturating_mul(designs as u64),
+        steps: one.steps.saturating_mul(designs.into()),
         computing_time_s,
         wall_time_s: CostRange {
             free: wall_time_s.free.max(one.wall_time_s.free),

@@ -4,7 +4,7 @@ use super::digits::short;
 use crate::request::Threshold;
 use crate::resolved::ResolvedCampaign;
 use crate::result::{CampaignThreshold, DesignOutcome, ThresholdShare};
-use rubmap_numerics::fragility::{self, Fragility};
+use rubmap_numerics::fragility::{self, Curve, Fragility};
 
 /// Confidence of intervals.
 pub(crate) const CONFIDENCE: f64 = 0.95;
@@ -57,6 +57,14 @@ fn crossings(cases: &[(f64, bool)]) -> Option<(f64, f64)> {
 }
 
 impl Answer {
+    /// The curve that was fitted; none where it would stand for a parameter that varies alone and has no probabilities.
+    fn curve(&self) -> Option<Curve> {
+        match self.fragility {
+            Some(Fragility::Curve(curve)) if !self.is_crossed_again => Some(curve),
+            _ => None,
+        }
+    }
+
     /// Whether the value is known to `within` either way.
     pub(super) fn is_within(&self, within: f64) -> bool {
         !self.is_crossed_again && self.open.is_some_and(|(low, high)| high - low <= 2.0 * within)
@@ -94,12 +102,8 @@ pub(super) fn cases(asked: &ResolvedCampaign, outcomes: &[&DesignOutcome], index
 }
 
 fn thresholds(found: &Answer) -> Option<(f64, f64)> {
-    match found.fragility {
-        Some(Fragility::Curve(curve)) if !found.is_crossed_again => {
-            Some(curve.thresholds()).filter(|(mean, deviation)| mean.is_finite() && deviation.is_finite())
-        }
-        _ => None,
-    }
+    let thresholds = found.curve()?.thresholds();
+    Some(thresholds).filter(|(mean, deviation)| mean.is_finite() && deviation.is_finite())
 }
 
 /// Most groups of designs whose share is told beside the curve, and the fewest designs of one.
@@ -113,12 +117,9 @@ fn shares(mut cases: Vec<(f64, bool)>, found: &Answer) -> Vec<ThresholdShare> {
     let group = |group: usize| {
         let cases = &cases[group * cases.len() / groups..(group + 1) * cases.len() / groups];
         let (first, last) = (cases.first()?, cases.last()?);
-        let expected = match found.fragility {
-            Some(Fragility::Curve(curve)) if !found.is_crossed_again => {
-                Some(cases.iter().map(|(x, _)| curve.probability(*x)).sum::<f64>() / cases.len() as f64)
-            }
-            _ => None,
-        };
+        let mean =
+            |curve: Curve| cases.iter().map(|(x, _)| curve.probability(*x)).sum::<f64>() / cases.len() as f64;
+        let expected = found.curve().map(mean);
         let designs = cases.len() as u32;
         let met = cases.iter().filter(|(_, met)| *met).count() as u32;
         Some(ThresholdShare { from: first.0, to: last.0, designs, met, expected })

@@ -267,10 +267,20 @@ pub struct CampaignSettings {
 }
 
 impl CampaignSettings {
-    /// How many designs there may come to be, with those that are added for a threshold.
+    /// Index of the parameter of this name.
+    pub(crate) fn parameter(&self, name: &str) -> Option<usize> {
+        self.parameters.iter().position(|parameter| parameter.name == name)
+    }
+
+    /// The threshold for which designs are added, if any are, and to within what.
+    pub(crate) fn sought(&self) -> Option<(&Threshold, f64)> {
+        let threshold = self.threshold.as_ref()?;
+        Some((threshold, threshold.within?))
+    }
+
+    /// How many designs there may come to be, with those that are added.
     pub(crate) fn designs_at_most(&self) -> u32 {
-        let threshold = self.threshold.as_ref().filter(|threshold| threshold.within.is_some());
-        threshold.map_or(0, |threshold| threshold.most_designs).max(self.designs.len() as u32)
+        self.sought().map_or(0, |(threshold, _)| threshold.most_designs).max(self.designs.len() as u32)
     }
 }
 

@@ -125,9 +125,10 @@ fn check_simulations(found: &mut Findings, settings: &CampaignSettings, speeds: 
             if models > 1 { " of two models" } else { "" },
         ),
     );
-    let within = settings.threshold.as_ref().filter(|threshold| threshold.within.is_some());
     found.require(
-        within.is_none_or(|threshold| threshold.most_designs as usize >= settings.designs.len()),
+        settings
+            .sought()
+            .is_none_or(|(threshold, _)| threshold.most_designs as usize >= settings.designs.len()),
         "/threshold/most_designs",
         format!("the design has {} already: none could be added", settings.designs.len()),
     );
@@ -219,11 +220,13 @@ fn check_parameters(
     distributions
 }
 
-/// Columns of tables and arrays of results that stand beside those of parameters.
-const COLUMNS: [&str; 21] = [
+/// Columns of tables and arrays of results that stand beside those of parameters, in all units of speeds.
+const COLUMNS: [&str; 24] = [
     "design",
     "severity",
     "worst_speed_rad_s",
+    "worst_speed_rpm",
+    "worst_speed_hz",
     "meets_limit",
     "finished",
     "diverged",
@@ -240,6 +243,7 @@ const COLUMNS: [&str; 21] = [
     "total",
     "total_error",
     "threshold",
+    "comparison",
     "settings",
     "version",
 ];
@@ -248,7 +252,7 @@ const COLUMNS: [&str; 21] = [
 fn check_names(found: &mut Findings, parameters: &[Parameter], severity: Severity, units: &Units) {
     let column = severity_column(severity, units);
     for (index, Parameter { name, .. }) in parameters.iter().enumerate() {
-        let taken = COLUMNS.contains(&name.as_str()) || *name == column || name == "comparison";
+        let taken = COLUMNS.contains(&name.as_str()) || *name == column;
         found.require(
             !taken && !name.starts_with("compared_"),
             &format!("/parameters/{index}/name"),
@@ -449,11 +453,9 @@ fn that_may_be_added(
     settings: &CampaignSettings,
     distributions: &[Option<Distribution>],
 ) -> Vec<(usize, Vec<f64>)> {
-    let threshold = settings.threshold.as_ref().filter(|threshold| threshold.within.is_some());
     let all: Option<Vec<&Distribution>> = distributions.iter().map(Option::as_ref).collect();
-    let (Some(threshold), Some(distributions)) = (threshold, all) else { return Vec::new() };
-    let index = settings.parameters.iter().position(|parameter| parameter.name == threshold.parameter);
-    let Some(index) = index else { return Vec::new() };
+    let (Some((threshold, _)), Some(distributions)) = (settings.sought(), all) else { return Vec::new() };
+    let Some(index) = settings.parameter(&threshold.parameter) else { return Vec::new() };
     let (from, to) = distributions[index].range();
     let seed = settings.design.seed.unwrap_or(0);
     let ends = |design: usize| {

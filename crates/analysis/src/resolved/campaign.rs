@@ -101,7 +101,7 @@ impl ResolvedCampaign {
 
     /// Index of the parameter of this name.
     pub fn parameter(&self, name: &str) -> Option<usize> {
-        self.settings.parameters.iter().position(|parameter| parameter.name == name)
+        self.settings.parameter(name)
     }
 
     /// Whether one parameter is all that varies: then the same value always comes to the same.
