@@ -58,6 +58,7 @@ pub(crate) fn measure() {
         flexible_casing: Some(&casing),
         orbit,
         clearance_change,
+        clearance_drift: None,
         mistuning: Some(&deviations),
         excitation: &excitation,
         energies: false,

@@ -313,6 +313,7 @@ impl Scene {
                 flexible_casing: self.flexible_casing.as_ref(),
                 orbit: self.orbit,
                 clearance_change: self.clearance_change.as_ref(),
+                clearance_drift: None,
                 mistuning: self.mistuning.as_deref(),
                 excitation: &self.excitation,
                 energies: false,

@@ -4,6 +4,7 @@ use allocation_counter::measure;
 use faer::{Mat, c64};
 use rubmap_wheel::dynamics::casing::{Casing, Lobes};
 use rubmap_wheel::dynamics::clearance_change::ClearanceChange;
+use rubmap_wheel::dynamics::clearance_drift::ClearanceDrift;
 use rubmap_wheel::dynamics::contact::coating::{Coating, CoatingMaterial};
 use rubmap_wheel::dynamics::contact::disc::disc_directions;
 use rubmap_wheel::dynamics::contact::friction::sliding_directions;
@@ -141,11 +142,14 @@ fn with_each_effect_and_with_all() {
     let mistuning = Effects { mistuning: Some(&[0.01, -0.02, 0.0, 0.015, -0.005]), ..Effects::default() };
     let excitation = Effects { excitation: &excitation, ..Effects::default() };
     let change = ClearanceChange { course: vec![(0.5, 0.01), (1.0, -0.01)], along_chord: None };
+    let drift =
+        ClearanceDrift { revolutions: [0.0, 4.0], first: vec![0.01; NODES], last: vec![-0.01; NODES] };
     let all = Effects {
         friction: friction.friction,
         flexible_casing: casing.flexible_casing,
         orbit: orbit.orbit,
         clearance_change: Some(&change),
+        clearance_drift: Some(&drift),
         mistuning: mistuning.mistuning,
         excitation: excitation.excitation,
         coating: None,

@@ -1,6 +1,7 @@
 //! Effects beyond damping and contact with a rigid casing. One that is absent does not exist in the run.
 
 use super::clearance_change::ClearanceChange;
+use super::clearance_drift::ClearanceDrift;
 use super::contact::coating::Coating;
 use super::direction::Direction;
 use super::excitation::EngineOrderExcitation;
@@ -20,6 +21,8 @@ pub struct Effects<'a> {
     pub orbit: Option<Orbit>,
     /// Clearances that change.
     pub clearance_change: Option<&'a ClearanceChange>,
+    /// Clearances that follow the speed.
+    pub clearance_drift: Option<&'a ClearanceDrift>,
     /// Relative stiffness deviation of every sector.
     pub mistuning: Option<&'a [f64]>,
     /// Forces at engine orders.
@@ -57,5 +60,6 @@ impl Effects<'_> {
             || self.flexible_casing.is_some()
             || self.orbit.is_some()
             || self.clearance_change.is_some()
+            || self.clearance_drift.is_some()
     }
 }

@@ -21,6 +21,7 @@ mod simulation;
 mod states;
 mod step_flexibility;
 mod stepper;
+mod stretch;
 mod surroundings;
 mod tally;
 mod tips;
@@ -41,6 +42,7 @@ pub use self::run::{Divergence, History, MAX_TABLE_VALUES, Outcome, Run};
 pub use self::simulation::{DIVERGED_SHARE_OF_RADIUS, Detail, SensorRow, Simulation};
 pub use self::states::ModalStates;
 use self::stepper::{Beginning, Stepper};
+pub use self::stretch::{Part, Stretch};
 pub use self::tally::{ContactRecord, PairContact};
 pub use self::tips::TipMotion;
 pub use self::trace::{Touching, Trace};
@@ -69,6 +71,18 @@ impl Simulation<'_> {
         let mut stepper = Stepper::new(self);
         stepper.go_on_from(from);
         self.dispatch(pulp::Arch::new(), (stepper, Beginning::UnderWay), watch)
+    }
+
+    /// Runs part of a run from [`Self::initial`], the state where the part begins, with neither window nor detail. Forces that act at that
+    /// instant are part of it where the scheme has them: of a boundary without mass.
+    ///
+    /// # Panics
+    /// If the sample count does not divide the step count, or an initial mode is not integrated.
+    pub fn stretch(&self, part: Part, watch: &dyn Fn(f64) -> bool) -> Stretch {
+        assert!(self.steps_per_revolution.is_multiple_of(self.samples_per_revolution));
+        let revolutions = part.first_sample as f64 / self.samples_per_revolution as f64;
+        let mut stepper = Stepper::beginning_at(self, revolutions);
+        pulp::Arch::new().dispatch(StretchLoop { simulation: self, stepper: &mut stepper, part, watch })
     }
 
     /// Runs on vectors of a given kind.
@@ -118,5 +132,22 @@ impl WithSimd for Loop<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Run {
         self.stepper.run(simd, self.simulation, self.beginning, self.watch)
+    }
+}
+
+/// The same of part of a run.
+struct StretchLoop<'a> {
+    simulation: &'a Simulation<'a>,
+    stepper: &'a mut Stepper,
+    part: Part,
+    watch: &'a dyn Fn(f64) -> bool,
+}
+
+impl WithSimd for StretchLoop<'_> {
+    type Output = Stretch;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Stretch {
+        self.stepper.stretch(simd, self.simulation, self.part, self.watch)
     }
 }

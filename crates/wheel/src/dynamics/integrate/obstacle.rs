@@ -5,6 +5,7 @@ use pulp::Simd;
 use super::super::amplitude_sums::amplitude_sums;
 use super::super::casing::{Casing, RestrictionTable, ramp};
 use super::super::clearance_change::ClearanceChange;
+use super::super::clearance_drift::ClearanceDrift;
 use super::super::contact::coating::Coating;
 use super::super::contact::delassus::Delassus;
 use super::super::contact::flexibility::{outward_normals, ridge};
@@ -95,11 +96,12 @@ impl Obstacle {
         let delassus = delassus(simulation, oscillators, fourier, stride, surroundings);
         let size = sectors * stride;
         let force_stride = applied(&rows, surroundings).stride;
-        let Effects { coating, orbit, clearance_change, .. } = simulation.effects;
+        let Effects { coating, orbit, clearance_change, clearance_drift, .. } = simulation.effects;
         let length = casing.length_scale(simulation.reach())
             + coating.map_or(0.0, Coating::thickness)
             + orbit.map_or(0.0, |orbit| orbit.radius)
-            + clearance_change.map_or(0.0, ClearanceChange::largest);
+            + clearance_change.map_or(0.0, ClearanceChange::largest)
+            + clearance_drift.map_or(0.0, ClearanceDrift::largest);
         Self {
             delassus,
             solver: ActiveSetSolver::new(size),

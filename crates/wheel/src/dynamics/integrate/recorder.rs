@@ -122,6 +122,15 @@ impl Recorder {
         }
     }
 
+    /// Adds the largest size at any sector of what was read last to every sensor's line.
+    #[inline(always)]
+    pub(super) fn largest(&self, fourier: &SectorFourier, lines: &mut [Vec<f64>]) {
+        for (sensor, line) in lines.iter_mut().enumerate() {
+            let at = |sector| displacement(&self.harmonic, self.rows.stride, fourier, sensor, sector).abs();
+            line.push((0..fourier.sectors()).map(at).fold(0.0, f64::max));
+        }
+    }
+
     /// Looks at the tips, at a sample of the window; `force` as of [`Self::read`].
     #[inline(always)]
     pub(super) fn look_at_tips<S: Simd>(

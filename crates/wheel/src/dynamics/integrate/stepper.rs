@@ -9,6 +9,8 @@
 //! What of this a scene and its scheme have is a [`Motion`], with a loop of its own each: scenes without effects do not
 //! even ask for them.
 
+mod stretch;
+
 use faer::Mat;
 use pulp::Simd;
 
@@ -76,6 +78,11 @@ pub(super) enum Beginning {
 
 impl Stepper {
     pub(super) fn new(simulation: &Simulation<'_>) -> Self {
+        Self::beginning_at(simulation, 0.0)
+    }
+
+    /// Of a simulation whose initial state is that after `revolutions`.
+    pub(super) fn beginning_at(simulation: &Simulation<'_>, revolutions: f64) -> Self {
         let (wheel, scheme) = (simulation.wheel, simulation.scheme);
         let fourier = SectorFourier::new(wheel.sectors);
         let touching = simulation.casing.is_some();
@@ -102,7 +109,7 @@ impl Stepper {
             (simulation.step_s(), loaded),
         );
         if let Some(drive) = &mut drive {
-            drive.start(wheel, simulation.initial, &mut oscillators, 0.0);
+            drive.start(wheel, simulation.initial, &mut oscillators, revolutions);
         }
         let effects = drive.is_some() || surroundings.is_some();
         let repetition = simulation.repeats.map(|repeats| Repetition::new(simulation, repeats, &oscillators));

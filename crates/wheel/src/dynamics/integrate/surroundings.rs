@@ -1,6 +1,7 @@
 //! What the effects of a scene add to contact.
 
 use super::super::clearance_change::ClearanceShift;
+use super::super::clearance_drift::ClearanceDrift;
 use super::super::contact::coating::WornCoating;
 use super::super::contact::delassus::Delassus;
 use super::super::effects::FrictionLaw;
@@ -26,6 +27,9 @@ pub(super) struct Surroundings {
     pub(super) casing: Option<CasingMotion>,
     orbit: Option<OrbitShift>,
     change: Option<ClearanceShift>,
+    drift: Option<ClearanceDrift>,
+    /// Contact nodes of a sector, padded.
+    stride: usize,
     /// What is added to the gaps, `[sector][node]`, nodes padded to whole vectors; none of a casing that stays where it is.
     pub(super) shift: Option<Vec<f64>>,
 }
@@ -97,7 +101,8 @@ impl Surroundings {
         let symmetric = sliding.is_none() && !coriolis;
         let moves = effects.flexible_casing.is_some()
             || effects.orbit.is_some()
-            || effects.clearance_change.is_some();
+            || effects.clearance_change.is_some()
+            || effects.clearance_drift.is_some();
         let stride = padded(contact_nodes.len());
         let size = wheel.sectors * stride;
         let around = (wheel.sectors, wheel.around());
@@ -133,6 +138,8 @@ impl Surroundings {
             orbit: effects.orbit.map(|orbit| OrbitShift::new(orbit, contact_nodes, around, stride)),
             change: (effects.clearance_change)
                 .map(|change| ClearanceShift::new(change, contact_nodes.len(), stride)),
+            drift: effects.clearance_drift.cloned(),
+            stride,
             shift: moves.then(|| vec![0.0; size]),
         })
     }
@@ -169,6 +176,9 @@ impl Surroundings {
         }
         if let Some(change) = &self.change {
             change.add(revolutions, shift);
+        }
+        if let Some(drift) = &self.drift {
+            drift.add(revolutions, self.stride, shift);
         }
         if let Some(casing) = &mut self.casing {
             casing.add(revolutions, shift);

@@ -1,0 +1,85 @@
+//! The loop over part of a run.
+
+use pulp::Simd;
+
+use super::super::instant::Instant;
+use super::super::run::Outcome;
+use super::super::simulation::Simulation;
+use super::super::stretch::{Part, Stretch};
+use super::{Affected, Completing, Free, Massless, Motion, Stepper, modal_state};
+use crate::dynamics::oscillators::Oscillators;
+
+impl Stepper {
+    /// Takes the steps of `part`, which the stepper was made for.
+    #[inline(always)]
+    pub(in super::super) fn stretch<S: Simd>(
+        &mut self,
+        simd: S,
+        simulation: &Simulation<'_>,
+        part: Part,
+        watch: &dyn Fn(f64) -> bool,
+    ) -> Stretch {
+        let mut largest = vec![Vec::with_capacity(part.samples as usize); simulation.sensors.len()];
+        let sampled = (simulation, part, largest.as_mut_slice());
+        let ended = match &self.obstacle {
+            _ if self.is_affected() => self.stretch_by::<S, Affected>(simd, sampled, watch),
+            None => self.stretch_by::<S, Free>(simd, sampled, watch),
+            Some(_) if self.massless => self.stretch_by::<S, Massless>(simd, sampled, watch),
+            Some(_) => self.stretch_by::<S, Completing>(simd, sampled, watch),
+        };
+        let revolutions =
+            (part.first_sample + part.samples) as f64 / simulation.samples_per_revolution as f64;
+        if let Some(drive) = &mut self.drive {
+            let read = |oscillators: &Oscillators| modal_state(simulation, oscillators);
+            drive.end(simulation.wheel, revolutions, &mut self.oscillators, read);
+        }
+        Stretch {
+            ended: ended.err().map(|outcome| *outcome),
+            displacement: self.recorder.take().displacement,
+            largest,
+            end: modal_state(simulation, &self.oscillators),
+            statistics: self.statistics,
+            energy: self.energy,
+        }
+    }
+
+    #[inline(always)]
+    fn stretch_by<S: Simd, M: Motion>(
+        &mut self,
+        simd: S,
+        (simulation, part, largest): (&Simulation<'_>, Part, &mut [Vec<f64>]),
+        watch: &dyn Fn(f64) -> bool,
+    ) -> Result<(), Box<Outcome>> {
+        let (steps, samples) = (simulation.steps_per_revolution, simulation.samples_per_revolution);
+        let sampling = steps / samples;
+        let revolution = (part.first_sample / samples as u64) as usize;
+        let before = (part.first_sample % samples as u64) as usize * sampling;
+        let all = part.samples as usize * sampling;
+        let start = match before {
+            0 => Instant::beginning(revolution),
+            step => Instant::new(revolution, step, steps),
+        };
+        if M::TOUCHES && self.touches_at::<S, M>(simd, start) {
+            // Of the step before the first: nothing of it counts.
+            let (statistics, energy) = (self.statistics, self.energy);
+            self.solve::<S, M>(simd, start)?;
+            (self.statistics, self.energy) = (statistics, energy);
+        }
+        for step in 1..=all {
+            let now = Instant::of_any(revolution, before + step, steps);
+            M::predict(self, simd, now);
+            if !self.gaps::<S, M>(simd, now) {
+                self.solve::<S, M>(simd, now)?;
+            }
+            self.statistics.steps += 1;
+            self.quench::<M>();
+            self.look_up(watch, step as f64 / all as f64)?;
+            if step % sampling == 0 {
+                M::apply(self, simd);
+                self.record::<S, M>(simd, now, false)?;
+                self.recorder.largest(&self.fourier, largest);
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,190 @@
+//! Where a run-up is cut.
+
+use super::profile::SpeedProfile;
+
+/// Part of a run-up that is stepped at one speed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Segment {
+    /// Its first sample, counted from the start of the run.
+    pub first_sample: u64,
+    /// How many samples it takes.
+    pub samples: u64,
+    /// When it begins and ends, s.
+    pub times_s: [f64; 2],
+    /// Its mean speed, rad/s.
+    pub speed_rad_s: f64,
+    /// Most that angles within it are off, rad.
+    pub off_rad: f64,
+    /// Index of the range of speeds that it lies in, from the lowest on.
+    pub band: u32,
+}
+
+/// How a run-up is cut.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cutting {
+    /// Samples of a revolution, at which segments may begin and end.
+    pub samples_per_revolution: usize,
+    /// Most that angles may be off, rad.
+    pub tolerance_rad: f64,
+    /// Most revolutions of a segment.
+    pub longest_revolutions: u64,
+    /// Lowest speed of every band over that of the one below: what is chosen for all speeds of a range is chosen once for each.
+    pub band_ratio: f64,
+}
+
+/// The speed changes so fast that angles are off by more than the tolerance from one sample to the next.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[error(
+    "at {speed_rad_s:.1} rad/s the speed changes by {rate_rad_s2:.3e} rad/s², and angles would be off by {off_rad:.1e} rad within a sample"
+)]
+pub struct TooFast {
+    /// Where.
+    pub speed_rad_s: f64,
+    /// How fast.
+    pub rate_rad_s2: f64,
+    /// By how much.
+    pub off_rad: f64,
+}
+
+impl Cutting {
+    /// Cuts all whole revolutions of `profile`: no segment has part of one and part of another, nor revolutions of two bands.
+    ///
+    /// # Errors
+    /// [`TooFast`] where the tolerance cannot be kept.
+    pub fn segments(&self, profile: &SpeedProfile) -> Result<Vec<Segment>, TooFast> {
+        let (lowest, _) = profile.range_rad_s();
+        let mut segments: Vec<Segment> = Vec::new();
+        let mut end_s = 0.0;
+        for revolution in 0..profile.revolutions() {
+            let start_s = end_s;
+            end_s = profile.time_at((revolution + 1) as f64);
+            let slowest = profile.speed_rad_s(start_s).min(profile.speed_rad_s(end_s));
+            let band = ((slowest / lowest).ln() / self.band_ratio.ln() + 1e-9).max(0.0) as u32;
+            let whole = self.segment(profile, revolution, band, (0, self.samples_per_revolution as u64));
+            let parts = (whole.off_rad / self.tolerance_rad).sqrt().ceil().max(1.0) as u64;
+            if parts == 1 {
+                match segments.last_mut().and_then(|last| self.joined(profile, last, &whole)) {
+                    Some((last, joined)) => *last = joined,
+                    None => segments.push(whole),
+                }
+                continue;
+            }
+            let samples = self.samples_per_revolution as u64;
+            let parts = parts.min(samples);
+            for part in 0..parts {
+                let ends = (part * samples / parts, (part + 1) * samples / parts);
+                let segment = self.segment(profile, revolution, band, ends);
+                // Parts differ by a sample, and the rate within a revolution.
+                if segment.off_rad > 4.0 * self.tolerance_rad {
+                    let [from, to] = segment.times_s;
+                    let (speed_rad_s, off_rad) = (segment.speed_rad_s, segment.off_rad);
+                    let rate_rad_s2 = profile.largest_rate(from, to);
+                    return Err(TooFast { speed_rad_s, rate_rad_s2, off_rad });
+                }
+                segments.push(segment);
+            }
+        }
+        Ok(segments)
+    }
+
+    /// A segment between two samples of a revolution.
+    fn segment(&self, profile: &SpeedProfile, revolution: u64, band: u32, (from, to): (u64, u64)) -> Segment {
+        let per_revolution = self.samples_per_revolution as u64;
+        let first_sample = revolution * per_revolution + from;
+        self.between(profile, first_sample, to - from, band)
+    }
+
+    fn between(&self, profile: &SpeedProfile, first_sample: u64, samples: u64, band: u32) -> Segment {
+        let revolutions = |sample: u64| sample as f64 / self.samples_per_revolution as f64;
+        let [from, to] =
+            [first_sample, first_sample + samples].map(|sample| profile.time_at(revolutions(sample)));
+        let lasts = to - from;
+        Segment {
+            first_sample,
+            samples,
+            times_s: [from, to],
+            speed_rad_s: std::f64::consts::TAU * revolutions(samples) / lasts,
+            off_rad: profile.largest_rate(from, to) * lasts * lasts / 8.0,
+            band,
+        }
+    }
+
+    /// The last segment with another revolution, if that may be one.
+    fn joined<'a>(
+        &self,
+        profile: &SpeedProfile,
+        last: &'a mut Segment,
+        whole: &Segment,
+    ) -> Option<(&'a mut Segment, Segment)> {
+        let per_revolution = self.samples_per_revolution as u64;
+        let is_whole = last.samples.is_multiple_of(per_revolution);
+        let longest = last.samples / per_revolution >= self.longest_revolutions;
+        if !is_whole || longest || last.band != whole.band {
+            return None;
+        }
+        let joined = self.between(profile, last.first_sample, last.samples + per_revolution, last.band);
+        (joined.off_rad <= self.tolerance_rad).then_some((last, joined))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::TAU;
+
+    fn cutting(tolerance_rad: f64) -> Cutting {
+        Cutting { samples_per_revolution: 120, tolerance_rad, longest_revolutions: 8, band_ratio: 1.5 }
+    }
+
+    /// All samples, one after the other; angles of equal steps against the profile's own.
+    #[test]
+    fn segments_follow_each_other_and_keep_their_tolerance() {
+        let profile = SpeedProfile::smooth(&[(0.0, 60.0), (0.4, 60.0), (0.9, 400.0), (1.4, 90.0)]);
+        for tolerance in [1e-1, 1e-2, 1e-3] {
+            let segments = cutting(tolerance).segments(&profile).unwrap();
+            let mut next = 0;
+            for segment in &segments {
+                assert_eq!(segment.first_sample, next);
+                next += segment.samples;
+                let revolutions = segment.samples / 120;
+                assert!(revolutions <= 8 && (segment.samples % 120 == 0 || revolutions == 0));
+                let [from, to] = segment.times_s;
+                for share in [0.1, 0.3, 0.5, 0.8] {
+                    let sample = segment.first_sample as f64 + share * segment.samples as f64;
+                    let time = from + share * (to - from);
+                    let off = TAU * (sample / 120.0 - turned(&profile, time));
+                    assert!(off.abs() <= segment.off_rad + 1e-9, "{off} {segment:?}");
+                    assert!(segment.off_rad <= 4.0 * tolerance);
+                }
+                let slowest = profile.speed_rad_s(from).min(profile.speed_rad_s(to));
+                assert!(slowest >= 60.0 * 1.5f64.powf(f64::from(segment.band)) * (1.0 - 1e-6));
+            }
+            assert_eq!(next, 120 * profile.revolutions());
+        }
+    }
+
+    /// The revolutions turned until an instant, by halving.
+    fn turned(profile: &SpeedProfile, time: f64) -> f64 {
+        let (mut low, mut high) = (0.0, profile.revolutions() as f64 + 1.0);
+        for _ in 0..80 {
+            let middle = 0.5 * (low + high);
+            if profile.time_at(middle) < time { low = middle } else { high = middle }
+        }
+        low
+    }
+
+    #[test]
+    fn a_constant_speed_is_cut_where_segments_are_longest() {
+        let profile = SpeedProfile::linear(&[(0.0, TAU * 10.0), (2.0, TAU * 10.0)]);
+        let segments = cutting(1e-3).segments(&profile).unwrap();
+        assert_eq!(segments.iter().map(|segment| segment.samples / 120).collect::<Vec<_>>(), [8, 8, 4]);
+        assert!(segments.iter().all(|segment| segment.off_rad == 0.0));
+    }
+
+    #[test]
+    fn what_changes_within_a_sample_is_too_fast() {
+        let profile = SpeedProfile::linear(&[(0.0, 10.0), (1.0, 1e4)]);
+        let refused = cutting(1e-6).segments(&profile).unwrap_err();
+        assert!(refused.to_string().contains("9.990e3 rad/s²"), "{refused}");
+    }
+}

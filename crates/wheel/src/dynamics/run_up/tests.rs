@@ -1,0 +1,283 @@
+//! Runs in parts against runs in one; one degree of freedom through resonance against Duhamel's integral, as Lewis has it.
+
+use std::f64::consts::TAU;
+
+use faer::{Mat, c64};
+
+use super::profile::SpeedProfile;
+use super::segments::{Cutting, Segment};
+use crate::dynamics::casing::{Casing, Lobes};
+use crate::dynamics::clearance_drift::ClearanceDrift;
+use crate::dynamics::direction::Direction;
+use crate::dynamics::effects::Effects;
+use crate::dynamics::excitation::EngineOrderExcitation;
+use crate::dynamics::initial::InitialMode;
+use crate::dynamics::integrate::{Outcome, Part, SensorRow, Simulation, Stretch};
+use crate::dynamics::modal_wheel::{ModalHarmonic, ModalWheel};
+use crate::dynamics::numbers::Numbers;
+use crate::dynamics::oscillators::ModalDamping;
+use crate::dynamics::schemes::Scheme;
+use crate::dynamics::sector::ContactNode;
+
+const SCHEMES: [Scheme; 3] =
+    [Scheme::CentralDifferences, Scheme::ExactModal, Scheme::MasslessBoundary { kept_modes: 4 }];
+
+fn nodes() -> Vec<ContactNode> {
+    let node = |k: usize| ContactNode {
+        id: k as u64,
+        position: [100.0, 0.03 * k as f64, 4.0 * k as f64],
+        normal: [0.8, 0.0, 0.6],
+        dofs: [3 * k, 3 * k + 1, 3 * k + 2],
+    };
+    (0..2).map(node).collect()
+}
+
+/// Five sectors, seven modes each.
+fn wheel(coriolis: bool) -> ModalWheel {
+    let mut numbers = Numbers(0x1234_5678_9ABC_DEF1);
+    let harmonic = |harmonic: usize| {
+        let single = harmonic == 0;
+        let contact = Mat::from_fn(6, 7, |_, _| {
+            let (re, im) = (numbers.next(), numbers.next());
+            c64::new(100.0 * re, if single { 0.0 } else { 100.0 * im })
+        });
+        let turned = |i: usize, j: usize| c64::from(0.3 * (j as f64 - i as f64).clamp(-1.0, 1.0));
+        ModalHarmonic {
+            harmonic,
+            single,
+            omega: (0..7).map(|m| 4000.0 * (1 + m) as f64 + 500.0 * harmonic as f64).collect(),
+            contact,
+            gyroscopic: coriolis.then(|| Mat::from_fn(7, 7, turned)),
+        }
+    };
+    let harmonics = (0..=2).map(harmonic).collect();
+    ModalWheel { speed_rad_s: 1000.0, sectors: 5, repeats: 1, harmonics }
+}
+
+fn excitation() -> [EngineOrderExcitation; 1] {
+    [EngineOrderExcitation {
+        order: 3,
+        directions: vec![Direction { node: 1, components: [0.0, 0.0, 1.0] }],
+        amplitude: 20.0,
+        phase_rad: 0.2,
+        ramp_revolutions: 0.5,
+    }]
+}
+
+/// The same parts one after the other are the run: free, touching, driven, on turning wheels; parts that begin within a revolution.
+#[test]
+fn parts_of_a_run_are_the_run() {
+    let (nodes, excitation) = (nodes(), excitation());
+    let damping = ModalDamping { modal_ratio: 0.01, family_ratios: Vec::new() };
+    let casing = Casing {
+        clearance: vec![0.25, 0.3],
+        restriction: Some(Lobes { count: 2, amplitude: 0.5, width_rad: 0.4, phase_rad: 0.1 }.into()),
+        ramp_revolutions: 0.5,
+    };
+    let push = InitialMode {
+        harmonic: 1,
+        family: 2,
+        displacement: c64::new(1e-4, -2e-4),
+        velocity: c64::new(0.5, 0.25),
+    };
+    let sensors = [SensorRow { direction: Direction { node: 1, components: [1.0, 0.25, 0.5] }, sector: 3 }];
+    for scheme in SCHEMES {
+        for (touching, driven, coriolis) in [
+            (false, false, false),
+            (true, false, false),
+            (true, true, false),
+            (false, true, true),
+            (true, true, true),
+        ] {
+            if coriolis && scheme != Scheme::ExactModal {
+                continue;
+            }
+            let wheel = wheel(coriolis);
+            let effects =
+                Effects { excitation: if driven { &excitation } else { &[] }, ..Effects::default() };
+            let whole = Simulation {
+                wheel: &wheel,
+                contact_nodes: &nodes,
+                damping: Some(&damping),
+                casing: touching.then_some(&casing),
+                effects,
+                initial: &[push],
+                sensors: &sensors,
+                scheme,
+                steps_per_revolution: 960,
+                samples_per_revolution: 120,
+                revolutions: 3,
+                window_revolutions: 1,
+                repeats: None,
+                detail: None,
+                states: None,
+            };
+            let run = whole.run(&|_| true);
+            let Outcome::Completed(history) = run.outcome else { panic!("{:?}", run.outcome) };
+            let mut state = vec![push];
+            let (mut found, mut contact_steps) = (Vec::new(), 0);
+            for samples in [37, 60, 83, 100, 80] {
+                let part = Part { first_sample: found.len() as u64, samples };
+                let stretch =
+                    Simulation { initial: &state, window_revolutions: 0, ..whole }.stretch(part, &|_| true);
+                assert_eq!(stretch.ended, None);
+                assert!(stretch.energy.residual() < 1e-10, "{}", stretch.energy.residual());
+                for (largest, here) in stretch.largest[0].iter().zip(&stretch.displacement[0]) {
+                    assert!(*largest >= here.abs());
+                }
+                found.extend_from_slice(&stretch.displacement[0]);
+                contact_steps += stretch.statistics.contact_steps;
+                state = stretch.end;
+            }
+            let scale = history.displacement[0].iter().fold(0.0f64, |most, u| most.max(u.abs()));
+            let off =
+                found.iter().zip(&history.displacement[0]).fold(0.0f64, |m, (a, b)| m.max((a - b).abs()));
+            assert!(off < 1e-8 * scale, "{scheme:?} {touching} {driven} {coriolis}: {}", off / scale);
+            let counted = run.statistics.contact_steps;
+            assert!(
+                contact_steps.abs_diff(counted) <= 2 && (counted > 0) == touching,
+                "{contact_steps} {counted}"
+            );
+        }
+    }
+}
+
+/// Clearances that drift against the same clearances that change, in a range that is straight in both.
+#[test]
+fn a_drift_is_linear_between_its_ends() {
+    let drift = ClearanceDrift { revolutions: [4.0, 6.0], first: vec![0.1, -0.1], last: vec![0.3, 0.1] };
+    for (revolutions, expected) in [(4.0, [0.1, -0.1]), (5.0, [0.2, 0.0]), (6.0, [0.3, 0.1])] {
+        let mut gaps = vec![0.0; 16];
+        drift.add(revolutions, 8, &mut gaps);
+        for sector in gaps.chunks_exact(8) {
+            assert!((sector[0] - expected[0]).abs() < 1e-15 && (sector[1] - expected[1]).abs() < 1e-15);
+            assert_eq!(sector[2..], [0.0; 6]);
+        }
+    }
+}
+
+/// One degree of freedom of mass 1.
+struct Oscillator {
+    omega: f64,
+    zeta: f64,
+    order: u32,
+}
+
+impl Oscillator {
+    fn wheel(&self, speed_rad_s: f64) -> ModalWheel {
+        let contact = Mat::from_fn(3, 1, |row, _| c64::from(if row == 2 { 1.0 } else { 0.0 }));
+        let harmonic =
+            ModalHarmonic { harmonic: 0, single: true, omega: vec![self.omega], contact, gyroscopic: None };
+        ModalWheel { speed_rad_s, sectors: 1, repeats: 1, harmonics: vec![harmonic] }
+    }
+
+    /// Segments, one after the other, of a run from rest; displacements at the samples.
+    fn run_up(&self, segments: &[Segment], samples: usize) -> Vec<f64> {
+        let nodes = &nodes()[..1];
+        let excitation = [EngineOrderExcitation {
+            order: self.order,
+            directions: vec![Direction { node: 0, components: [0.0, 0.0, 1.0] }],
+            amplitude: 1.0,
+            phase_rad: 0.0,
+            ramp_revolutions: 0.0,
+        }];
+        let damping = ModalDamping { modal_ratio: self.zeta, family_ratios: Vec::new() };
+        let (mut state, mut found) = (Vec::new(), Vec::new());
+        for segment in segments {
+            let wheel = self.wheel(segment.speed_rad_s);
+            let stretch: Stretch = Simulation {
+                wheel: &wheel,
+                contact_nodes: nodes,
+                damping: Some(&damping),
+                casing: None,
+                effects: Effects { excitation: &excitation, ..Effects::default() },
+                initial: &state,
+                sensors: &[SensorRow {
+                    direction: Direction { node: 0, components: [0.0, 0.0, 1.0] },
+                    sector: 0,
+                }],
+                scheme: Scheme::ExactModal,
+                steps_per_revolution: 16 * samples,
+                samples_per_revolution: samples,
+                revolutions: 1,
+                window_revolutions: 0,
+                repeats: None,
+                detail: None,
+                states: None,
+            }
+            .stretch(Part { first_sample: segment.first_sample, samples: segment.samples }, &|_| true);
+            assert_eq!(stretch.ended, None);
+            found.extend_from_slice(&stretch.displacement[0]);
+            state = stretch.end;
+        }
+        found
+    }
+
+    /// ẍ + 2ζωẋ + ω²x = cos(n(Ω₀t + at²/2)) from rest, at ascending instants: Duhamel's integral by the trapezoidal rule in the frame
+    /// that turns with the free motion (Lewis, Trans. ASME 54 (1932) 253–261, has it in closed form for no damping).
+    fn duhamel(&self, (start, rate): (f64, f64), instants: &[f64]) -> Vec<f64> {
+        let (decay, free) = (self.zeta * self.omega, self.omega * (1.0 - self.zeta * self.zeta).sqrt());
+        let pole = c64::new(-decay, free);
+        let force = |t: f64| (f64::from(self.order) * (start * t + 0.5 * rate * t * t)).cos();
+        let (mut sum, mut now) = (c64::ZERO, 0.0);
+        let mut at = Vec::with_capacity(instants.len());
+        for &instant in instants {
+            // Simpson's rule on ∫ e^{p(T − t)} f(t) dt.
+            let pieces = 64;
+            let h = (instant - now) / f64::from(2 * pieces);
+            let mut part = c64::ZERO;
+            for piece in 0..=2 * pieces {
+                let t = now + h * f64::from(piece);
+                let weight = if piece == 0 || piece == 2 * pieces {
+                    1.0
+                } else if piece % 2 == 1 {
+                    4.0
+                } else {
+                    2.0
+                };
+                let x = pole * (instant - t);
+                part += c64::new(x.re.exp() * x.im.cos(), x.re.exp() * x.im.sin())
+                    * (weight * h / 3.0 * force(t));
+            }
+            let x = pole * (instant - now);
+            sum = sum * c64::new(x.re.exp() * x.im.cos(), x.re.exp() * x.im.sin()) + part;
+            now = instant;
+            at.push(sum.im / free);
+        }
+        at
+    }
+}
+
+/// Through a resonance fast and slowly, upwards and downwards: off by what the tolerance of the angle allows, and as much less as that is.
+#[test]
+fn one_degree_of_freedom_passes_resonance_as_lewis_has_it() {
+    let oscillator = Oscillator { omega: 600.0, zeta: 0.002, order: 3 };
+    let samples = 96;
+    for (from, to, rate) in [(150.0, 260.0, 220.0), (150.0, 260.0, 1500.0), (260.0, 150.0, -220.0)] {
+        let profile = SpeedProfile::linear(&[(0.0, from), ((to - from) / rate, to)]);
+        let errors: Vec<f64> = [16e-3, 4e-3, 1e-3]
+            .into_iter()
+            .map(|tolerance_rad| {
+                let cutting = Cutting {
+                    samples_per_revolution: samples,
+                    tolerance_rad,
+                    longest_revolutions: 64,
+                    band_ratio: 10.0,
+                };
+                let segments = cutting.segments(&profile).unwrap();
+                let found = oscillator.run_up(&segments, samples);
+                let instants: Vec<f64> = (1..=found.len())
+                    .map(|sample| {
+                        let angle = TAU * sample as f64 / samples as f64;
+                        (-from + (from * from + 2.0 * rate * angle).sqrt()) / rate
+                    })
+                    .collect();
+                let exact = oscillator.duhamel((from, rate), &instants);
+                let scale = exact.iter().fold(0.0f64, |most, x| most.max(x.abs()));
+                found.iter().zip(&exact).fold(0.0f64, |most, (a, b)| most.max((a - b).abs())) / scale
+            })
+            .collect();
+        eprintln!("{from} {to} {rate}: {errors:?}");
+        assert!(errors[2] < 4e-3 && errors[2] < 0.4 * errors[1], "{errors:?}");
+    }
+}
