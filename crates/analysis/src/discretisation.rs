@@ -29,6 +29,19 @@ impl Discretisation {
         Self { per_revolution: steps, samples }
     }
 
+    /// Samples of a revolution that are the same at every speed, whatever its steps.
+    pub(super) fn of_every_speed(request: &ResolvedSweep, sectors: usize) -> usize {
+        match request.integration.steps_per_revolution {
+            AutoOr::Auto => aligned_samples(request, sectors),
+            AutoOr::Fixed(steps) => Self::exactly(steps as usize, request, sectors).samples,
+        }
+    }
+
+    /// The same steps or a few more, so many samples a revolution.
+    pub(super) fn sampled(&self, samples: usize) -> Self {
+        Self { per_revolution: self.per_revolution.next_multiple_of(samples), samples }
+    }
+
     /// At least `steps` per revolution and as many as are sampled, the same for every blade of a wheel of `sectors` and at every
     /// lobe.
     pub(super) fn at_least(steps: usize, request: &ResolvedSweep, sectors: usize) -> Self {

@@ -37,6 +37,11 @@ impl Shapes {
         wheel.harmonics.iter().map(|harmonic| of(harmonic.harmonic)).collect::<Result<_, _>>().map(Self)
     }
 
+    /// Those that were found with a wheel.
+    pub(super) fn found(shapes: Vec<Mat<c64>>) -> Self {
+        Self(shapes)
+    }
+
     /// Memory of those of a wheel.
     pub(super) fn bytes(wheel: &ModalWheel) -> u64 {
         let sizes = wheel.harmonics.iter().map(|harmonic| harmonic.omega.len());

@@ -7,6 +7,8 @@
 //! - [`run::interaction_map`] and [`run::critical_speeds`] assemble the finished speeds of a sweep, [`run::refine`] asks for more;
 //! - [`run::speed_histories`] simulates a speed once more and records what happens, [`run::force_map`] gathers contact over all speeds;
 //! - [`run::branch_leg`] follows periodic responses while a number of their scene changes;
+//! - [`run::run_up_leg`] takes a wheel whose speed changes some frames further, [`run::run_ups`] puts them together, [`run::plan_run_ups`]
+//!   says what they cost;
 //! - [`run::campaign`] says what designs of a scene say together, [`run::more_designs`] which are lacking, [`run::plan_campaign`] what they cost;
 //! - [`run::run_trial`] runs one speed to be compared with others: for studies ([`run::work_precision`]), for the choice of settings
 //!   ([`run::next`], [`run::next_modes`]) and for the error of a finished sweep ([`run::error_estimate`]).
@@ -40,6 +42,7 @@ pub mod resolved;
 mod response_curve;
 pub mod result;
 pub mod run;
+mod run_up;
 mod sensed;
 mod speed;
 mod start;

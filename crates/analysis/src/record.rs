@@ -61,15 +61,6 @@ pub(super) fn record_run(
     }
     let recorded = match &run.outcome {
         Outcome::Cancelled => return Err(AnalysisError::Cancelled),
-        Outcome::Diverged(divergence) => {
-            point.status = PointStatus::Diverged;
-            point.message = Some(describe(divergence));
-            None
-        }
-        Outcome::ContactFailed { revolutions, error } => {
-            point.message = Some(format!("after {revolutions:.4} revolutions {error}"));
-            None
-        }
         Outcome::Completed(history) => {
             point.status = PointStatus::Completed;
             let spectra = spectra(history, request, wheel);
@@ -85,6 +76,12 @@ pub(super) fn record_run(
             point.contact = summary;
             point.tip = largest_tip(history, clearance.as_deref(), &sector.wheel.contact);
             Some(Recorded { spectra, contact: forces })
+        }
+        outcome => {
+            if let Some((status, message)) = cut_short(outcome) {
+                (point.status, point.message) = (status, Some(message));
+            }
+            None
         }
     };
     let repeats = repeats(&request.scene, wheel.sectors as u32) as usize;
@@ -117,6 +114,17 @@ fn contact(
     };
     let forces = of.forces();
     Some((of.summary(&forces), forces))
+}
+
+/// Status and words of a run that ended before its end; none of one that did not, or was cancelled.
+pub(super) fn cut_short(outcome: &Outcome) -> Option<(PointStatus, String)> {
+    match outcome {
+        Outcome::Diverged(divergence) => Some((PointStatus::Diverged, describe(divergence))),
+        Outcome::ContactFailed { revolutions, error } => {
+            Some((PointStatus::Failed, format!("after {revolutions:.4} revolutions {error}")))
+        }
+        Outcome::Completed(_) | Outcome::Cancelled => None,
+    }
 }
 
 fn describe(divergence: &Divergence) -> String {

@@ -27,6 +27,7 @@ pub use crate::request::Setting;
 pub use crate::resolve::branches::resolve_branches;
 pub use crate::resolve::campaign::{ComparedModel, resolve_campaign};
 pub use crate::resolve::case_study::{histories_of, resolve_case_study};
+pub use crate::resolve::run_up::resolve_run_ups;
 pub use crate::resolve::sensors::{name_nodes, place_sensors};
 pub use crate::resolve::study::resolve_study;
 pub use crate::resolve::{resolve_modal_analysis, resolve_sweep};
@@ -35,6 +36,9 @@ pub use crate::result::{
     Choice, ErrorEstimate, Estimate, Histories, ModalAnalysisPlan, ModesChoice, PlacedSensor, Refinement,
     SweepPlan, Trial, WorkPrecision,
 };
+pub use crate::run_up::march::{RunUpCourse, run_up_leg};
+pub use crate::run_up::plan::{plan_run_ups, run_ups_memory};
+pub use crate::run_up::told::run_ups;
 pub use crate::speed::run_speed;
 pub use crate::summary::{
     critical_indices, critical_speeds, fixed_frame_orders, fixed_frame_row, interaction_map,

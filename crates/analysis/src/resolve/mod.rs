@@ -26,6 +26,7 @@ mod gauges;
 pub(crate) mod limits;
 mod one_speed;
 pub(crate) mod recorded;
+pub(crate) mod run_up;
 pub(crate) mod sensors;
 pub(crate) mod study;
 

@@ -12,6 +12,7 @@ pub mod plan;
 pub mod point;
 pub mod reduction;
 pub mod refinement;
+pub mod run_up;
 pub mod steady;
 pub mod stress;
 pub mod study;
@@ -50,6 +51,9 @@ pub use reduction::{
     StiffeningVerdict,
 };
 pub use refinement::{Refinement, Unresolvable, Unresolved};
+pub use run_up::{
+    LargestOfRun, PassingRate, PlannedRunUp, RunUp, RunUpEnd, RunUpFrame, RunUpLeg, RunUpPlan, RunUps,
+};
 pub use steady::{FloquetMultiplier, MarchReport, Stability, SteadyReport};
 pub use stress::{
     PointStress, Strengths, StressCycle, StressPeak, drawn_stress_unit, most_utilised_first, stress_unit,

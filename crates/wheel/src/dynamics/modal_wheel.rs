@@ -76,6 +76,18 @@ impl ModalWheel {
         Ok(Self { speed_rad_s, sectors: reduced.sectors, repeats: 1, harmonics })
     }
 
+    /// The same with Φ of every nodal diameter in the coordinates of the reduction, as of [`mode_shapes`].
+    pub fn with_shapes(
+        reduced: &ReducedWheel,
+        speed_rad_s: f64,
+        effects: RotationEffects,
+    ) -> Result<(Self, Vec<Mat<c64>>), ModelError> {
+        let solve = |harmonic| modal_harmonic_with_shapes(reduced, harmonic, speed_rad_s, effects);
+        let solved = (0..reduced.harmonics.len()).map(solve).collect::<Result<Vec<_>, _>>()?;
+        let (harmonics, shapes) = solved.into_iter().unzip();
+        Ok((Self { speed_rad_s, sectors: reduced.sectors, repeats: 1, harmonics }, shapes))
+    }
+
     /// N, of which [`Self::sectors`] are simulated.
     pub fn around(&self) -> usize {
         self.sectors * self.repeats
@@ -154,9 +166,18 @@ pub(super) fn modal_harmonic(
     speed_rad_s: f64,
     effects: RotationEffects,
 ) -> Result<ModalHarmonic, ModelError> {
+    Ok(modal_harmonic_with_shapes(wheel, harmonic, speed_rad_s, effects)?.0)
+}
+
+fn modal_harmonic_with_shapes(
+    wheel: &ReducedWheel,
+    harmonic: usize,
+    speed_rad_s: f64,
+    effects: RotationEffects,
+) -> Result<(ModalHarmonic, Mat<c64>), ModelError> {
     let single = is_single(harmonic, wheel.sectors);
     let (omega, shapes) = natural_modes(wheel, harmonic, speed_rad_s, effects.stiffening)?;
-    Ok(ModalHarmonic {
+    let modes = ModalHarmonic {
         harmonic,
         single,
         omega,
@@ -166,7 +187,8 @@ pub(super) fn modal_harmonic(
         } else {
             None
         },
-    })
+    };
+    Ok((modes, shapes))
 }
 
 /// Φᴴ Ĝ Φ, skew-Hermitian to the last bit; real where the modes are.

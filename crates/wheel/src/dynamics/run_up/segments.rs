@@ -26,8 +26,8 @@ pub struct Cutting {
     pub samples_per_revolution: usize,
     /// Most that angles may be off, rad.
     pub tolerance_rad: f64,
-    /// Most revolutions of a segment.
-    pub longest_revolutions: u64,
+    /// Revolutions of a frame, by which the run is told: no segment has part of two.
+    pub frame_revolutions: u64,
     /// Lowest speed of every band over that of the one below: what is chosen for all speeds of a range is chosen once for each.
     pub band_ratio: f64,
 }
@@ -117,9 +117,9 @@ impl Cutting {
         whole: &Segment,
     ) -> Option<(&'a mut Segment, Segment)> {
         let per_revolution = self.samples_per_revolution as u64;
+        let frame = |sample: u64| sample / (per_revolution * self.frame_revolutions);
         let is_whole = last.samples.is_multiple_of(per_revolution);
-        let longest = last.samples / per_revolution >= self.longest_revolutions;
-        if !is_whole || longest || last.band != whole.band {
+        if !is_whole || last.band != whole.band || frame(last.first_sample) != frame(whole.first_sample) {
             return None;
         }
         let joined = self.between(profile, last.first_sample, last.samples + per_revolution, last.band);
@@ -133,7 +133,7 @@ mod tests {
     use std::f64::consts::TAU;
 
     fn cutting(tolerance_rad: f64) -> Cutting {
-        Cutting { samples_per_revolution: 120, tolerance_rad, longest_revolutions: 8, band_ratio: 1.5 }
+        Cutting { samples_per_revolution: 120, tolerance_rad, frame_revolutions: 8, band_ratio: 1.5 }
     }
 
     /// All samples, one after the other; angles of equal steps against the profile's own.
@@ -174,7 +174,7 @@ mod tests {
     }
 
     #[test]
-    fn a_constant_speed_is_cut_where_segments_are_longest() {
+    fn a_constant_speed_is_cut_where_frames_end() {
         let profile = SpeedProfile::linear(&[(0.0, TAU * 10.0), (2.0, TAU * 10.0)]);
         let segments = cutting(1e-3).segments(&profile).unwrap();
         assert_eq!(segments.iter().map(|segment| segment.samples / 120).collect::<Vec<_>>(), [8, 8, 4]);

@@ -261,7 +261,7 @@ fn one_degree_of_freedom_passes_resonance_as_lewis_has_it() {
                 let cutting = Cutting {
                     samples_per_revolution: samples,
                     tolerance_rad,
-                    longest_revolutions: 64,
+                    frame_revolutions: 64,
                     band_ratio: 10.0,
                 };
                 let segments = cutting.segments(&profile).unwrap();

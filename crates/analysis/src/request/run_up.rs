@@ -1,0 +1,162 @@
+//! What a run-up asks for: a scene, and how its speed changes.
+
+use serde::{Deserialize, Serialize};
+
+use crate::request::auto_or::AutoOr;
+use crate::request::integration::{Integration, SchemeChoice};
+use crate::request::scene::Scene;
+use crate::request::sensor::Sensor;
+use crate::request::speeds::SpeedUnit;
+use crate::request::sweep::{SweepRequest, default_max_engine_order};
+
+/// Run-ups or run-downs: a scene whose speed changes as given.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[serde(deny_unknown_fields)]
+pub struct RunUpRequest {
+    /// Id of an uploaded model.
+    #[cfg_attr(feature = "schema", schema(max_length = 64))]
+    pub model: String,
+    /// Fixed-interface modes kept per stiffness speed and nodal diameter; `"auto"` is 20.
+    #[serde(default)]
+    pub modes_per_speed: AutoOr,
+    /// How the speed changes.
+    pub speed: RunUpSpeed,
+    /// Effects of the simulation: all but `abradable`, `flexible_casing` and a `symmetry` other than `full`.
+    pub scene: Scene,
+    /// Time integration.
+    #[serde(default)]
+    pub integration: RunUpIntegration,
+    /// Whose displacements are recorded; default: radial at the first and the last contact node of sector 0.
+    #[serde(default)]
+    #[cfg_attr(feature = "schema", schema(max_items = 1_000))]
+    pub sensors: Vec<Sensor>,
+    /// Highest engine order of the spectrogram.
+    #[serde(default = "default_max_engine_order")]
+    #[cfg_attr(feature = "schema", schema(minimum = 1, maximum = 1000))]
+    pub max_engine_order: u32,
+    /// Angle by which the wheel may be off within a piece that is stepped at one speed, rad: both ends of every piece are where the speed
+    /// puts them. A quarter of it halves the length of the pieces.
+    #[serde(default = "default_tolerance")]
+    #[cfg_attr(feature = "schema", schema(minimum = 1e-8, maximum = 0.1))]
+    pub angle_tolerance_rad: f64,
+    /// Revolutions of a frame, of which the largest displacement and a spectrum are told: 1 to 8, or a multiple of 8. `"auto"` is 8, and
+    /// more where there would be over 1,000 frames.
+    #[serde(default)]
+    pub frame_revolutions: AutoOr,
+    /// A displacement in the model's unit of length that should not be exceeded: with several `rates` it is said how fast one must pass.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schema(exclusive_minimum = 0))]
+    pub limit: Option<f64>,
+}
+
+/// How the speed changes: at constant `rates` between `from` and `to`, one run for each, or through `points`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[serde(deny_unknown_fields)]
+pub struct RunUpSpeed {
+    /// Unit of all speeds; of rates, the same per second.
+    pub unit: SpeedUnit,
+    /// Speed at the start.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schema(exclusive_minimum = 0))]
+    pub from: Option<f64>,
+    /// Speed at the end; below `from` the wheel runs down.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schema(exclusive_minimum = 0))]
+    pub to: Option<f64>,
+    /// By how much the speed changes in a second, without a sign.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schema(min_items = 1, max_items = 100))]
+    pub rates: Option<Vec<f64>>,
+    /// Time for which the speed stays at `from` before it changes, s: what begins with the run dies away then.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schema(minimum = 0))]
+    pub hold_s: Option<f64>,
+    /// In place of all these: speeds at times.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schema(min_items = 2, max_items = 10_000))]
+    pub points: Option<Vec<SpeedPoint>>,
+    /// How the speed goes through the points.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub course: Option<SpeedCourse>,
+}
+
+/// A speed at a time.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[serde(deny_unknown_fields)]
+pub struct SpeedPoint {
+    /// When, s; 0 of the first, then ascending.
+    #[cfg_attr(feature = "schema", schema(minimum = 0))]
+    pub time_s: f64,
+    /// The speed.
+    #[cfg_attr(feature = "schema", schema(exclusive_minimum = 0))]
+    pub speed: f64,
+}
+
+/// How a speed goes through points.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum SpeedCourse {
+    /// Straight from one to the next; the default.
+    #[default]
+    Straight,
+    /// Without corners, level at both ends, and never beyond two neighbours (monotone cubics).
+    Smooth,
+}
+
+/// How a run-up is integrated.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[serde(deny_unknown_fields, default)]
+pub struct RunUpIntegration {
+    /// How time is stepped; `"auto"` keeps to one scheme.
+    pub scheme: SchemeChoice,
+    /// Modes per nodal diameter that `massless_boundary` integrates, or `"auto"` for as many as the step carries.
+    pub kept_modes: AutoOr,
+    /// Time steps per revolution, or `"auto"`: a safe number for the lowest speed of every range of √2.
+    pub steps_per_revolution: AutoOr,
+    /// Revolutions over which the restriction grows from zero to its full height.
+    #[cfg_attr(feature = "schema", schema(minimum = 0))]
+    pub ramp_revolutions: f64,
+}
+
+impl Default for RunUpIntegration {
+    fn default() -> Self {
+        let Integration { scheme, kept_modes, steps_per_revolution, ramp_revolutions, .. } =
+            Integration::default();
+        Self { scheme, kept_modes, steps_per_revolution, ramp_revolutions }
+    }
+}
+
+impl RunUpIntegration {
+    /// As a sweep has it.
+    pub(crate) fn of_sweep(self) -> Integration {
+        let Self { scheme, kept_modes, steps_per_revolution, ramp_revolutions } = self;
+        Integration { scheme, kept_modes, steps_per_revolution, ramp_revolutions, ..Integration::default() }
+    }
+}
+
+/// Run-ups as they are stored.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[serde(deny_unknown_fields)]
+pub struct RunUpSettings {
+    /// The scene, with the lowest and the highest speed.
+    pub sweep: SweepRequest,
+    /// How the speed changes, in rad/s.
+    pub speed: RunUpSpeed,
+    /// Angle by which the wheel may be off, rad.
+    pub angle_tolerance_rad: f64,
+    /// Revolutions of a frame.
+    pub frame_revolutions: AutoOr,
+    /// The displacement that should not be exceeded.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub limit: Option<f64>,
+}
+
+fn default_tolerance() -> f64 {
+    1e-3
+}

@@ -1,0 +1,178 @@
+//! Run-ups, held against their model.
+
+use super::findings::{Findings, between};
+use super::limits;
+use crate::discretisation::Discretisation;
+use crate::effects::symmetry::request::Symmetry;
+use crate::error::Violation;
+use crate::model::ModelFacts;
+use crate::request::sweep::default_peak_prominence;
+use crate::request::{
+    AutoOr, Record, RunUpRequest, SpeedSet, SpeedUnit, Speeds, SweepDirection, SweepRequest,
+};
+use crate::resolve::resolve_sweep;
+use crate::resolved::run_up::{FRAME, ResolvedCourse};
+use crate::resolved::{ResolvedRunUps, ResolvedSweep};
+use crate::run_up::cutting;
+
+/// Angles by which a wheel may be off, rad: finer ones are round-off, coarser ones are nothing that a run-up is made for.
+const TOLERANCE: std::ops::RangeInclusive<f64> = 1e-8..=0.1;
+
+/// Most revolutions of all runs together, and most frames of one.
+const REVOLUTIONS: u64 = 1_000_000;
+const FRAMES: u64 = 10_000;
+
+/// Parses run-ups and checks them against their model.
+pub fn resolve_run_ups(request: RunUpRequest, facts: &ModelFacts) -> Result<ResolvedRunUps, Vec<Violation>> {
+    let mut found = Findings::default();
+    found.require(
+        TOLERANCE.contains(&request.angle_tolerance_rad),
+        "/angle_tolerance_rad",
+        format!("an angle {} rad", between(&TOLERANCE)),
+    );
+    check_limit(&mut found, &request);
+    let speed = match ResolvedCourse::of(request.speed) {
+        Ok(speed) => speed,
+        Err(violations) => {
+            found.0.extend(violations);
+            return Err(found.0);
+        }
+    };
+    let sweep = SweepRequest {
+        model: request.model,
+        modes_per_speed: request.modes_per_speed,
+        speeds: Speeds::One(ends(&speed)),
+        scene: request.scene,
+        integration: request.integration.of_sweep(),
+        sensors: request.sensors,
+        max_engine_order: request.max_engine_order,
+        peak_prominence: default_peak_prominence(),
+        sweep: SweepDirection::Independent,
+        refine: false,
+        reproducible: false,
+        accuracy: None,
+        budget: None,
+        control_speeds: Some(0),
+        record: Record::default(),
+        fields: None,
+    };
+    let at_its_field = |violation: Violation| match violation.pointer.strip_prefix("/speeds") {
+        Some(_) => Violation { pointer: "/speed".to_owned(), ..violation },
+        None => violation,
+    };
+    let sweep = match resolve_sweep(sweep, facts) {
+        Ok(sweep) => sweep,
+        Err(violations) => {
+            found.0.extend(violations.into_iter().map(at_its_field));
+            return Err(found.0);
+        }
+    };
+    check_scene(&mut found, &sweep);
+    let (angle_tolerance_rad, frame_revolutions, limit) =
+        (request.angle_tolerance_rad, request.frame_revolutions, request.limit);
+    let resolved = ResolvedRunUps { sweep, speed, angle_tolerance_rad, frame_revolutions, limit };
+    if found.0.is_empty() {
+        check_runs(&mut found, &resolved, facts);
+    }
+    found.finish(resolved)
+}
+
+/// The lowest and the highest speed, as those of a sweep.
+fn ends(speed: &ResolvedCourse) -> SpeedSet {
+    let (lowest, highest) = speed.range();
+    let values = if lowest < highest { vec![lowest, highest] } else { vec![lowest] };
+    SpeedSet { from: None, to: None, count: None, values: Some(values), unit: SpeedUnit::RadS }
+}
+
+fn check_limit(found: &mut Findings, request: &RunUpRequest) {
+    found.require(
+        request.limit.is_none_or(|limit| limits::LENGTH.contains(&limit)),
+        "/limit",
+        format!("a displacement {}", between(&limits::LENGTH)),
+    );
+    found.require(
+        request.limit.is_none() || request.sensors.iter().all(|sensor| sensor.gauge.is_none()),
+        "/limit",
+        "the limit is a displacement, and a sensor is a strain gauge: leave one of them away",
+    );
+}
+
+/// What has a state of its own is not handed on from one speed to the next.
+fn check_scene(found: &mut Findings, sweep: &ResolvedSweep) {
+    let scene = &sweep.scene;
+    found.require(
+        scene.abradable.is_none(),
+        "/scene/abradable",
+        "a coating that wears is not simulated while the speed changes: leave it away",
+    );
+    found.require(
+        scene.flexible_casing.is_none(),
+        "/scene/flexible_casing",
+        "an elastic casing is not simulated while the speed changes: leave it away",
+    );
+    found.require(
+        scene.symmetry == Symmetry::Full,
+        "/scene/symmetry",
+        "while the speed changes the whole wheel is simulated: \"full\"",
+    );
+}
+
+fn check_runs(found: &mut Findings, asked: &ResolvedRunUps, facts: &ModelFacts) {
+    if let AutoOr::Fixed(frame) = asked.frame_revolutions {
+        let frame = u64::from(frame);
+        found.require(
+            (1..=FRAME).contains(&frame) || (frame > 0 && frame.is_multiple_of(FRAME)),
+            "/frame_revolutions",
+            format!("1 to {FRAME} revolutions, or a multiple of {FRAME}"),
+        );
+        if frame == 0 {
+            return;
+        }
+    }
+    let samples = Discretisation::of_every_speed(&asked.sweep, facts.sectors as usize);
+    let mut all = 0;
+    for run in 0..asked.runs() {
+        let profile = asked.speed.profile(run);
+        let revolutions = profile.revolutions();
+        all += revolutions;
+        let pointer = match asked.speed {
+            ResolvedCourse::Rates { .. } => format!("/speed/rates/{run}"),
+            ResolvedCourse::Points { .. } => "/speed/points".to_owned(),
+        };
+        found.require(
+            revolutions >= 1,
+            &pointer,
+            "a run takes at least one revolution: change the speed more slowly",
+        );
+        found.require(
+            all <= REVOLUTIONS,
+            &pointer,
+            format!("{all} revolutions with this run; all runs together take at most {REVOLUTIONS}"),
+        );
+        if all > REVOLUTIONS || revolutions == 0 {
+            return;
+        }
+        let frames = revolutions.div_ceil(asked.frame_revolutions(revolutions));
+        found.require(
+            frames <= FRAMES,
+            "/frame_revolutions",
+            format!(
+                "{frames} frames of a run of {revolutions} revolutions; at most {FRAMES}: make them longer"
+            ),
+        );
+        // What holds for the fastest change at the lowest speed holds everywhere.
+        let (lowest, _) = profile.range_rad_s();
+        let revolution_s = std::f64::consts::TAU / lowest;
+        let most =
+            profile.largest_rate(0.0, profile.duration_s()) * (revolution_s / samples as f64).powi(2) / 8.0;
+        if most > asked.angle_tolerance_rad
+            && let Err(too_fast) = cutting(asked, revolutions, samples).segments(&profile)
+        {
+            found.require(
+                false,
+                &pointer,
+                format!("{too_fast}; allow more by `angle_tolerance_rad`, or change the speed more slowly"),
+            );
+        }
+    }
+}

@@ -1,0 +1,386 @@
+//! Runs taken some frames further.
+
+use std::time::Instant;
+
+use serde::{Deserialize, Serialize};
+
+use super::frame::{Frame, order_step};
+use super::{BAND_RATIO, cutting};
+use crate::effects::casing::convert::running_clearance;
+use crate::end_state::{EndState, Shapes};
+use crate::error::{AnalysisError, Violation};
+use crate::model::ReducedSector;
+use crate::monitor::Monitor;
+use crate::not_runnable::NotRunnable;
+use crate::record::cut_short;
+use crate::resolved::{ResolvedRunUps, ResolvedSweep};
+use crate::result::{LargestOfRun, PointStatus, RunUpEnd, RunUpLeg, SchemeReport};
+use crate::speed::{ready, staged};
+use crate::start::initial;
+use crate::stepping::Stepping;
+use crate::wheel::rotation;
+use rubmap_wheel::dynamics::clearance_drift::ClearanceDrift;
+use rubmap_wheel::dynamics::effects::Effects;
+use rubmap_wheel::dynamics::initial::InitialMode;
+use rubmap_wheel::dynamics::integrate::{Part, Simulation, Stretch};
+use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
+use rubmap_wheel::dynamics::run_up::profile::SpeedProfile;
+use rubmap_wheel::dynamics::run_up::segments::Segment;
+use rubmap_wheel::dynamics::schemes::Scheme;
+use rubmap_wheel::vectors::vectors;
+
+use crate::discretisation::Discretisation;
+
+/// Steps of a leg, about: what is lost where the service dies.
+const LEG_STEPS: u64 = 1_000_000;
+
+/// Where runs have got to.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct RunUpCourse {
+    run: u32,
+    /// Segments that are done.
+    segments: usize,
+    /// The wheel after them; none before the first.
+    state: Option<EndState>,
+    so_far: SoFar,
+}
+
+/// What a run has come to so far.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+struct SoFar {
+    largest: Vec<LargestOfRun>,
+    scheme: Option<SchemeReport>,
+    steps: u64,
+    contact_steps: u64,
+    largest_energy: f64,
+    largest_energy_off: f64,
+    stiffening_work: f64,
+    transfer_loss: f64,
+    largest_penetration: f64,
+    wall_time_s: f64,
+}
+
+/// The next leg after `course`, or the first, and the course then, unless all runs have ended; deterministic, on the calling thread. A run
+/// that diverges or cannot be integrated is a result.
+///
+/// # Errors
+/// Cancellation; a refusal where the speed changes too fast for the angle's tolerance.
+pub fn run_up_leg(
+    sector: &ReducedSector,
+    asked: &ResolvedRunUps,
+    course: Option<RunUpCourse>,
+    monitor: &dyn Monitor,
+) -> Result<(RunUpLeg, Option<RunUpCourse>), AnalysisError> {
+    let course = course.unwrap_or(RunUpCourse { run: 0, segments: 0, state: None, so_far: SoFar::default() });
+    let run = course.run;
+    let march = March::new(asked, sector.wheel.sectors, run)?;
+    let (leg, next) = march.go(sector, course, monitor)?;
+    let next_run = (run + 1 < asked.runs()).then(|| RunUpCourse {
+        run: run + 1,
+        segments: 0,
+        state: None,
+        so_far: SoFar::default(),
+    });
+    Ok((leg, next.or(next_run)))
+}
+
+/// A run with all that can be known before it begins.
+pub(super) struct March<'a> {
+    asked: &'a ResolvedRunUps,
+    pub(super) profile: SpeedProfile,
+    pub(super) samples: usize,
+    pub(super) frame_revolutions: u64,
+    pub(super) segments: Vec<Segment>,
+}
+
+/// How bands are stepped, those that were met.
+struct Steppings(Vec<(u32, Stepping)>);
+
+impl Steppings {
+    fn of(&mut self, march: &March<'_>, sector: &ReducedSector, band: u32) -> Result<&Stepping, NotRunnable> {
+        let place = match self.0.iter().position(|(of, _)| *of == band) {
+            Some(place) => place,
+            None => {
+                self.0.push((band, march.stepping(sector, band)?));
+                self.0.len() - 1
+            }
+        };
+        Ok(&self.0[place].1)
+    }
+}
+
+/// A wheel at the speed of a segment.
+struct Wheel {
+    modal: ModalWheel,
+    shapes: Shapes,
+}
+
+impl<'a> March<'a> {
+    /// Of a wheel of so many sectors.
+    pub(super) fn new(asked: &'a ResolvedRunUps, sectors: usize, run: u32) -> Result<Self, AnalysisError> {
+        let profile = asked.speed.profile(run);
+        let samples = Discretisation::of_every_speed(&asked.sweep, sectors);
+        let revolutions = profile.revolutions();
+        let segments = cutting(asked, revolutions, samples)
+            .segments(&profile)
+            .map_err(|error| AnalysisError::Refused(vec![Violation::new("/speed", error.to_string())]))?;
+        let frame_revolutions = asked.frame_revolutions(revolutions);
+        Ok(Self { asked, profile, samples, frame_revolutions, segments })
+    }
+
+    pub(super) fn request(&self) -> &'a ResolvedSweep {
+        &self.asked.sweep
+    }
+
+    /// Lowest speed of a band, rad/s.
+    pub(super) fn lowest_of(&self, band: u32) -> f64 {
+        self.profile.range_rad_s().0 * BAND_RATIO.powi(band as i32)
+    }
+
+    /// How a band is stepped: as its lowest speed is.
+    pub(super) fn stepping(&self, sector: &ReducedSector, band: u32) -> Result<Stepping, NotRunnable> {
+        let (_, mut stepping) = ready(sector, self.request(), self.lowest_of(band))?;
+        stepping.discretisation = stepping.discretisation.sampled(self.samples);
+        Ok(stepping)
+    }
+
+    /// Takes the first sample of all: what setting up a segment takes, and whether it can be.
+    pub(super) fn begin(&self, sector: &ReducedSector) -> Result<(), NotRunnable> {
+        let Some(first) = self.segments.first() else { return Ok(()) };
+        let stepping = self.stepping(sector, first.band)?;
+        let first = Segment { samples: 1, ..*first };
+        self.take(sector, &first, (None, None), &stepping, &mut SoFar::default(), &|_| true).map(|_| ())
+    }
+
+    /// Some frames further.
+    fn go(
+        &self,
+        sector: &ReducedSector,
+        course: RunUpCourse,
+        monitor: &dyn Monitor,
+    ) -> Result<(RunUpLeg, Option<RunUpCourse>), AnalysisError> {
+        let clock = Instant::now();
+        let RunUpCourse { run, segments: mut done, mut state, mut so_far } = course;
+        let (before, first_steps) = (so_far.wall_time_s, so_far.steps);
+        let mut leg = RunUpLeg {
+            run,
+            order_step: order_step(self.frame_revolutions),
+            frames: Vec::new(),
+            end: None,
+            vectors: vectors(),
+        };
+        let mut last: Option<(Wheel, Vec<InitialMode>)> = None;
+        let mut steppings = Steppings(Vec::new());
+        let of_frame =
+            |segment: &Segment| segment.first_sample / (self.samples as u64 * self.frame_revolutions);
+        while done < self.segments.len() && so_far.steps - first_steps < LEG_STEPS {
+            let number = of_frame(&self.segments[done]);
+            let mut frame = Frame::begin(&self.segments[done], self.samples, self.request().sensors.len());
+            while let Some(segment) = self.segments.get(done).filter(|segment| of_frame(segment) == number) {
+                let share = |within: f64| {
+                    let run_share = (done as f64 + within) / self.segments.len() as f64;
+                    (f64::from(run) + run_share) / f64::from(self.asked.runs())
+                };
+                let watch = |within: f64| {
+                    monitor.progress(share(within), &format!("run {} of {}", run + 1, self.asked.runs()));
+                    !monitor.is_cancelled()
+                };
+                let taken = steppings.of(self, sector, segment.band).and_then(|stepping| {
+                    so_far.scheme.get_or_insert_with(|| stepping.report.clone());
+                    self.take(sector, segment, (state.as_ref(), last.take()), stepping, &mut so_far, &watch)
+                });
+                let failed = match taken {
+                    Ok((wheel, stretch)) => {
+                        so_far.steps += stretch.statistics.steps;
+                        so_far.contact_steps += stretch.statistics.contact_steps;
+                        match stretch.ended.as_ref().map(cut_short) {
+                            None => Ok((wheel, stretch)),
+                            Some(None) => return Err(AnalysisError::Cancelled),
+                            Some(Some(reason)) => Err(reason),
+                        }
+                    }
+                    Err(reason) => Err((PointStatus::Failed, reason.to_string())),
+                };
+                let (wheel, stretch) = match failed {
+                    Ok(taken) => taken,
+                    Err((status, message)) => {
+                        so_far.gather(frame.largest());
+                        so_far.wall_time_s = before + clock.elapsed().as_secs_f64();
+                        let message = format!("at {:.4} rad/s: {message}", segment.speed_rad_s);
+                        leg.end = Some(self.end(&so_far, done, status, Some(message)));
+                        return Ok((leg, None));
+                    }
+                };
+                frame.add(segment, &stretch, &self.profile);
+                so_far.count(&stretch);
+                state = Some(EndState::new(&stretch.end, &wheel.shapes));
+                last = Some((wheel, stretch.end));
+                done += 1;
+            }
+            so_far.gather(frame.largest());
+            let told = (self.samples, self.frame_revolutions);
+            leg.frames.push(frame.told(&self.profile, told, self.request().max_engine_order));
+        }
+        so_far.wall_time_s = before + clock.elapsed().as_secs_f64();
+        if done < self.segments.len() {
+            return Ok((leg, Some(RunUpCourse { run, segments: done, state, so_far })));
+        }
+        let message = leg.frames.last().and_then(|frame| self.ends_inside(frame.times_s, &so_far));
+        leg.end = Some(self.end(&so_far, done, PointStatus::Completed, message));
+        Ok((leg, None))
+    }
+
+    /// Takes a segment from `state`, that of the `last` wheel.
+    fn take(
+        &self,
+        sector: &ReducedSector,
+        segment: &Segment,
+        (state, last): (Option<&EndState>, Option<(Wheel, Vec<InitialMode>)>),
+        stepping: &Stepping,
+        so_far: &mut SoFar,
+        watch: &dyn Fn(f64) -> bool,
+    ) -> Result<(Wheel, Stretch), NotRunnable> {
+        let (request, reduced) = (self.request(), &*sector.wheel);
+        let before = last.as_ref().map(|(wheel, modes)| modal_energy(&wheel.modal, modes, |_| true));
+        let wheel = match last {
+            Some((wheel, _)) if wheel.modal.speed_rad_s == segment.speed_rad_s => wheel,
+            _ => {
+                let (modal, shapes) =
+                    ModalWheel::with_shapes(reduced, segment.speed_rad_s, rotation(&request.scene))?;
+                Wheel { modal, shapes: Shapes::found(shapes) }
+            }
+        };
+        let handed = state.map(|state| {
+            let all = state.modes(&wheel.modal, &wheel.shapes, reduced, Scheme::ExactModal);
+            all.ok_or(NotRunnable::OtherReduction)
+        });
+        let handed = handed.transpose()?;
+        let drift = self.drift(sector, segment)?;
+        let ramp = request.integration.ramp_revolutions;
+        let stretch = staged(sector, &wheel.modal, request, stepping, ramp, |staged| {
+            let modes = match handed {
+                Some(all) => {
+                    let kept = |mode: &InitialMode| {
+                        mode.family
+                            < stepping
+                                .scheme
+                                .integrated_modes(wheel.modal.harmonics[mode.harmonic].omega.len())
+                    };
+                    if let Some(before) = before {
+                        so_far.stiffening_work += modal_energy(&wheel.modal, &all, |_| true) - before;
+                    }
+                    so_far.transfer_loss += modal_energy(&wheel.modal, &all, |mode| !kept(mode));
+                    all.into_iter().filter(kept).collect()
+                }
+                None => initial(request, &wheel.modal, &reduced.contact, staged.casing, stepping)?,
+            };
+            let simulation = Simulation {
+                initial: &modes,
+                effects: Effects { clearance_drift: drift.as_ref(), ..staged.effects },
+                revolutions: 1,
+                window_revolutions: 0,
+                ..staged
+            };
+            let part = Part { first_sample: segment.first_sample, samples: segment.samples };
+            Ok::<_, NotRunnable>(simulation.stretch(part, watch))
+        })??;
+        Ok((wheel, stretch))
+    }
+
+    /// How clearances given cold follow the speed within a segment, about those of its mean speed; none of others.
+    fn drift(
+        &self,
+        sector: &ReducedSector,
+        segment: &Segment,
+    ) -> Result<Option<ClearanceDrift>, NotRunnable> {
+        let request = self.request();
+        if !request.has_cold_clearances() {
+            return Ok(None);
+        }
+        let at = |speed: f64| running_clearance(sector, request, speed).map(Option::unwrap_or_default);
+        let mean = at(segment.speed_rad_s)?;
+        let off = |time: f64| {
+            let there = at(self.profile.speed_rad_s(time))?;
+            Ok::<_, NotRunnable>(there.iter().zip(&mean).map(|(there, mean)| there - mean).collect())
+        };
+        let revolutions = |sample: u64| sample as f64 / self.samples as f64;
+        let [from, to] = segment.times_s;
+        Ok(Some(ClearanceDrift {
+            revolutions: [segment.first_sample, segment.first_sample + segment.samples].map(revolutions),
+            first: off(from)?,
+            last: off(to)?,
+        }))
+    }
+
+    /// What to say of a run whose largest displacement is in its last frame, which ends within a critical speed.
+    fn ends_inside(&self, last: [f64; 2], so_far: &SoFar) -> Option<String> {
+        let (start, end) = (self.profile.speed_rad_s(0.0), self.profile.speed_rad_s(last[1]));
+        let inside = so_far
+            .largest
+            .iter()
+            .position(|largest| largest.displacement > 0.0 && largest.time_s > last[0] && start != end)?;
+        Some(format!(
+            "the displacement of sensor {inside} is largest at the end: the run ends within a critical speed, and what would follow is \
+             not known; let it go further"
+        ))
+    }
+
+    fn end(&self, so_far: &SoFar, segments: usize, status: PointStatus, message: Option<String>) -> RunUpEnd {
+        let done = &self.segments[..segments];
+        let samples: u64 = done.iter().map(|segment| segment.samples).sum();
+        let euler = |segment: &Segment| {
+            let [from, to] = segment.times_s;
+            self.profile.largest_rate(from, to) / segment.speed_rad_s.powi(2)
+        };
+        let energy = so_far.largest_energy;
+        let of_energy = |off: f64| if energy > 0.0 { off / energy } else { 0.0 };
+        let contact = self.request().scene.contact.is_some();
+        RunUpEnd {
+            status,
+            message,
+            largest: so_far.largest.clone(),
+            scheme: so_far.scheme.clone(),
+            revolutions: samples / self.samples as u64,
+            steps: so_far.steps,
+            segments: segments as u64,
+            largest_angle_error_rad: done.iter().map(|segment| segment.off_rad).fold(0.0, f64::max),
+            largest_energy: energy,
+            energy_residual: of_energy(so_far.largest_energy_off),
+            stiffening_work: so_far.stiffening_work,
+            transfer_loss: of_energy(so_far.transfer_loss),
+            contact_share: so_far.contact_steps as f64 / so_far.steps.max(1) as f64,
+            largest_penetration: contact.then_some(so_far.largest_penetration),
+            euler_share: done.iter().map(euler).fold(0.0, f64::max),
+            wall_time_s: so_far.wall_time_s,
+        }
+    }
+}
+
+impl SoFar {
+    fn count(&mut self, stretch: &Stretch) {
+        let (statistics, energy) = (&stretch.statistics, &stretch.energy);
+        self.largest_penetration = self.largest_penetration.max(statistics.largest_penetration);
+        self.largest_energy = self.largest_energy.max(energy.largest_energy());
+        self.largest_energy_off = self.largest_energy_off.max(energy.residual() * energy.largest_energy());
+    }
+
+    fn gather(&mut self, of_frame: &[LargestOfRun]) {
+        if self.largest.is_empty() {
+            self.largest = of_frame.to_vec();
+        }
+        for (largest, of_frame) in self.largest.iter_mut().zip(of_frame) {
+            if of_frame.displacement > largest.displacement {
+                *largest = *of_frame;
+            }
+        }
+    }
+}
+
+/// ½(|ż|² + ω²|z|²) summed over those of the modes that `counts`.
+fn modal_energy(wheel: &ModalWheel, modes: &[InitialMode], counts: impl Fn(&InitialMode) -> bool) -> f64 {
+    let of = |mode: &InitialMode| {
+        let omega = wheel.harmonics[mode.harmonic].omega[mode.family];
+        0.5 * (mode.velocity.norm_sqr() + omega * omega * mode.displacement.norm_sqr())
+    };
+    modes.iter().filter(|mode| counts(mode)).map(of).sum()
+}

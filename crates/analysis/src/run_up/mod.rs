@@ -1,0 +1,23 @@
+//! Wheels whose speed changes (docs/method.md, Run-up and run-down): [`march::run_up_leg`] takes one some frames further.
+
+mod frame;
+pub(crate) mod march;
+mod passing;
+pub(crate) mod plan;
+pub(crate) mod told;
+
+use crate::resolved::ResolvedRunUps;
+use rubmap_wheel::dynamics::run_up::segments::Cutting;
+
+/// Highest speed over the lowest of those for which scheme and step are chosen once.
+const BAND_RATIO: f64 = std::f64::consts::SQRT_2;
+
+/// How a run of so many revolutions is cut.
+pub(crate) fn cutting(asked: &ResolvedRunUps, revolutions: u64, samples_per_revolution: usize) -> Cutting {
+    Cutting {
+        samples_per_revolution,
+        tolerance_rad: asked.angle_tolerance_rad,
+        frame_revolutions: asked.frame_revolutions(revolutions),
+        band_ratio: BAND_RATIO,
+    }
+}

@@ -1,0 +1,148 @@
+//! What run-ups will do and cost, before they begin.
+
+use std::time::Instant;
+
+use super::march::March;
+use crate::calibration::Calibration;
+use crate::calibration::effects::EffectSizes;
+use crate::calibration::size::StepSize;
+use crate::effects::symmetry::result::FoundSymmetry;
+use crate::effects::table::planned;
+use crate::end_state::Shapes;
+use crate::error::AnalysisError;
+use crate::model::{ModelFacts, ReducedSector};
+use crate::not_runnable::NotRunnable;
+use crate::plan::{contact_pairs, reduced_bytes, reduced_unknowns, running_bytes, state, touching, warnings};
+use crate::resolved::ResolvedRunUps;
+use crate::result::{CostRange, Estimate, PlannedRunUp, RunUpPlan, SchemeReport};
+use crate::speed::ready;
+use crate::wheel::wheel_of;
+use rubmap_wheel::revision::VERSION;
+
+/// Plans resolved run-ups; without `reduced`, what can be said without it. Which machine was measured is for the caller to add.
+///
+/// # Errors
+/// A refusal where the speed changes too fast for the angle's tolerance.
+pub fn plan_run_ups(
+    asked: &ResolvedRunUps,
+    facts: &ModelFacts,
+    reduced: Option<&ReducedSector>,
+    calibration: &Calibration,
+) -> Result<RunUpPlan, AnalysisError> {
+    let sweep = asked.sweep();
+    let mut runs = Vec::new();
+    for run in 0..asked.runs() {
+        runs.push(plan_run(asked, facts, reduced, calibration, run)?);
+    }
+    let estimate = reduced.and_then(|reduced| {
+        let mut all = CostRange { free: 0.0, contact: 0.0 };
+        let mut steps = 0;
+        for run in &runs {
+            let of = run.computing_time_s?;
+            all = CostRange { free: all.free + of.free, contact: all.contact + of.contact };
+            steps += run.steps?;
+        }
+        let memory = run_ups_memory(reduced, asked);
+        Some(Estimate {
+            steps,
+            computing_time_s: all,
+            wall_time_s: all,
+            workers: 1,
+            memory_bytes: reduced_bytes(reduced) + memory,
+            speed_memory_bytes: memory,
+        })
+    });
+    Ok(RunUpPlan {
+        effects: planned(&sweep.scene),
+        symmetry: FoundSymmetry::of(&sweep.scene, facts.sectors),
+        contact_pairs: contact_pairs(&sweep.scene, facts),
+        reduction: state(reduced),
+        reduced_unknowns_at_most: reduced_unknowns(facts, reduced, sweep.modes_per_speed()),
+        machine: None,
+        runs,
+        estimate,
+        warnings: warnings(&sweep.scene, facts, reduced),
+        settings: asked.clone().into(),
+        version: VERSION.to_owned(),
+    })
+}
+
+fn plan_run(
+    asked: &ResolvedRunUps,
+    facts: &ModelFacts,
+    reduced: Option<&ReducedSector>,
+    calibration: &Calibration,
+    run: u32,
+) -> Result<PlannedRunUp, AnalysisError> {
+    let march = March::new(asked, facts.sectors as usize, run)?;
+    let planned = PlannedRunUp {
+        rate_rad_s2: asked.speed.rate(run),
+        duration_s: march.profile.duration_s(),
+        revolutions: march.profile.revolutions(),
+        frame_revolutions: march.frame_revolutions,
+        segments: march.segments.len() as u64,
+        message: None,
+        scheme: None,
+        steps: None,
+        computing_time_s: None,
+    };
+    let Some(reduced) = reduced else { return Ok(planned) };
+    Ok(match price(&march, reduced, calibration) {
+        Ok((scheme, steps, computing_time_s)) => PlannedRunUp {
+            scheme: Some(scheme),
+            steps: Some(steps),
+            computing_time_s: Some(computing_time_s),
+            ..planned
+        },
+        Err(reason) => PlannedRunUp { message: Some(reason.to_string()), ..planned },
+    })
+}
+
+/// Scheme at the lowest speed, steps and time of a run: of every band what a step takes, and of every segment what setting it up took just
+/// now.
+fn price(
+    march: &March<'_>,
+    reduced: &ReducedSector,
+    calibration: &Calibration,
+) -> Result<(SchemeReport, u64, CostRange), NotRunnable> {
+    let request = march.request();
+    let nodes = touching(reduced, request);
+    let mut bands: Vec<(u32, u64)> = Vec::new();
+    for segment in &march.segments {
+        match bands.iter_mut().find(|(band, _)| *band == segment.band) {
+            Some((_, samples)) => *samples += segment.samples,
+            None => bands.push((segment.band, segment.samples)),
+        }
+    }
+    bands.sort_unstable();
+    let clock = Instant::now();
+    march.begin(reduced)?;
+    let set_up = clock.elapsed().as_secs_f64() * march.segments.len() as f64;
+    let (mut all, mut time, mut scheme) = (0, CostRange { free: set_up, contact: set_up }, None);
+    for (band, samples) in bands {
+        let stepping = march.stepping(reduced, band)?;
+        let wheel = wheel_of(&request.scene, &reduced.wheel, march.lowest_of(band))?;
+        let unknowns = stepping.scheme.integrated_unknowns(&wheel);
+        let size = StepSize { sectors: wheel.sectors, nodes, unknowns };
+        let effects = EffectSizes::of(&request.scene, &wheel, stepping.scheme, nodes);
+        let (free, contact) = calibration.step_seconds(size, &effects);
+        let steps =
+            samples * (stepping.discretisation.per_revolution / stepping.discretisation.samples) as u64;
+        all += steps;
+        time.free += steps as f64 * free;
+        time.contact += steps as f64 * contact;
+        scheme.get_or_insert(stepping.report);
+    }
+    Ok((scheme.unwrap_or_else(|| unreachable!("a run has at least one segment")), all, time))
+}
+
+/// Memory that a run holds, in bytes: what a speed does, its shapes, and the samples of a frame.
+pub fn run_ups_memory(reduced: &ReducedSector, asked: &ResolvedRunUps) -> u64 {
+    let sweep = asked.sweep();
+    let Ok((wheel, stepping)) = ready(reduced, sweep, asked.speed.range().0) else { return 0 };
+    let longest =
+        (0..asked.runs()).map(|run| asked.frame_revolutions(asked.speed.profile(run).revolutions()));
+    let samples = stepping.discretisation.samples as u64 * longest.max().unwrap_or(0);
+    let frame = 4 * samples * sweep.sensors().len() as u64 * size_of::<f64>() as u64;
+    running_bytes(&wheel, sweep, &stepping, touching(reduced, sweep)) + 2 * Shapes::bytes(&wheel) + frame
+}
