@@ -11,6 +11,7 @@ pub mod fields;
 mod force_map;
 pub mod maps;
 mod npz;
+mod run_ups;
 mod section;
 pub mod spectra;
 mod speed_histories;

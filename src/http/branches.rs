@@ -4,25 +4,24 @@ use axum::Json;
 use axum::extract::State;
 use axum::response::Response;
 use serde::Deserialize;
-use tokio::runtime::Handle;
 use utoipa::IntoParams;
 
 use super::download::{Download, DownloadQuery, lasting};
-use super::extract::{JobPath, JsonBody, Parameters, job_not_found, parse_job_id};
+use super::extract::{JobPath, JsonBody, Parameters, job_not_found};
 use super::forms::{Forms, READ_MEMORY};
 use super::idempotency::IdempotencyKey;
 use super::labels::Labelled;
-use super::problem::{Kind, Problem};
-use super::results::{check_sensor, find, sweep, wrong_kind};
+use super::legs::Legs;
+use super::problem::Problem;
+use super::results::{check_sensor, find, swept, wrong_kind};
 use super::state::AppState;
 use super::submit::{self, Receipt};
 use crate::analysis::request::BranchesRequest;
-use crate::analysis::result::{BranchLeg, Branches, BranchesPlan, Point};
+use crate::analysis::result::{BranchLeg, Branches, BranchesPlan};
 use crate::jobs::Submission;
 use crate::plot;
-use crate::store::jobs::{Job, JobKind, JobRequest};
-use crate::store::results::Document;
-use crate::store::status::JobStatus;
+use crate::store::Followed;
+use crate::store::jobs::{JobKind, JobRequest};
 use crate::tokens::Principal;
 
 type BranchesBody = Labelled<BranchesRequest>;
@@ -134,51 +133,13 @@ pub(super) async fn get_branches(
     let job = find(&state, &whose, id).await?;
     let JobRequest::Branches(asked) = &job.request else { return Err(wrong_kind(&job, JobKind::Branches)) };
     check_sensor(asked.sweep().sensors(), query.sensor)?;
-    let marched = marched(&state, &whose, &query, &job).await?;
-    let legs = state.store.legs(id).await?;
-    if legs == 0 {
-        let kind = match job.status {
-            JobStatus::Accepted | JobStatus::Running | JobStatus::Paused => Kind::ResultNotReady,
-            _ => Kind::ResultUnavailable,
-        };
-        return Err(Problem::new(
-            kind,
-            format!("the job is {} and has no point of a branch", job.status.as_str()),
-        ));
-    }
-    let mut bytes = 0;
-    for leg in 0..legs {
-        bytes += state.store.document_bytes(id, Document::BranchLeg(leg)).await?.unwrap_or(0);
-    }
-    let (store, runtime) = (state.store.clone(), Handle::current());
-    let read = move || {
-        let mut found = Vec::<BranchLeg>::new();
-        for leg in 0..legs {
-            let text = runtime.block_on(store.document(id, Document::BranchLeg(leg)))?;
-            found.extend(text.map(|text| serde_json::from_str(&text)).transpose()?);
-        }
-        Branches::of(found).ok_or_else(|| job_not_found(&id))
-    };
+    let marched = swept(&state, &whose, query.sweep.as_deref(), &job).await?;
+    let legs = Legs::of(&state, &job, Followed::Branches, "point of a branch").await?;
+    let bytes = legs.bytes();
+    let read = move || Branches::of(legs.read::<BranchLeg>()?).ok_or_else(|| job_not_found(&id));
     let sensor = query.sensor as usize;
     let dots = marched.clone();
     let draw = move |branches: &Branches| plot::branches(branches, sensor, &dots);
     let figure = move |branches: &Branches| plot::figure::branches(branches, sensor, &marched);
     Forms::drawn_by(draw, figure).answer(&state, download, lasting(&job), READ_MEMORY * bytes, read).await
-}
-
-/// Speeds of a sweep that are drawn beside.
-async fn marched(
-    state: &AppState,
-    whose: &Principal,
-    query: &BranchesQuery,
-    branches: &Job,
-) -> Result<Vec<Point>, Problem> {
-    let Some(id) = &query.sweep else { return Ok(Vec::new()) };
-    let id = parse_job_id(id)?;
-    let job = find(state, whose, id).await?;
-    sweep(&job)?;
-    if job.model != branches.model {
-        return Err(Problem::parameter("sweep", "a sweep of the model of these branches"));
-    }
-    Ok(state.store.points(id).await?)
 }

@@ -119,6 +119,7 @@ pub(super) async fn get_histories(
         JobRequest::ModalAnalysis(_)
         | JobRequest::ModelGeneration(_)
         | JobRequest::Branches(_)
+        | JobRequest::RunUps(_)
         | JobRequest::Campaign(_) => Err(wrong_kind(&job, JobKind::CaseStudy)),
     }
 }

@@ -5,7 +5,8 @@ use utoipa::ToSchema;
 
 use super::problem::Problem;
 use crate::analysis::request::{
-    BranchesSettings, CampaignSettings, CaseStudySettings, ModalAnalysisRequest, StudyRequest, SweepRequest,
+    BranchesSettings, CampaignSettings, CaseStudySettings, ModalAnalysisRequest, RunUpSettings, StudyRequest,
+    SweepRequest,
 };
 use crate::analysis::result::ReductionReport;
 use crate::impeller::ImpellerParameters;
@@ -92,6 +93,8 @@ pub(super) enum RequestBody {
     CaseStudy(Box<CaseStudySettings>),
     /// Of branches.
     Branches(Box<BranchesSettings>),
+    /// Of run-ups.
+    RunUps(Box<RunUpSettings>),
     /// Of a campaign, without its designs, which `GET /v1/jobs/{id}/campaign` has.
     Campaign(Box<CampaignSettings>),
     /// Of a generated model.
@@ -106,6 +109,7 @@ impl From<JobRequest> for RequestBody {
             JobRequest::Study(request) => Self::Study(Box::new((*request).into())),
             JobRequest::CaseStudy(case) => Self::CaseStudy(Box::new((*case).into())),
             JobRequest::Branches(branches) => Self::Branches(Box::new((*branches).into())),
+            JobRequest::RunUps(run_ups) => Self::RunUps(Box::new((*run_ups).into())),
             JobRequest::Campaign(campaign) => {
                 // Thousands of designs would be sent again with every step of the job.
                 let settings = CampaignSettings { designs: Vec::new(), ..(*campaign).into() };
@@ -123,7 +127,7 @@ pub(super) struct Link {
     #[schema(example = "/v1/jobs/0198c5a2-7c1e-7d54-9f3b-2f6d7a6f4b10/interaction-map")]
     href: String,
     /// What it is: `self`, `interaction-map`, `critical-speeds`, `wheel-critical-speeds`, `forces`, `spectra` (with a `{index}` to fill
-    /// in), `campbell`, `branches`, `campaign`, `work-precision`, `histories`, `report`, `archive` or `model`; where it is recorded, and not in lists of jobs,
+    /// in), `campbell`, `branches`, `run-ups`, `spectrogram` (of the first run), `campaign`, `work-precision`, `histories`, `report`, `archive` or `model`; where it is recorded, and not in lists of jobs,
     /// `stress` and `fields`.
     rel: &'static str,
 }
@@ -201,6 +205,7 @@ pub(super) fn links(
         JobKind::Study => &[("work-precision", "/work-precision"), ("histories", "/histories"), ARCHIVE],
         JobKind::CaseStudy => &[("histories", "/histories")],
         JobKind::Branches => &[("branches", "/branches")],
+        JobKind::RunUp => &[("run-ups", "/run-ups"), ("spectrogram", "/spectrogram")],
         JobKind::Campaign => &[("campaign", "/campaign")],
     };
     let model = model.map(|model| Link { href: format!("/v1/models/{model}"), rel: "model" });

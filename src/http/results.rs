@@ -7,12 +7,12 @@ use serde::{Deserialize, Serialize};
 use utoipa::{IntoParams, ToSchema};
 
 use super::download::{Download, DownloadQuery};
-use super::extract::{JobPath, Parameters, job_not_found};
+use super::extract::{JobPath, Parameters, job_not_found, parse_job_id};
 use super::forms::Forms;
 use super::problem::{Kind, Problem};
 use super::state::AppState;
 use crate::analysis::resolved::{ResolvedSensor, ResolvedSweep};
-use crate::analysis::result::{Campbell, CriticalSpeeds, most_utilised_first};
+use crate::analysis::result::{Campbell, CriticalSpeeds, Point, most_utilised_first};
 use crate::analysis::run::ModelFacts;
 use crate::export::Export;
 use crate::plot::{self, Frame};
@@ -192,6 +192,22 @@ pub(super) fn sweep(job: &Job) -> Result<(&ResolvedSweep, &ModelFacts), Problem>
         (JobRequest::Sweep(request), Some(facts)) => Ok((request, facts)),
         _ => Err(wrong_kind(job, JobKind::Sweep)),
     }
+}
+
+/// Speeds of the sweep with this id, of the same model as `job`, that are drawn beside; none of none.
+pub(super) async fn swept(
+    state: &AppState,
+    whose: &Principal,
+    id: Option<&str>,
+    job: &Job,
+) -> Result<Vec<Point>, Problem> {
+    let Some(id) = id else { return Ok(Vec::new()) };
+    let other = find(state, whose, parse_job_id(id)?).await?;
+    sweep(&other)?;
+    if other.model != job.model {
+        return Err(Problem::parameter("sweep", "a sweep of the model of this job"));
+    }
+    Ok(state.store.points(other.id).await?)
 }
 
 pub(super) fn check_sensor(sensors: &[ResolvedSensor], sensor: u32) -> Result<(), Problem> {

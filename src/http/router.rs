@@ -21,8 +21,8 @@ use super::state::AppState;
 use super::{
     access, archive, body, branches, campaigns, case_studies, casings, contract, events, extract, fields,
     forces, health, histories, host, jobs, maps, mesh, metrics, modal_analyses, models, modes, openapi,
-    principal, problem, report, results, section, spectra, stream, stress, studies, sweeps, version, web,
-    wheel,
+    principal, problem, report, results, run_ups, section, spectra, stream, stress, studies, sweeps, version,
+    web, wheel,
 };
 
 /// The routes with their descriptions.
@@ -43,6 +43,8 @@ pub(super) fn routes() -> OpenApiRouter<AppState> {
         .routes(routes!(case_studies::create_case_study))
         .routes(routes!(branches::create_branches))
         .routes(routes!(branches::plan_branches))
+        .routes(routes!(run_ups::create_run_ups))
+        .routes(routes!(run_ups::plan_run_ups))
         .routes(routes!(campaigns::create_campaign))
         .routes(routes!(campaigns::plan_campaign))
         .routes(routes!(jobs::list_jobs))
@@ -61,6 +63,8 @@ pub(super) fn routes() -> OpenApiRouter<AppState> {
         .routes(routes!(studies::get_work_precision))
         .routes(routes!(histories::get_histories, case_studies::create_histories))
         .routes(routes!(branches::get_branches))
+        .routes(routes!(run_ups::get_run_ups))
+        .routes(routes!(run_ups::get_spectrogram))
         .routes(routes!(campaigns::get_campaign))
         .routes(routes!(fields::get_fields))
         .routes(routes!(forces::get_forces))

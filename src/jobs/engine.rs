@@ -96,6 +96,7 @@ fn chain(request: &JobRequest) -> Option<Vec<u32>> {
         | JobRequest::Study(_)
         | JobRequest::CaseStudy(_)
         | JobRequest::Branches(_)
+        | JobRequest::RunUps(_)
         | JobRequest::Campaign(_) => None,
     }
 }

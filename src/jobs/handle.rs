@@ -13,10 +13,10 @@ use super::submission::Submission;
 use crate::analysis::error::{AnalysisError, Violation};
 use crate::analysis::monitor::Unwatched;
 use crate::analysis::request::{
-    BranchesRequest, CampaignRequest, ModalAnalysisRequest, Sensor, SweepRequest,
+    BranchesRequest, CampaignRequest, ModalAnalysisRequest, RunUpRequest, Sensor, SweepRequest,
 };
 use crate::analysis::resolved::{Modes, ResolvedCampaign, ResolvedSweep};
-use crate::analysis::result::{BranchesPlan, CampaignPlan};
+use crate::analysis::result::{BranchesPlan, CampaignPlan, RunUpPlan};
 use crate::analysis::run::{self, ModalAnalysisPlan, PlacedSensor, ReducedSector, SweepPlan};
 use crate::impeller::{GenerationPlan, ImpellerError, ImpellerParameters, ImpellerRequest, plan_generation};
 use crate::package;
@@ -126,6 +126,13 @@ impl Jobs {
                 self.check(branches.sweep()).await?;
                 (JobRequest::Branches(Box::new(branches)), Some(facts))
             }
+            Submission::RunUps(mut request) => {
+                let facts = self.facts(whose, &request.model).await?;
+                let placed = self.place(&request.model, &mut request.sensors).await?;
+                let (_, run_ups) = both(placed, run::resolve_run_ups(*request, &facts))?;
+                self.check(run_ups.sweep()).await?;
+                (JobRequest::RunUps(Box::new(run_ups)), Some(facts))
+            }
             Submission::Campaign(request) => {
                 let (campaign, facts, _) = self.campaign(whose, *request).await?;
                 for sweep in campaign.sweeps() {
@@ -196,6 +203,19 @@ impl Jobs {
         let (_, request) = both(placed, run::resolve_branches(request, &facts))?;
         let reduced = self.check(request.sweep()).await?;
         plans::branches(&self.engine, request, facts, reduced).await
+    }
+
+    /// The same for run-ups.
+    pub async fn plan_run_ups(
+        &self,
+        whose: &Principal,
+        mut request: RunUpRequest,
+    ) -> Result<RunUpPlan, SubmitError> {
+        let facts = self.facts(whose, &request.model).await?;
+        let placed = self.place(&request.model, &mut request.sensors).await?;
+        let (_, request) = both(placed, run::resolve_run_ups(request, &facts))?;
+        let reduced = self.check(request.sweep()).await?;
+        plans::run_ups(&self.engine, request, facts, reduced).await
     }
 
     /// The same for a campaign.

@@ -33,6 +33,7 @@ mod finish;
 mod generation;
 mod handle;
 mod histories;
+mod legs;
 mod machine;
 mod memory;
 mod modal_analysis;
@@ -42,6 +43,7 @@ mod pool;
 mod prepare;
 mod progress;
 mod reductions;
+mod run_ups;
 #[cfg(feature = "cluster")]
 mod share;
 mod speed;

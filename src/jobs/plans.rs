@@ -8,8 +8,10 @@ use super::error::Interruption;
 use super::machine;
 use super::patience::patiently;
 use super::pool::Panicked;
-use crate::analysis::resolved::{ResolvedBranches, ResolvedCampaign, ResolvedModalAnalysis, ResolvedSweep};
-use crate::analysis::result::{BranchesPlan, CampaignPlan, Machine};
+use crate::analysis::resolved::{
+    ResolvedBranches, ResolvedCampaign, ResolvedModalAnalysis, ResolvedRunUps, ResolvedSweep,
+};
+use crate::analysis::result::{BranchesPlan, CampaignPlan, Machine, RunUpPlan};
 use crate::analysis::run::{self, Calibration, ModalAnalysisPlan, ModelFacts, ReducedSector, SweepPlan};
 use crate::store::StoreError;
 use crate::store::jobs::JobRequest;
@@ -38,6 +40,18 @@ pub(super) async fn branches<E: From<StoreError> + From<Panicked>>(
     let Capacity { machine, costs, .. } = capacity::<E>(engine).await?;
     let plan = move || run::plan_branches(&request, &facts, reduced.as_deref(), &costs);
     Ok(BranchesPlan { machine: Some(machine), ..engine.planner.run(plan).await? })
+}
+
+/// Plans resolved run-ups.
+pub(super) async fn run_ups<E: From<StoreError> + From<Panicked>>(
+    engine: &Engine,
+    request: ResolvedRunUps,
+    facts: ModelFacts,
+    reduced: Option<Arc<ReducedSector>>,
+) -> Result<RunUpPlan, E> {
+    let Capacity { machine, costs, .. } = capacity::<E>(engine).await?;
+    let plan = move || run::plan_run_ups(&request, &facts, reduced.as_deref(), &costs);
+    Ok(RunUpPlan { machine: Some(machine), ..engine.planner.run(plan).await? })
 }
 
 /// A model, and its reduction if that is there.

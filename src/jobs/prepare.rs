@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::engine::{Engine, Live};
 use super::error::Interruption;
 use super::progress::PhaseMonitor;
-use super::{branches, case_study, choice, finish, generation, modal_analysis, plans, study};
+use super::{branches, case_study, choice, finish, generation, modal_analysis, plans, run_ups, study};
 use crate::analysis::resolved::ResolvedSweep;
 use crate::analysis::run::{self, ReducedSector};
 use crate::store::jobs::{Begun, JobId, JobRequest};
@@ -34,6 +34,7 @@ pub(super) async fn prepare(engine: &Engine, id: JobId) -> Result<(), Interrupti
         JobRequest::Study(request) => study::run(engine, &job, request).await,
         JobRequest::CaseStudy(case) => case_study::run(engine, &job, case).await,
         JobRequest::Branches(asked) => branches::run(engine, &job, asked).await,
+        JobRequest::RunUps(asked) => run_ups::run(engine, &job, asked).await,
         JobRequest::Campaign(_) => prepare_speeds(engine, &job).await,
     }
 }

@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 
 use crate::analysis::request::{
-    BranchesRequest, CampaignRequest, CaseStudyRequest, HistoriesRequest, ModalAnalysisRequest, StudyRequest,
-    SweepRequest,
+    BranchesRequest, CampaignRequest, CaseStudyRequest, HistoriesRequest, ModalAnalysisRequest, RunUpRequest,
+    StudyRequest, SweepRequest,
 };
 use crate::analysis::resolved::ResolvedSweep;
 use crate::impeller::ImpellerParameters;
@@ -25,6 +25,8 @@ pub enum Submission {
     CaseStudy(Box<CaseStudyRequest>),
     /// Periodic responses over a number of their scene.
     Branches(Box<BranchesRequest>),
+    /// A scene whose speed changes.
+    RunUps(Box<RunUpRequest>),
     /// Contact simulations over speeds, of many designs of a scene.
     Campaign(Box<CampaignRequest>),
     /// Histories of a sweep that has ended, with the indices of its critical speeds.
@@ -41,6 +43,7 @@ impl Submission {
             Self::Study(_) => JobKind::Study,
             Self::CaseStudy(_) | Self::Histories(_) => JobKind::CaseStudy,
             Self::Branches(_) => JobKind::Branches,
+            Self::RunUps(_) => JobKind::RunUp,
             Self::Campaign(_) => JobKind::Campaign,
         }
     }
@@ -54,6 +57,7 @@ impl Submission {
             Self::Study(request) => Some(&request.model),
             Self::CaseStudy(request) => Some(&request.model),
             Self::Branches(request) => Some(&request.model),
+            Self::RunUps(request) => Some(&request.model),
             Self::Campaign(request) => Some(&request.model),
             Self::Histories(of) => Some(of.0.model()),
         }

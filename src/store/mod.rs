@@ -7,7 +7,6 @@
 
 mod backup;
 pub mod bases;
-mod branches;
 mod calibrations;
 mod changes;
 pub mod checkpoints;
@@ -27,6 +26,7 @@ pub mod idempotency;
 pub mod jobs;
 pub mod labels;
 mod leftovers;
+mod legs;
 pub mod limits;
 #[cfg(feature = "cluster")]
 pub mod machines;
@@ -65,6 +65,7 @@ pub use changes::Changes;
 pub use copy::{Copied, CopyError, CopyProgress, copy};
 pub use error::StoreError;
 pub use handle::{LOCK, Store};
+pub use legs::Followed;
 pub use objects::{Address, AddressError};
 pub use postgres::migrate;
 pub use readiness::Backlog;

@@ -37,6 +37,10 @@ pub enum Document {
     BranchLeg(u32),
     /// How far branches have been followed, of a job under way.
     BranchCourse,
+    /// So manyeth stretch of run-ups.
+    RunUpLeg(u32),
+    /// How far run-ups have got, of a job under way.
+    RunUpCourse,
 }
 
 impl Document {
@@ -52,6 +56,8 @@ impl Document {
             Self::States(part),
             Self::BranchLeg(part),
             Self::BranchCourse,
+            Self::RunUpLeg(part),
+            Self::RunUpCourse,
         ];
         let found = all.into_iter().find(|document| document.columns().0 == name);
         found.ok_or_else(|| StoreError::Unknown { column: "documents.name", value: name.to_owned() })
@@ -69,6 +75,8 @@ impl Document {
             Self::States(speed) => ("states", speed),
             Self::BranchLeg(index) => ("branches", index),
             Self::BranchCourse => ("branch_course", 0),
+            Self::RunUpLeg(index) => ("run_ups", index),
+            Self::RunUpCourse => ("run_up_course", 0),
         }
     }
 }

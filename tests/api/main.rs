@@ -36,6 +36,7 @@ mod program;
 mod refine;
 mod report;
 mod revolutions;
+mod run_ups;
 mod sensors;
 mod small_disk;
 mod steady;

@@ -15,5 +15,6 @@ mod node_sensors;
 #[path = "../oracle/mod.rs"]
 mod oracle;
 mod plain_agreement;
+mod run_ups;
 mod schemes;
 mod sweep;

@@ -38,7 +38,7 @@ pub use crate::result::{
 };
 pub use crate::run_up::march::{RunUpCourse, run_up_leg};
 pub use crate::run_up::plan::{plan_run_ups, run_ups_memory};
-pub use crate::run_up::told::run_ups;
+pub use crate::run_up::told::{run_ups, spectrogram};
 pub use crate::speed::run_speed;
 pub use crate::summary::{
     critical_indices, critical_speeds, fixed_frame_orders, fixed_frame_row, interaction_map,

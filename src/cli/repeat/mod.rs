@@ -79,7 +79,11 @@ async fn repeat(archived: &Archive, client: &Client, folder: &Path, to: &Path) -
         JobKind::Sweep => "/v1/sweeps",
         JobKind::ModalAnalysis => "/v1/modal-analyses",
         JobKind::Study => "/v1/studies",
-        JobKind::ModelGeneration | JobKind::CaseStudy | JobKind::Branches | JobKind::Campaign => {
+        JobKind::ModelGeneration
+        | JobKind::CaseStudy
+        | JobKind::Branches
+        | JobKind::RunUp
+        | JobKind::Campaign => {
             bail!("jobs of this kind are not repeated from an archive")
         }
     };

@@ -13,6 +13,8 @@ pub(super) enum Kind {
     CaseStudy,
     /// Periodic responses over speed, clearance, lobes or damping
     Branches,
+    /// A wheel whose speed changes: run-ups and run-downs
+    RunUp,
     /// Contact over a range of speeds, of many designs of a scene
     Campaign,
     /// What accuracy costs in time
@@ -29,6 +31,7 @@ impl Kind {
             Self::ModalAnalysis => "/v1/modal-analyses",
             Self::CaseStudy => "/v1/case-studies",
             Self::Branches => "/v1/branches",
+            Self::RunUp => "/v1/run-ups",
             Self::Campaign => "/v1/campaigns",
             Self::Study => "/v1/studies",
             Self::ModelGeneration => "/v1/models",
@@ -42,6 +45,7 @@ impl Kind {
             Self::ModalAnalysis => "modal_analysis",
             Self::CaseStudy => "case_study",
             Self::Branches => "branches",
+            Self::RunUp => "run_up",
             Self::Campaign => "campaign",
             Self::Study => "study",
             Self::ModelGeneration => "model_generation",

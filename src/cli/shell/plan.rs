@@ -9,7 +9,7 @@ use super::kind::Kind;
 use super::submit::RequestArgs;
 use crate::analysis::result::{
     BranchesPlan, CampaignPlan, Estimate, Machine, ModalAnalysisPlan, PlannedEffect, ReductionState,
-    SweepPlan,
+    RunUpPlan, SweepPlan,
 };
 use crate::cli::client::{Client, ServerArgs};
 use crate::cli::size::size;
@@ -24,7 +24,7 @@ pub(in crate::cli) struct PlanArgs {
     request: RequestArgs,
     /// What would be computed
     #[arg(long, default_value = "sweep", value_parser =
-        PossibleValuesParser::new(["sweep", "modal-analysis", "branches", "campaign", "model-generation"]).try_map(|kind| Kind::from_str(&kind, false)))]
+        PossibleValuesParser::new(["sweep", "modal-analysis", "branches", "run-up", "campaign", "model-generation"]).try_map(|kind| Kind::from_str(&kind, false)))]
     kind: Kind,
     /// Print the plan as JSON
     #[arg(long)]
@@ -51,6 +51,7 @@ impl Verb for PlanArgs {
         let words = match self.kind {
             Kind::ModalAnalysis => modal_analysis(&client.post(&path, &body).await?),
             Kind::Branches => branches(&client.post(&path, &body).await?),
+            Kind::RunUp => run_ups(&client.post(&path, &body).await?),
             Kind::Campaign => campaign(&client.post(&path, &body).await?),
             Kind::ModelGeneration => generation(&client.post(&path, &body).await?),
             _ => sweep(&client.post(&path, &body).await?),
@@ -97,6 +98,28 @@ fn branches(plan: &BranchesPlan) -> String {
     }
     if let Some(message) = plan.point.as_ref().and_then(|point| point.message.as_ref()) {
         let _ = writeln!(words, "not         {message}");
+    }
+    warnings(words, &plan.warnings)
+}
+
+fn run_ups(plan: &RunUpPlan) -> String {
+    let mut words = effects(&plan.effects);
+    for run in &plan.runs {
+        let rate = run.rate_rad_s2.map_or_else(String::new, |rate| format!("{rate:.4} rad/s²: "));
+        let _ = writeln!(
+            words,
+            "run         {rate}{:.4} s, {} revolutions in {} pieces of one speed",
+            run.duration_s, run.revolutions, run.segments
+        );
+        if let Some(message) = &run.message {
+            let _ = writeln!(words, "not         {message}");
+        }
+    }
+    times_of(&mut words, plan.machine.as_ref());
+    reduction(&mut words, plan.reduction, plan.reduced_unknowns_at_most);
+    if let Some(estimate) = &plan.estimate {
+        cost(&mut words, estimate, ["", ""]);
+        let _ = writeln!(words, "steps       {:.3} million", estimate.steps as f64 / 1e6);
     }
     warnings(words, &plan.warnings)
 }

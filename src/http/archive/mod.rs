@@ -90,6 +90,10 @@ fn repeatable(job: &Job) -> Result<(String, RequestBody), Problem> {
             let detail = "branches have no archive: their result has the settings that repeat them";
             return Err(Problem::new(Kind::WrongJobKind, detail));
         }
+        JobRequest::RunUps(_) => {
+            let detail = "run-ups have no archive: their result has the settings that repeat them";
+            return Err(Problem::new(Kind::WrongJobKind, detail));
+        }
         JobRequest::Campaign(_) => {
             let detail = "a campaign has no archive: its result has the settings that repeat it, and every design can be posted as a sweep, \
                 which has one";

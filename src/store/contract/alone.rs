@@ -187,18 +187,21 @@ async fn legs_of_branches_are_kept_with_the_course_after_them() {
     for store in stores().await {
         upload(&store, "eve", 'a', &Labels::default()).await;
         let job = queue(&store, "eve", 'a', 1, &Labels::default()).await;
-        assert_eq!(store.legs(job).await.unwrap(), 0);
-        store.keep_leg(job, 0, "[1]", Some("{\"at\": 1}")).await.unwrap();
-        store.keep_leg(job, 1, "[22]", Some("{\"at\": 2}")).await.unwrap();
+        assert_eq!(store.legs(job, Followed::Branches).await.unwrap(), 0);
+        store.keep_leg(job, (Followed::Branches, 0), "[1]", Some("{\"at\": 1}")).await.unwrap();
+        store.keep_leg(job, (Followed::Branches, 1), "[22]", Some("{\"at\": 2}")).await.unwrap();
         // Somebody was slower.
-        store.keep_leg(job, 0, "[3]", Some("{\"at\": 3}")).await.unwrap();
+        store.keep_leg(job, (Followed::Branches, 0), "[3]", Some("{\"at\": 3}")).await.unwrap();
         let text = async |document| store.document(job, document).await.unwrap();
-        assert_eq!(store.legs(job).await.unwrap(), 2);
+        assert_eq!(store.legs(job, Followed::Branches).await.unwrap(), 2);
         assert_eq!(text(Document::BranchLeg(0)).await.as_deref(), Some("[1]"));
         assert_eq!(text(Document::BranchCourse).await.as_deref(), Some("{\"at\": 2}"));
         assert_eq!(store.job(job).await.unwrap().unwrap().stored_bytes, 7);
-        store.keep_leg(job, 2, "[4]", None).await.unwrap();
-        assert_eq!((store.legs(job).await.unwrap(), text(Document::BranchCourse).await), (3, None));
+        store.keep_leg(job, (Followed::Branches, 2), "[4]", None).await.unwrap();
+        assert_eq!(
+            (store.legs(job, Followed::Branches).await.unwrap(), text(Document::BranchCourse).await),
+            (3, None)
+        );
     }
 }
 

@@ -21,6 +21,8 @@ pub enum JobKind {
     CaseStudy,
     /// Periodic responses over a number of their scene.
     Branches,
+    /// A scene whose speed changes.
+    RunUp,
     /// Contact simulations over speeds, of many designs of a scene.
     Campaign,
 }
@@ -35,6 +37,7 @@ impl JobKind {
             Self::Study => "study",
             Self::CaseStudy => "case_study",
             Self::Branches => "branches",
+            Self::RunUp => "run_up",
             Self::Campaign => "campaign",
         }
     }
@@ -48,6 +51,7 @@ impl JobKind {
             Self::Study,
             Self::CaseStudy,
             Self::Branches,
+            Self::RunUp,
             Self::Campaign,
         ];
         let kind = kinds.into_iter().find(|kind| kind.as_str() == text);

@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 use super::job_kind::JobKind;
 use crate::analysis::error::Violation;
 use crate::analysis::resolved::{
-    ResolvedBranches, ResolvedCampaign, ResolvedCaseStudy, ResolvedModalAnalysis, ResolvedStudy,
-    ResolvedSweep,
+    ResolvedBranches, ResolvedCampaign, ResolvedCaseStudy, ResolvedModalAnalysis, ResolvedRunUps,
+    ResolvedStudy, ResolvedSweep,
 };
 use crate::impeller::ImpellerParameters;
 use crate::store::error::StoreError;
@@ -27,6 +27,8 @@ pub enum JobRequest {
     CaseStudy(Box<ResolvedCaseStudy>),
     /// Periodic responses over a number of their scene.
     Branches(Box<ResolvedBranches>),
+    /// A scene whose speed changes.
+    RunUps(Box<ResolvedRunUps>),
     /// Contact simulations over speeds, of many designs of a scene.
     Campaign(Box<ResolvedCampaign>),
 }
@@ -53,6 +55,7 @@ impl JobRequest {
             Self::Study(_) => JobKind::Study,
             Self::CaseStudy(_) => JobKind::CaseStudy,
             Self::Branches(_) => JobKind::Branches,
+            Self::RunUps(_) => JobKind::RunUp,
             Self::Campaign(_) => JobKind::Campaign,
         }
     }
@@ -71,6 +74,7 @@ impl JobRequest {
             Self::Study(request) => Some(request.model()),
             Self::CaseStudy(case) => Some(case.sweep().model()),
             Self::Branches(branches) => Some(branches.sweep().model()),
+            Self::RunUps(asked) => Some(asked.sweep().model()),
             Self::Campaign(campaign) => Some(campaign.sweep().model()),
         }
     }
@@ -92,6 +96,7 @@ impl JobRequest {
             Self::Study(request) => request.speeds().count(),
             Self::CaseStudy(case) => case.speeds().len() as u32,
             Self::Branches(branches) => branches.sweep().speeds().count(),
+            Self::RunUps(asked) => asked.runs(),
             Self::Campaign(campaign) => campaign.simulations(),
         }
     }
@@ -111,6 +116,7 @@ impl JobRequest {
             Self::ModalAnalysis(request) => request.modes().given(),
             Self::CaseStudy(case) => case.sweep().modes().given(),
             Self::Branches(branches) => branches.sweep().modes().given(),
+            Self::RunUps(asked) => asked.sweep().modes().given(),
             Self::Campaign(campaign) => campaign.sweep().modes().given(),
             Self::ModelGeneration(_) | Self::Study(_) => None,
         }
@@ -124,6 +130,7 @@ impl JobRequest {
             Self::Study(request) => kept(request, 0),
             Self::CaseStudy(case) => kept(case, case.sweep().speeds().rounds()),
             Self::Branches(branches) => kept(branches, 0),
+            Self::RunUps(asked) => kept(asked, 0),
             Self::Campaign(campaign) => kept(campaign, 0),
         }
     }
@@ -145,6 +152,7 @@ impl JobRequest {
             JobKind::Branches => {
                 Self::Branches(Box::new(ResolvedBranches::stored(read(json)?.0).map_err(unsound)?))
             }
+            JobKind::RunUp => Self::RunUps(Box::new(ResolvedRunUps::stored(read(json)?.0).map_err(unsound)?)),
             JobKind::Campaign => {
                 Self::Campaign(Box::new(ResolvedCampaign::stored(read(json)?.0).map_err(unsound)?))
             }

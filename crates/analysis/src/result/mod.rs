@@ -53,6 +53,7 @@ pub use reduction::{
 pub use refinement::{Refinement, Unresolvable, Unresolved};
 pub use run_up::{
     LargestOfRun, PassingRate, PlannedRunUp, RunUp, RunUpEnd, RunUpFrame, RunUpLeg, RunUpPlan, RunUps,
+    Spectrogram,
 };
 pub use steady::{FloquetMultiplier, MarchReport, Stability, SteadyReport};
 pub use stress::{

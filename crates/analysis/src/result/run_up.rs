@@ -143,6 +143,34 @@ pub struct PassingRate {
     pub message: String,
 }
 
+/// Amplitudes of a run over engine order and speed.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct Spectrogram {
+    /// Number of the run.
+    pub run: u32,
+    /// By how much its speed changes, rad/s² without a sign; absent of a run through points.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rate_rad_s2: Option<f64>,
+    /// The sensor.
+    pub sensor: Sensor,
+    /// Units of lengths.
+    pub units: Units,
+    /// Engine orders of the lines. A line has the frequency of its order times the speed over 2π.
+    pub engine_orders: Vec<f64>,
+    /// Middle of every frame, s.
+    pub times_s: Vec<f64>,
+    /// Speeds at the beginning and the end of every frame, rad/s. A frequency that stays while the speed changes is smeared over as much of
+    /// its order.
+    pub speeds_rad_s: Vec<[f64; 2]>,
+    /// `[frame][line]`: amplitudes at the sensor's sector, under a Hann window.
+    pub amplitudes: Vec<Vec<f64>>,
+    /// What was asked for, with every default filled in.
+    pub settings: RunUpSettings,
+    /// Version of the program.
+    pub version: String,
+}
+
 /// Some frames of a run: as they are kept.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RunUpLeg {

@@ -9,7 +9,6 @@ use crate::calibration::size::StepSize;
 use crate::effects::symmetry::result::FoundSymmetry;
 use crate::effects::table::planned;
 use crate::end_state::Shapes;
-use crate::error::AnalysisError;
 use crate::model::{ModelFacts, ReducedSector};
 use crate::not_runnable::NotRunnable;
 use crate::plan::{contact_pairs, reduced_bytes, reduced_unknowns, running_bytes, state, touching, warnings};
@@ -20,20 +19,15 @@ use crate::wheel::wheel_of;
 use rubmap_wheel::revision::VERSION;
 
 /// Plans resolved run-ups; without `reduced`, what can be said without it. Which machine was measured is for the caller to add.
-///
-/// # Errors
-/// A refusal where the speed changes too fast for the angle's tolerance.
 pub fn plan_run_ups(
     asked: &ResolvedRunUps,
     facts: &ModelFacts,
     reduced: Option<&ReducedSector>,
     calibration: &Calibration,
-) -> Result<RunUpPlan, AnalysisError> {
+) -> RunUpPlan {
     let sweep = asked.sweep();
-    let mut runs = Vec::new();
-    for run in 0..asked.runs() {
-        runs.push(plan_run(asked, facts, reduced, calibration, run)?);
-    }
+    let runs: Vec<_> =
+        (0..asked.runs()).map(|run| plan_run(asked, facts, reduced, calibration, run)).collect();
     let estimate = reduced.and_then(|reduced| {
         let mut all = CostRange { free: 0.0, contact: 0.0 };
         let mut steps = 0;
@@ -52,7 +46,7 @@ pub fn plan_run_ups(
             speed_memory_bytes: memory,
         })
     });
-    Ok(RunUpPlan {
+    RunUpPlan {
         effects: planned(&sweep.scene),
         symmetry: FoundSymmetry::of(&sweep.scene, facts.sectors),
         contact_pairs: contact_pairs(&sweep.scene, facts),
@@ -64,7 +58,7 @@ pub fn plan_run_ups(
         warnings: warnings(&sweep.scene, facts, reduced),
         settings: asked.clone().into(),
         version: VERSION.to_owned(),
-    })
+    }
 }
 
 fn plan_run(
@@ -73,29 +67,35 @@ fn plan_run(
     reduced: Option<&ReducedSector>,
     calibration: &Calibration,
     run: u32,
-) -> Result<PlannedRunUp, AnalysisError> {
-    let march = March::new(asked, facts.sectors as usize, run)?;
+) -> PlannedRunUp {
+    let profile = asked.speed.profile(run);
+    let revolutions = profile.revolutions();
     let planned = PlannedRunUp {
         rate_rad_s2: asked.speed.rate(run),
-        duration_s: march.profile.duration_s(),
-        revolutions: march.profile.revolutions(),
-        frame_revolutions: march.frame_revolutions,
-        segments: march.segments.len() as u64,
+        duration_s: profile.duration_s(),
+        revolutions,
+        frame_revolutions: asked.frame_revolutions(revolutions),
+        segments: 0,
         message: None,
         scheme: None,
         steps: None,
         computing_time_s: None,
     };
-    let Some(reduced) = reduced else { return Ok(planned) };
-    Ok(match price(&march, reduced, calibration) {
-        Ok((scheme, steps, computing_time_s)) => PlannedRunUp {
+    let march = match March::new(asked, facts.sectors as usize, run) {
+        Ok(march) => march,
+        Err(reason) => return PlannedRunUp { message: Some(reason.to_string()), ..planned },
+    };
+    let planned = PlannedRunUp { segments: march.segments.len() as u64, ..planned };
+    match reduced.map(|reduced| price(&march, reduced, calibration)) {
+        None => planned,
+        Some(Ok((scheme, steps, computing_time_s))) => PlannedRunUp {
             scheme: Some(scheme),
             steps: Some(steps),
             computing_time_s: Some(computing_time_s),
             ..planned
         },
-        Err(reason) => PlannedRunUp { message: Some(reason.to_string()), ..planned },
-    })
+        Some(Err(reason)) => PlannedRunUp { message: Some(reason.to_string()), ..planned },
+    }
 }
 
 /// Scheme at the lowest speed, steps and time of a run: of every band what a step takes, and of every segment what setting it up took just

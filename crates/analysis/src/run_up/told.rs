@@ -3,13 +3,27 @@
 use super::passing::passing;
 use crate::model::ModelFacts;
 use crate::resolved::ResolvedRunUps;
-use crate::result::{PointStatus, RunUp, RunUpEnd, RunUpLeg, RunUps};
+use crate::result::{PointStatus, RunUp, RunUpEnd, RunUpLeg, RunUps, Spectrogram};
 use rubmap_wheel::revision::VERSION;
 
 impl RunUpEnd {
     /// Whether the run came to its end.
     pub fn is_complete(&self) -> bool {
         self.status == PointStatus::Completed
+    }
+}
+
+impl RunUpLeg {
+    /// Number of its run.
+    pub fn run(&self) -> u32 {
+        self.run
+    }
+}
+
+impl RunUps {
+    /// Leaves out what a [`spectrogram`] tells.
+    pub fn leave_out_spectra(&mut self) {
+        self.runs.iter_mut().flat_map(|run| &mut run.frames).for_each(|frame| frame.spectra.clear());
     }
 }
 
@@ -38,5 +52,24 @@ pub fn run_ups(asked: &ResolvedRunUps, facts: &ModelFacts, legs: Vec<RunUpLeg>) 
         settings: asked.clone().into(),
         version: VERSION.to_owned(),
         vectors,
+    })
+}
+
+/// Amplitudes of a sensor in a run, frame by frame; none of a run or a sensor that is not there.
+pub fn spectrogram(run_ups: &RunUps, run: u32, sensor: usize) -> Option<Spectrogram> {
+    let found = run_ups.runs.iter().find(|found| found.run == run)?;
+    let frames = || found.frames.iter().filter(|frame| !frame.spectra.is_empty());
+    let lines = frames().next().map_or(0, |frame| frame.spectra.get(sensor).map_or(0, Vec::len));
+    Some(Spectrogram {
+        run,
+        rate_rad_s2: found.rate_rad_s2,
+        sensor: *run_ups.sensors.get(sensor)?,
+        units: run_ups.units.clone(),
+        engine_orders: (0..lines).map(|line| line as f64 * found.order_step).collect(),
+        times_s: frames().map(|frame| 0.5 * (frame.times_s[0] + frame.times_s[1])).collect(),
+        speeds_rad_s: frames().map(|frame| frame.speeds_rad_s).collect(),
+        amplitudes: frames().filter_map(|frame| frame.spectra.get(sensor).cloned()).collect(),
+        settings: run_ups.settings.clone(),
+        version: run_ups.version.clone(),
     })
 }

@@ -1,4 +1,4 @@
-//! Legs of branches, and how far they have been followed.
+//! What is followed leg by leg, and how far it has been: branches and run-ups.
 
 use super::dialect::Guarded;
 use super::error::StoreError;
@@ -7,20 +7,47 @@ use super::jobs::job::JobId;
 use super::results::{Document, insert_document, keep_result};
 use super::sql::of;
 
+/// What has legs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Followed {
+    /// Branches of periodic responses.
+    Branches,
+    /// Wheels whose speed changes.
+    RunUps,
+}
+
+impl Followed {
+    /// A leg of it.
+    pub fn leg(self, index: u32) -> Document {
+        match self {
+            Self::Branches => Document::BranchLeg(index),
+            Self::RunUps => Document::RunUpLeg(index),
+        }
+    }
+
+    /// How far it has been followed.
+    pub fn course(self) -> Document {
+        match self {
+            Self::Branches => Document::BranchCourse,
+            Self::RunUps => Document::RunUpCourse,
+        }
+    }
+}
+
 impl Store {
     /// Keeps leg `index` of a job together with the course after it, in place of the one before; none where nothing is left to follow. A
     /// leg that is there already stays as it is, and so does its course; a job that was deleted keeps nothing.
     pub async fn keep_leg(
         &self,
         job: JobId,
-        index: u32,
+        (followed, index): (Followed, u32),
         leg: &str,
         course: Option<&str>,
     ) -> Result<(), StoreError> {
         let mut transaction = self.write().await?;
         transaction.guard(Guarded::Job(job)).await?;
-        if keep_result(&mut transaction, job, Document::BranchLeg(index), leg).await? {
-            let (name, part) = Document::BranchCourse.columns();
+        if keep_result(&mut transaction, job, followed.leg(index), leg).await? {
+            let (name, part) = followed.course().columns();
             sqlx::query("delete from documents where job = $1 and name = $2 and part = $3")
                 .bind(job.to_string())
                 .bind(name)
@@ -28,7 +55,7 @@ impl Store {
                 .execute(&mut *transaction)
                 .await?;
             if let Some(course) = course {
-                insert_document(&mut transaction, job, Document::BranchCourse, course).await?;
+                insert_document(&mut transaction, job, followed.course(), course).await?;
             }
         }
         transaction.commit_job(job).await?;
@@ -36,8 +63,8 @@ impl Store {
     }
 
     /// How many legs of a job there are.
-    pub async fn legs(&self, job: JobId) -> Result<u32, StoreError> {
-        let (name, _) = Document::BranchLeg(0).columns();
+    pub async fn legs(&self, job: JobId, followed: Followed) -> Result<u32, StoreError> {
+        let (name, _) = followed.leg(0).columns();
         let count: i64 = sqlx::query_scalar("select count(*) from documents where job = $1 and name = $2")
             .bind(job.to_string())
             .bind(name)

@@ -1,0 +1,65 @@
+//! Results that are kept leg by leg.
+
+use serde::de::DeserializeOwned;
+use tokio::runtime::Handle;
+
+use super::forms::READ_MEMORY;
+use super::problem::{Kind, Problem};
+use super::state::AppState;
+use crate::store::jobs::{Job, JobId};
+use crate::store::status::JobStatus;
+use crate::store::{Followed, Store};
+
+/// Legs of a job, so far.
+pub(super) struct Legs {
+    store: Store,
+    runtime: Handle,
+    job: JobId,
+    followed: Followed,
+    count: u32,
+    stored_bytes: u64,
+}
+
+impl Legs {
+    /// Those of `job`.
+    ///
+    /// # Errors
+    /// That it has no `thing` yet, or never will.
+    pub(super) async fn of(
+        state: &AppState,
+        job: &Job,
+        followed: Followed,
+        thing: &str,
+    ) -> Result<Self, Problem> {
+        let count = state.store.legs(job.id, followed).await?;
+        if count == 0 {
+            let kind = match job.status {
+                JobStatus::Accepted | JobStatus::Running | JobStatus::Paused => Kind::ResultNotReady,
+                _ => Kind::ResultUnavailable,
+            };
+            let detail = format!("the job is {} and has no {thing}", job.status.as_str());
+            return Err(Problem::new(kind, detail));
+        }
+        let mut stored_bytes = 0;
+        for index in 0..count {
+            stored_bytes += state.store.document_bytes(job.id, followed.leg(index)).await?.unwrap_or(0);
+        }
+        let (store, runtime) = (state.store.clone(), Handle::current());
+        Ok(Self { store, runtime, job: job.id, followed, count, stored_bytes })
+    }
+
+    /// Memory that reading them takes.
+    pub(super) fn bytes(&self) -> u64 {
+        READ_MEMORY * self.stored_bytes
+    }
+
+    /// Reads them, waiting.
+    pub(super) fn read<L: DeserializeOwned>(&self) -> Result<Vec<L>, Problem> {
+        let mut found = Vec::new();
+        for index in 0..self.count {
+            let text = self.runtime.block_on(self.store.document(self.job, self.followed.leg(index)))?;
+            found.extend(text.map(|text| serde_json::from_str(&text)).transpose()?);
+        }
+        Ok(found)
+    }
+}

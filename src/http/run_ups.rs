@@ -1,0 +1,229 @@
+//! Run-ups and run-downs: a scene whose speed changes.
+
+use axum::Json;
+use axum::extract::State;
+use axum::response::Response;
+use serde::Deserialize;
+use utoipa::{IntoParams, ToSchema};
+
+use super::download::{Download, DownloadQuery, lasting};
+use super::extract::{JobPath, JsonBody, Parameters, job_not_found};
+use super::forms::Forms;
+use super::idempotency::IdempotencyKey;
+use super::labels::Labelled;
+use super::legs::Legs;
+use super::problem::{Kind, Problem};
+use super::results::{check_sensor, find, swept, wrong_kind};
+use super::state::AppState;
+use super::submit::{self, Receipt};
+use crate::analysis::request::RunUpRequest;
+use crate::analysis::resolved::ResolvedRunUps;
+use crate::analysis::result::{RunUpLeg, RunUpPlan, RunUps, Spectrogram};
+use crate::analysis::run::{self, ModelFacts};
+use crate::jobs::Submission;
+use crate::plot;
+use crate::store::Followed;
+use crate::store::jobs::{Job, JobKind, JobRequest};
+use crate::tokens::Principal;
+
+type RunUpBody = Labelled<RunUpRequest>;
+
+/// Run a wheel up or down through its critical speeds.
+///
+/// The speed changes at given rates, a run for each, or through given points; stiffness, modes, clearances given cold and all that acts by the
+/// angle follow it. What was found so far is that of `GET /v1/jobs/{id}/run-ups` and `GET /v1/jobs/{id}/spectrogram`, while it is computed,
+/// too. With several rates and a `limit` it is said how fast one must pass.
+#[utoipa::path(post, path = "/v1/run-ups", operation_id = "create_run_ups", tag = "jobs",
+    params(("Idempotency-Key" = Option<String>, Header,
+        description = "Repeating the request with this key repeats its answer and starts nothing.")),
+    request_body(content = RunUpBody, example = json!({
+        "model": "9f86d081884c7d659a2feaa0c55ad015a3bf4f1b2b0b822cd15d6c15b0f00a08",
+        "speed": {"unit": "rpm", "from": 20000.0, "to": 28000.0, "rates": [500.0, 2000.0, 8000.0]},
+        "scene": {
+            "centrifugal_stiffening": true,
+            "damping": {"modal_ratio": 0.005},
+            "casing": {
+                "clearance": {"leading": 0.30, "trailing": 0.22},
+                "lobes": {"count": 2, "amplitude": 0.425, "width_rad": 0.35}
+            },
+            "contact": {}
+        },
+        "limit": 0.5
+    })),
+    responses(
+        (status = 202, description = "The job is accepted.", body = Receipt,
+            headers(("Location" = String, description = "Path of the job."))),
+        (status = 400, description = "The body is not JSON; `errors` has line and column.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 413, description = "The body is too large.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 415, description = "The body is not declared as application/json.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 422, description = "A field is unknown, missing or impossible, the model is unknown (`errors` \
+            points at each), or the idempotency key belongs to another request.", body = Problem,
+            content_type = "application/problem+json"),
+    ))]
+pub(super) async fn create_run_ups(
+    state: State<AppState>,
+    whose: Principal,
+    key: IdempotencyKey,
+    body: JsonBody<RunUpBody>,
+) -> Result<Response, Problem> {
+    let (request, labels) = body.value.parts()?;
+    let submission = (Submission::RunUps(Box::new(request)), labels);
+    submit::accept(&state, &whose, key, &body.fingerprint, submission).await
+}
+
+/// Say what run-ups would do and cost, without starting anything.
+///
+/// Takes the body of `POST /v1/run-ups` and answers at once: durations, revolutions and pieces of one speed; if the reduction is stored, steps
+/// and the times that they are expected to take, from a short calibration of this machine.
+#[utoipa::path(post, path = "/v1/run-ups/plan", operation_id = "plan_run_ups", tag = "jobs",
+    request_body = RunUpBody,
+    responses(
+        (status = 200, description = "The plan.", body = RunUpPlan),
+        (status = 400, description = "The body is not JSON; `errors` has line and column.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 413, description = "The body is too large.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 415, description = "The body is not declared as application/json.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 422, description = "As for `POST /v1/run-ups`.", body = Problem,
+            content_type = "application/problem+json"),
+    ))]
+pub(super) async fn plan_run_ups(
+    State(state): State<AppState>,
+    whose: Principal,
+    body: JsonBody<RunUpBody>,
+) -> Result<Json<RunUpPlan>, Problem> {
+    Ok(Json(state.jobs.plan_run_ups(&whose, body.value.parts()?.0).await?))
+}
+
+/// What to draw of run-ups.
+#[derive(Debug, Deserialize, IntoParams)]
+#[into_params(parameter_in = Query)]
+pub(super) struct RunUpsQuery {
+    /// Of the drawing: index of the sensor in the request; default 0.
+    #[serde(default)]
+    sensor: u32,
+    /// Of the drawing: id of a sweep of the same model, whose speeds are drawn as dots. Its scene is taken as it is.
+    #[param(max_length = 64)]
+    sweep: Option<String>,
+}
+
+/// Download what run-ups came to: envelopes over the speed.
+///
+/// Of a job that is not finished, failed or was dismissed those frames that are there. In csv a line is a frame; npz has an array per column of
+/// it. Spectra are those of `GET /v1/jobs/{id}/spectrogram`.
+#[utoipa::path(get, path = "/v1/jobs/{id}/run-ups", operation_id = "get_run_ups", tag = "results",
+    params(("id" = String, Path, description = "Id of run-ups."), RunUpsQuery, DownloadQuery),
+    responses(
+        (status = 200, description = "The run-ups.", body = RunUps),
+        (status = 400, description = "A parameter is not valid.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 404, description = "There is no such job.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 409, description = "The job is of another kind, or has no frame yet.", body = Problem,
+            content_type = "application/problem+json"),
+    ))]
+pub(super) async fn get_run_ups(
+    state: State<AppState>,
+    whose: Principal,
+    JobPath(id): JobPath,
+    Parameters(query): Parameters<RunUpsQuery>,
+    download: Download,
+) -> Result<Response, Problem> {
+    let job = find(&state, &whose, id).await?;
+    let (asked, facts) = asked(&job)?;
+    check_sensor(asked.sweep().sensors(), query.sensor)?;
+    let steady = swept(&state, &whose, query.sweep.as_deref(), &job).await?;
+    let legs = Legs::of(&state, &job, Followed::RunUps, FRAME).await?;
+    let bytes = legs.bytes();
+    let (asked, facts) = (asked.clone(), facts.clone());
+    let read = move || {
+        let mut found = run::run_ups(&asked, &facts, legs.read()?).ok_or_else(|| job_not_found(&id))?;
+        found.leave_out_spectra();
+        Ok(found)
+    };
+    Forms::undrawn().answer(&state, download, lasting(&job), bytes, read).await
+}
+
+/// Which spectrogram to download.
+#[derive(Debug, Deserialize, IntoParams)]
+#[into_params(parameter_in = Query)]
+pub(super) struct SpectrogramQuery {
+    /// Number of the run, from 0; default 0.
+    #[serde(default)]
+    run: u32,
+    /// Index of the sensor in the request; default 0.
+    #[serde(default)]
+    sensor: u32,
+    /// Of the drawing: what stands beside the speed.
+    #[serde(default)]
+    #[param(inline)]
+    over: Over,
+}
+
+/// What the lines of a drawn spectrogram are told by.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum Over {
+    /// The engine order; the default.
+    #[default]
+    Order,
+    /// The frequency in Hz: engine orders fan out.
+    Hz,
+}
+
+/// Download the amplitudes of a run over engine order and speed.
+///
+/// Of a job that is not finished those frames that are there. In csv a line is a frame, a column an engine order; npz has `amplitudes` as
+/// `[frame][line]`.
+#[utoipa::path(get, path = "/v1/jobs/{id}/spectrogram", operation_id = "get_spectrogram", tag = "results",
+    params(("id" = String, Path, description = "Id of run-ups."), SpectrogramQuery, DownloadQuery),
+    responses(
+        (status = 200, description = "The spectrogram.", body = Spectrogram),
+        (status = 400, description = "A parameter is not valid.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 404, description = "There is no such job.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 409, description = "The job is of another kind, or has no frame of this run yet.", body = Problem,
+            content_type = "application/problem+json"),
+    ))]
+pub(super) async fn get_spectrogram(
+    state: State<AppState>,
+    whose: Principal,
+    JobPath(id): JobPath,
+    Parameters(query): Parameters<SpectrogramQuery>,
+    download: Download,
+) -> Result<Response, Problem> {
+    let job = find(&state, &whose, id).await?;
+    let (asked, facts) = asked(&job)?;
+    check_sensor(asked.sweep().sensors(), query.sensor)?;
+    if query.run >= asked.runs() {
+        let detail = format!("the job has {} runs, counted from 0", asked.runs());
+        return Err(Problem::parameter("run", detail));
+    }
+    let legs = Legs::of(&state, &job, Followed::RunUps, FRAME).await?;
+    let bytes = legs.bytes();
+    let (asked, facts) = (asked.clone(), facts.clone());
+    let SpectrogramQuery { run: number, sensor, over } = query;
+    let read = move || {
+        let legs: Vec<RunUpLeg> = legs.read()?;
+        let of_run = legs.into_iter().filter(|leg| leg.run() == number).collect();
+        let found = run::run_ups(&asked, &facts, of_run);
+        let found = found.and_then(|found| run::spectrogram(&found, number, sensor as usize));
+        found.ok_or_else(|| Problem::new(Kind::ResultNotReady, format!("run {number} has not begun")))
+    };
+    Forms::undrawn().answer(&state, download, lasting(&job), bytes, read).await
+}
+
+/// What a job lacks that has only begun.
+const FRAME: &str = "frame of a run";
+
+fn asked(job: &Job) -> Result<(&ResolvedRunUps, &ModelFacts), Problem> {
+    match (&job.request, &job.facts) {
+        (JobRequest::RunUps(asked), Some(facts)) => Ok((asked, facts)),
+        _ => Err(wrong_kind(job, JobKind::RunUp)),
+    }
+}
