@@ -61,6 +61,7 @@ impl Export for RunUps {
         arrays.extend([
             Array::json("passing", &self.passing),
             Array::sensors(&self.sensors),
+            Array::json("units", &self.units),
             Array::json("settings", &self.settings),
             Array::text("version", &self.version),
         ]);
@@ -88,6 +89,8 @@ impl Export for Spectrogram {
         arrays.extend([
             Array::reals("engine_orders", self.engine_orders.iter().copied()),
             Array::rows("amplitudes", self.amplitudes.iter().map(Vec::as_slice)),
+            Array::sensors([&self.sensor]),
+            Array::json("units", &self.units),
             Array::json("settings", &self.settings),
             Array::text("version", &self.version),
         ]);

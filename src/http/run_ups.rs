@@ -3,7 +3,7 @@
 use axum::Json;
 use axum::extract::State;
 use axum::response::Response;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use utoipa::{IntoParams, ToSchema};
 
 use super::download::{Download, DownloadQuery, lasting};
@@ -20,6 +20,7 @@ use crate::analysis::request::RunUpRequest;
 use crate::analysis::resolved::ResolvedRunUps;
 use crate::analysis::result::{RunUpLeg, RunUpPlan, RunUps, Spectrogram};
 use crate::analysis::run::{self, ModelFacts};
+use crate::export::{Array, Export};
 use crate::jobs::Submission;
 use crate::plot;
 use crate::store::Followed;
@@ -145,7 +146,11 @@ pub(super) async fn get_run_ups(
         found.leave_out_spectra();
         Ok(found)
     };
-    Forms::undrawn().answer(&state, download, lasting(&job), bytes, read).await
+    let sensor = query.sensor as usize;
+    let dots = steady.clone();
+    let draw = move |run_ups: &RunUps| plot::run_ups(run_ups, sensor, &dots);
+    let figure = move |run_ups: &RunUps| plot::figure::run_ups(run_ups, sensor, &steady);
+    Forms::drawn_by(draw, figure).answer(&state, download, lasting(&job), bytes, read).await
 }
 
 /// Which spectrogram to download.
@@ -208,14 +213,44 @@ pub(super) async fn get_spectrogram(
     let bytes = legs.bytes();
     let (asked, facts) = (asked.clone(), facts.clone());
     let SpectrogramQuery { run: number, sensor, over } = query;
+    let has_ended = lasting(&job).is_some();
     let read = move || {
         let legs: Vec<RunUpLeg> = legs.read()?;
         let of_run = legs.into_iter().filter(|leg| leg.run() == number).collect();
-        let found = run::run_ups(&asked, &facts, of_run);
-        let found = found.and_then(|found| run::spectrogram(&found, number, sensor as usize));
-        found.ok_or_else(|| Problem::new(Kind::ResultNotReady, format!("run {number} has not begun")))
+        let found = run::run_ups(&asked, &facts, of_run).and_then(|run_ups| {
+            let spectrogram = run::spectrogram(&run_ups, number, sensor as usize)?;
+            Some(Drawn { spectrogram, run_ups })
+        });
+        let unready = if has_ended { Kind::ResultUnavailable } else { Kind::ResultNotReady };
+        found.ok_or_else(|| Problem::new(unready, format!("run {number}, counted from 0, has no frame")))
     };
-    Forms::undrawn().answer(&state, download, lasting(&job), bytes, read).await
+    let unit = match over {
+        Over::Order => plot::SpectrogramUnit::Order,
+        Over::Hz => plot::SpectrogramUnit::Hz,
+    };
+    let (place, index) = (number as usize, sensor as usize);
+    let draw = move |drawn: &Drawn| plot::spectrogram(&drawn.run_ups, place, index, unit);
+    let figure = move |drawn: &Drawn| plot::figure::spectrogram(&drawn.run_ups, place, index, unit);
+    Forms::drawn_by(draw, figure).answer(&state, download, lasting(&job), bytes, read).await
+}
+
+/// A spectrogram with the run that it is drawn beside.
+#[derive(Serialize)]
+#[serde(transparent)]
+struct Drawn {
+    spectrogram: Spectrogram,
+    #[serde(skip)]
+    run_ups: RunUps,
+}
+
+impl Export for Drawn {
+    fn table(&self) -> Vec<Array> {
+        self.spectrogram.table()
+    }
+
+    fn arrays(&self) -> Vec<Array> {
+        self.spectrogram.arrays()
+    }
 }
 
 /// What a job lacks that has only begun.

@@ -67,7 +67,7 @@ async fn run_ups_take_what_was_planned_and_are_told_in_all_forms() {
     for (run, planned) in runs.iter().zip(plan["runs"].as_array().unwrap()) {
         let end = &run["end"];
         assert_eq!(end["status"], "completed", "{end}");
-        for field in ["revolutions", "segments", "steps"] {
+        for field in ["segments", "steps"] {
             assert_eq!(end[field], planned[field], "{field}");
         }
         assert_eq!(end["scheme"]["name"], planned["scheme"]["name"]);
@@ -77,10 +77,13 @@ async fn run_ups_take_what_was_planned_and_are_told_in_all_forms() {
             (run["rate_rad_s2"].as_f64().unwrap(), planned["duration_s"].as_f64().unwrap());
         assert!((duration - 0.05 - 200.0 / rate).abs() < 1e-12);
         let angle = 300.0 * 0.05 + (500.0f64.powi(2) - 300.0f64.powi(2)) / (2.0 * rate);
-        assert_eq!(end["revolutions"].as_u64().unwrap(), (angle / std::f64::consts::TAU) as u64);
+        let turned = angle / std::f64::consts::TAU;
+        assert!((planned["revolutions"].as_f64().unwrap() - turned).abs() < 1e-9);
+        let revolutions = end["revolutions"].as_f64().unwrap();
+        assert!(revolutions <= turned && revolutions > turned - 1.0 / 512.0, "{revolutions} {turned}");
         assert!(end["energy_residual"].as_f64().unwrap() < 1e-9, "{end}");
         let frames = run["frames"].as_array().unwrap();
-        assert_eq!(frames.len() as u64, end["revolutions"].as_u64().unwrap().div_ceil(8));
+        assert_eq!(frames.len() as u64, (revolutions / 8.0).ceil() as u64);
         assert!(frames.iter().all(|frame| frame["spectra"].is_null()));
         let largest = |frame: &Value| frame["largest"][0].as_f64().unwrap();
         let most = frames.iter().map(largest).fold(0.0, f64::max);
@@ -90,7 +93,7 @@ async fn run_ups_take_what_was_planned_and_are_told_in_all_forms() {
     assert_eq!(plan["estimate"]["steps"], steps);
     assert!(found["passing"]["message"].is_string(), "{}", found["passing"]);
 
-    let csv = get(api, &format!("{path}?format=csv&unit=rpm"), &[]).await.good();
+    let csv = get(api, &format!("{path}?format=csv&units=rpm"), &[]).await.good();
     let frames: usize = runs.iter().map(|run| run["frames"].as_array().unwrap().len()).sum();
     assert_eq!(csv.text().lines().count(), 1 + frames);
     assert!(

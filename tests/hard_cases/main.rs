@@ -30,6 +30,7 @@ mod random_wheels;
 mod restriction_inside;
 mod rigid_boundary;
 mod rotation_reversed;
+mod run_ups;
 mod scenes;
 mod sector_counts;
 mod stability_limit;

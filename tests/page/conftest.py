@@ -74,6 +74,17 @@ def branches_of(model):
     }
 
 
+def run_ups_of(model):
+    """Two rates through a few speeds."""
+    return {
+        "model": model,
+        "modes_per_speed": 3,
+        "speed": {"unit": "rpm", "from": 19000, "to": 21000, "rates": [10000, 40000], "hold_s": 0.05},
+        "scene": sweep_of("")["scene"],
+        "limit": 0.5,
+    }
+
+
 @pytest.fixture(scope="session")
 def model(service, zipped):
     return service.call("POST", "/v1/models", zipped.read_bytes())["id"]

@@ -3,7 +3,7 @@
 import json
 import re
 
-from conftest import branches_of, damped, sweep_of
+from conftest import branches_of, damped, run_ups_of, sweep_of
 from service import Service, package
 
 
@@ -347,6 +347,110 @@ def test_branches_are_seen_while_they_grow(service, model, new_page):
     page.locator(".figure .main-svg").first.wait_for(timeout=120_000)
     page.get_by_text(re.compile(r"point(s)? on 1 branch")).first.wait_for()
     assert page.evaluate("document.querySelector('.figure').layout.xaxis.title.text").startswith("clearance / that of the scene")
+    service.call("DELETE", f"/v1/jobs/{job}?cancel_only=true")
+
+
+def test_a_form_says_what_run_ups_take(service, swept, model, new_page):
+    page = new_page(f"{service.url}/#/sweep?model={model}&kind=run_up", expected=["422"])
+    plan = page.get_by_role("status", name="Plan")
+    runs = plan.get_by_text(re.compile(r"rad/s² \(.* rpm/s\): .* revolutions, .* pieces of one speed, .* steps"))
+    runs.first.wait_for()
+    assert runs.count() == 3
+    rates = page.get_by_label("Rates")
+    rates.fill(rates.input_value().split(",")[0])
+    runs.nth(1).wait_for(state="detached")
+    assert runs.count() == 1
+    # What is not possible is said at its field.
+    page.get_by_label("From").fill("0")
+    page.locator("[aria-invalid=true]").first.wait_for()
+    assert page.get_by_label("From").get_attribute("aria-invalid") == "true"
+
+
+def test_a_wheel_is_run_up_seen_and_run_up_again(service, swept, model, new_page):
+    page = new_page(f"{service.url}/#/sweep?model={model}&kind=run_up", expected=["409"])
+    page.get_by_text("The request as JSON").click()
+    text = page.get_by_label("Request; the form follows what you write")
+    text.wait_for()
+    text.fill(json.dumps(run_ups_of(model) | {"name": "up", "sensors": [{"contact_node": 0, "component": "radial", "sector": 0}, {"contact_node": 0, "component": "axial", "sector": 1}]}))
+    assert page.get_by_label("Rates").input_value() == "10000, 40000"
+    page.get_by_role("button", name="Start").click()
+    job = open_job(page)
+    page.get_by_text("done", exact=True).wait_for(timeout=120_000)
+    page.locator(".figure .main-svg").first.wait_for()
+    page.get_by_text(re.compile("2 runs, .* frames. Limit 0.5 mm, for every sensor: .*rate.*")).wait_for()
+    found = service.call("GET", f"/v1/jobs/{job}/run-ups")
+    rows = page.get_by_role("region", name="Runs", exact=True).locator("tbody tr")
+    assert rows.count() == 2
+    largest = found["runs"][0]["end"]["largest"][0]["displacement"]
+    assert abs(float(rows.nth(0).locator("td").nth(3).inner_text()) / largest - 1) < 1e-3
+    assert page.get_by_role("region", name="What the runs are worth").locator("tbody tr").count() == 2
+    # The speeds of a sweep are beside, those within the range.
+    page.get_by_label("Sweep beside").select_option(swept)
+    page.wait_for_url(f"**sweep={swept}")
+    page.get_by_text("Dots are the speeds of").wait_for()
+    page.locator(".figure .main-svg").first.wait_for()
+    names = page.evaluate("document.querySelector('.figure').data.map((trace) => trace.name)")
+    assert any("sweep" in name for name in names if name), names
+    with page.expect_download() as file:
+        page.get_by_role("button", name="csv").click()
+    assert open(file.value.path()).read().startswith("run,rate_rad_s2,")
+    # A run opens its spectrogram.
+    page.get_by_role("region", name="Runs", exact=True).get_by_role("button", name="2", exact=True).click()
+    page.wait_for_url("**view=spectrogram**")
+    assert page.get_by_label("Run", exact=True).input_value() == "1"
+    page.locator(".figure .main-svg").first.wait_for()
+    assert page.evaluate("document.querySelector('.figure').layout.meta.units.y") == "engine_order"
+    page.get_by_label("Upwards").select_option("hz")
+    page.wait_for_url("**over=hz**")
+    page.get_by_label("Sensor").select_option("1")
+    page.wait_for_url("**sensor=1**")
+    page.locator(".figure .gtitle", has_text="axial").wait_for()
+    assert page.evaluate("document.querySelector('.figure').layout.meta.units.y") == "Hz"
+    with page.expect_download() as file:
+        page.get_by_role("button", name="npz").click()
+    assert file.value.suggested_filename == f"{job}-spectrogram-1.npz"
+    page.get_by_role("link", name="Run-ups").click()
+    page.get_by_role("heading", name="What these numbers are worth").wait_for()
+    # The same again, and otherwise: in the unit in which it was asked for.
+    page.get_by_role("button", name="Run up again").click()
+    page.wait_for_url(re.compile(f"#/jobs/(?!{job})"))
+    again, first = (service.call("GET", f"/v1/jobs/{one}")["request"] for one in (open_job(page), job))
+    assert again == first
+    page.get_by_role("link", name="As up, but").click()
+    page.get_by_label("Rates").wait_for()
+    assert [page.get_by_label(name, exact=True).input_value() for name in ("Unit", "From", "To", "Rates", "Hold, s")] == ["rpm", "19000", "21000", "10000, 40000", "0.05"]
+
+
+def test_a_run_up_through_points_has_one_run(service, model, new_page):
+    points = [{"time_s": 0, "speed": 300}, {"time_s": 0.05, "speed": 350}, {"time_s": 0.1, "speed": 340}]
+    request = run_ups_of(model) | {"name": "by points", "speed": {"unit": "hz", "points": points, "course": "smooth"}}
+    job = service.call("POST", "/v1/run-ups", request)["id"]
+    assert service.finish(job)["status"] == "successful"
+    page = new_page(f"{service.url}/#/jobs/{job}")
+    page.get_by_role("region", name="Runs", exact=True).get_by_text("through points").wait_for()
+    page.goto(f"{service.url}/#/jobs/{job}?view=spectrogram")
+    page.locator(".figure .main-svg").first.wait_for()
+    assert page.get_by_label("Run", exact=True).count() == 0
+    page.get_by_role("link", name="As by points, but").click()
+    page.get_by_role("group", name="Points 3").get_by_label("Speed").wait_for()
+    assert page.get_by_label("Unit", exact=True).input_value() == "hz"
+    assert [page.get_by_role("group", name=f"Points {k}").get_by_label("Speed").input_value() for k in (1, 2, 3)] == ["300", "350", "340"]
+    assert page.get_by_label("Course").input_value() == "smooth"
+
+
+def test_run_ups_are_seen_while_they_grow(service, model, new_page):
+    long = run_ups_of(model) | {"name": "long run-up"}
+    long["speed"] = long["speed"] | {"rates": [10, 10000]}
+    job = service.call("POST", "/v1/run-ups", long)["id"]
+    page = new_page(f"{service.url}/#/jobs/{job}", expected=["409"])
+    page.get_by_text(re.compile("frames so far")).wait_for(timeout=120_000)
+    page.locator(".figure .main-svg").first.wait_for()
+    page.get_by_text("How fast one must pass to stay below 0.5 mm is said when all have ended.").wait_for()
+    page.get_by_role("region", name="Runs", exact=True).get_by_text("under way").wait_for()
+    page.goto(f"{service.url}/#/jobs/{job}?view=spectrogram&run=1")
+    page.get_by_text("Nothing of this run is there yet.").wait_for()
+    page.get_by_label("Run", exact=True).select_option("0")
+    page.locator(".figure .main-svg").first.wait_for()
     service.call("DELETE", f"/v1/jobs/{job}?cancel_only=true")
 
 

@@ -2,7 +2,7 @@
 
 import pytest
 from axe_playwright_python.sync_playwright import Axe
-from conftest import WINDOWS, branches_of, sweep_of
+from conftest import WINDOWS, branches_of, run_ups_of, sweep_of
 
 VIEWS = {
     "models": "#/models",
@@ -28,6 +28,11 @@ VIEWS = {
     "branches": "#/jobs/{branches}?sweep={swept}",
     "branches-new": "#/sweep?model={model}&kind=branches",
     "branches-as": "#/sweep?as={branches}",
+    "run_ups": "#/jobs/{run_ups}?sweep={swept}",
+    "run_ups-spectrogram": "#/jobs/{run_ups}?view=spectrogram&run=1",
+    "run_ups-spectrogram-hz": "#/jobs/{run_ups}?view=spectrogram&over=hz&scale=linear",
+    "run_up-new": "#/sweep?model={model}&kind=run_up",
+    "run_up-as": "#/sweep?as={run_ups}",
     "campaign": "#/jobs/{campaign}",
     "campaign-new": "#/sweep?model={model}&kind=campaign",
     "campaign-as": "#/sweep?as={campaign}",
@@ -52,7 +57,13 @@ def places(service, model, swept):
     parameter = {"name": "damping", "at": ["/scene/damping/modal_ratio"], "from": 0.005, "to": 0.02, "levels": 2}
     campaign = case | {"speeds": again["speeds"], "parameters": [parameter], "design": {"kind": "grid"}, "limit": 0.5}
     del campaign["speed"], campaign["record"]
-    asked = (("study", "/v1/studies", study), ("case", "/v1/case-studies", case), ("branches", "/v1/branches", branches), ("campaign", "/v1/campaigns", campaign))
+    asked = (
+        ("study", "/v1/studies", study),
+        ("case", "/v1/case-studies", case),
+        ("branches", "/v1/branches", branches),
+        ("run_ups", "/v1/run-ups", run_ups_of(model)),
+        ("campaign", "/v1/campaigns", campaign),
+    )
     for name, path, request in asked:
         ended[name] = service.call("POST", path, request)["id"]
         assert service.finish(ended[name])["status"] == "successful"

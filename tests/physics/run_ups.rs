@@ -178,8 +178,12 @@ fn a_run_up_is_that_of_a_literal_integration_under_the_stiffness_of_the_moment()
             assert!(end.is_complete() && end.largest_angle_error_rad <= 4.0 * tolerance, "{end:?}");
             assert!(end.energy_residual < 1e-9 && end.transfer_loss < 1e-12, "{end:?}");
             let per_revolution = 520;
-            let exact =
-                literal(&driven, (first, rate), end.revolutions * per_revolution, per_revolution as usize);
+            let exact = literal(
+                &driven,
+                (first, rate),
+                (end.revolutions * per_revolution as f64).round() as u64,
+                per_revolution as usize,
+            );
             let frames = exact.chunks(4 * per_revolution as usize);
             assert_eq!(frames.len(), run.frames.len());
             let scale = exact.iter().fold(0.0f64, |most, u| most.max(u.abs()));

@@ -26,6 +26,11 @@ export function speedLong(rad_s) {
   return `${speed(rad_s)} (${number(rad_s, 5)} rad/s)`;
 }
 
+/** By how much a speed changes in a second: `104.7 rad/s² (1,000 rpm/s)`. */
+export function rate(rad_s2) {
+  return `${number(rad_s2)} rad/s² (${number(rpm(rad_s2))} rpm/s)`;
+}
+
 /** A value with how far off it may be, to two digits of that: `23,456.78 ± 0.21`. */
 export function known(value, error) {
   if (!Number.isFinite(value) || !(error > 0)) return number(value, 6);
@@ -84,6 +89,7 @@ export const KINDS = {
   study: 'Study',
   case_study: 'Case study',
   branches: 'Branches',
+  run_up: 'Run-up or run-down',
   campaign: 'Campaign',
 };
 

@@ -8,7 +8,8 @@ const PAUSE_MS = 5000;
 /**
  * Reads a result now, and again when its job has gone on: never twice at once, and only while somebody sees it.
  * @param {{now: () => any, onChange: (f: (job: any) => void) => void}} context of the view
- * @param {{read: () => Promise<void>, grown: (job: any) => boolean}} what `read` tells itself what fails, `grown` whether there is more than when it was asked last
+ * @param {{read: () => Promise<boolean | void>, grown: (job: any) => boolean}} what `read` tells itself what fails, and whether there is nothing yet, so
+ *   that it is read again even where the job does not say that it has gone on; `grown` whether there is more than when it was asked last
  * @param {AbortSignal} signal
  */
 export async function growing(context, { read, grown }, signal) {
@@ -28,7 +29,7 @@ export async function growing(context, { read, grown }, signal) {
     reading = true;
     last = Date.now();
     try {
-      await read();
+      if (await read() && !ended(context.now())) again = true;
     } finally {
       reading = false;
     }

@@ -40,6 +40,10 @@ const TABS = {
     ['fields', 'Wheel in 3D', () => import('./job/fields.js')],
   ],
   branches: [['branches', 'Branches', () => import('./job/branches.js')]],
+  run_up: [
+    ['run-ups', 'Run-ups', () => import('./job/run-ups.js')],
+    ['spectrogram', 'Spectrogram', () => import('./job/spectrogram.js')],
+  ],
   campaign: [['campaign', 'Campaign', () => import('./job/campaign.js')]],
 };
 const FOR_ALL = [

@@ -7,6 +7,7 @@ import { placeWith } from '../lib/place.js';
 import { select } from './job/choices.js';
 import { branchesOf } from './request/branches.js';
 import { campaignOf, campaignOfModel } from './request/campaign.js';
+import { runUpsOf, runUpsOfModel } from './request/run-up.js';
 import { askedOf, chooseModel, requestForm } from './request/view.js';
 import { CLEARANCE, sceneOf, speedsOf } from './request/sensible.js';
 
@@ -38,6 +39,11 @@ export const REQUESTS = {
       return { model: model.id, speed: { value: Math.round(0.6 * to), unit: 'rpm' }, along: { parameter: 'speed', from, to }, scene: sceneOf(model) };
     },
     asked: branchesOf,
+  },
+  run_up: {
+    words: 'Run-up or run-down: a speed that changes', schema: 'LabelledRunUpRequest', path: '/v1/run-ups', plan: '/v1/run-ups/plan', priced: false,
+    begin: runUpsOfModel,
+    asked: runUpsOf,
   },
   campaign: {
     words: 'Campaign: many designs of a scene', schema: 'LabelledCampaignRequest', path: '/v1/campaigns', plan: '/v1/campaigns/plan', priced: false,

@@ -12,6 +12,7 @@ import matplotlib
 import numpy as np
 import pytest
 from conftest import SCENE, sweep_of
+from matplotlib import pyplot
 
 import rubmap
 from rubmap import plot
@@ -19,6 +20,12 @@ from rubmap.download import download
 from rubmap.service import Service
 
 matplotlib.use("Agg")
+
+
+@pytest.fixture(autouse=True)
+def no_figures_are_left() -> Iterator[None]:
+    yield
+    pyplot.close("all")
 
 
 def test_a_map_is_the_one_of_the_json(swept: rubmap.Sweep) -> None:
@@ -247,6 +254,150 @@ def test_branches_that_are_not_complete_are_drawn(monkeypatch: pytest.MonkeyPatc
     assert axes.get_xlabel() == "clearance / that of the scene"
     monkeypatch.setattr(job, "json", lambda _: _TOLD | {"branches": []})
     plot.branches(job.points(), bifurcations=job.bifurcations())
+
+
+def test_run_ups_are_those_of_the_json(client: rubmap.Client, model: rubmap.Model) -> None:
+    request: Any = {
+        "model": model.id,
+        "modes_per_speed": 3,
+        "speed": {"unit": "rpm", "from": 19000, "to": 21000, "rates": [80000, 20000]},
+        "scene": SCENE,
+        "sensors": [{"contact_node": node, "sector": 3, "component": "radial"} for node in (0, 9)],
+        "max_engine_order": 8,
+        "frame_revolutions": 2,
+        "limit": 1e-3,
+    }
+    job = client.run_ups(request).submit().wait(progress=False)
+    plan = job.plan()
+    assert job.id is not None and isinstance(client.job(job.id), rubmap.RunUps)
+    json, frames, runs = job.json("run-ups"), job.envelope(), job.runs()
+    assert json["complete"] and frames.attrs["complete"] and frames.attrs["unit"] == "mm"
+    assert runs["status"].tolist() == ["completed", "completed"]
+    np.testing.assert_allclose(runs["rate_rad_s2"], np.array([80000, 20000]) * np.pi / 30.0, rtol=1e-12)
+    assert [planned["revolutions"] for planned in plan["runs"]] == runs["revolutions"].tolist()
+    assert plan["estimate"]["steps"] == runs["steps"].sum() and runs["energy_residual"].max() < 1e-9
+    for sensor in (0, 1):
+        own = job.envelope(sensor)
+        for name in ("largest", "half_peak_to_peak"):
+            said = [frame[name][sensor] for run in json["runs"] for frame in run["frames"]]
+            np.testing.assert_array_equal(own[name], said)
+        np.testing.assert_array_equal(own.groupby("run")["largest"].max(), job.runs(sensor)["largest"])
+    assert frames["speed_rpm"].between(19000, 21000).all()
+    np.testing.assert_allclose(frames["speed_rpm"], frames["speed_rad_s"] * 30.0 / np.pi)
+    assert frames["revolution"].iloc[:3].tolist() == [0, 2, 4]
+    spectrogram, arrays = job.spectrogram(run=1, sensor=1), job.arrays("spectrogram", run=1, sensor=1)
+    assert spectrogram.shape == (runs["revolutions"].iloc[1] // 2, 8 * 2 + 1)
+    np.testing.assert_array_equal(spectrogram.to_numpy(), arrays["amplitudes"])
+    np.testing.assert_array_equal(spectrogram.columns, arrays["engine_orders"])
+    passing = job.passing()
+    assert passing is not None and "enough_rad_s2" not in passing and "no rate keeps" in passing["message"]
+    axes = plot.envelope(frames)
+    assert axes.get_xlabel() == "speed of rotation, rpm" and axes.get_ylabel() == "half peak to peak, mm"
+    assert plot.spectrogram(spectrogram).get_xlabel() == "speed of rotation, rpm"
+    with pytest.raises(IndexError, match="no sensor 2"):
+        job.envelope(2)
+    with pytest.raises(rubmap.Refusal) as refused:
+        job.spectrogram(run=2)
+    assert refused.value.status == 400
+
+
+#: Run-ups as the service tells of them: one that has ended, and one that goes on.
+_MARCHED: dict[str, Any] = {
+    "sensors": [{"contact_node": 0}, {"gauge": {"nodes": [1, 2]}}],
+    "units": {"length": "mm"},
+    "complete": False,
+    "settings": {"limit": 0.3},
+    "version": "0",
+    "runs": [
+        {
+            "run": run,
+            "rate_rad_s2": rate,
+            "order_step": 0.125,
+            "frames": [
+                {
+                    "revolution": 8 * place,
+                    "times_s": [0.1 * place, 0.1 * (place + 1)],
+                    "speeds_rad_s": [100.0 + 10.0 * place, 110.0 + 10.0 * place],
+                    "largest": [2.0 * amplitude, 1e-4],
+                    "half_peak_to_peak": [amplitude, 1e-5],
+                    "contact_share": 0.5 * (amplitude > 0.1),
+                }
+                for place, amplitude in enumerate((0.1, 0.2, 0.15))
+            ],
+        }
+        for run, rate in ((0, 1000.0), (1, 100.0))
+    ],
+}
+_MARCHED["runs"][0]["end"] = {
+    "status": "diverged",
+    "message": "…",
+    "largest": [
+        {"displacement": 0.4, "time_s": 0.15, "speed_rad_s": 115.0},
+        {"displacement": 1e-4, "time_s": 0.2, "speed_rad_s": 120.0},
+    ],
+    "steps": 1000,
+    "euler_share": 0.1,
+}
+
+#: A spectrogram of a run through points: the speed is held, then rises.
+_SEEN: dict[str, Any] = {
+    "run": 0,
+    "sensor": {"contact_node": 0},
+    "units": {"length": "mm"},
+    "engine_orders": [0.0, 0.5, 1.0, 1.5],
+    "times_s": [0.1, 0.2, 0.3],
+    "speeds_rad_s": [[100.0, 100.0], [100.0, 100.0], [100.0, 120.0]],
+    "amplitudes": [[9.0, 5.0, 1.0, 0.0], [9.0, 5.0, 2.0, 0.0], [9.0, 5.0, 3.0, 0.5]],
+    "settings": {},
+    "version": "0",
+}
+
+
+def test_run_ups_that_are_not_complete_are_drawn(monkeypatch: pytest.MonkeyPatch) -> None:
+    job = rubmap.RunUps(Service("http://nowhere"), {}, "id")
+    monkeypatch.setattr(job, "json", lambda _: _MARCHED)
+    frames, runs = job.envelope(), job.runs()
+    assert frames["speed_rad_s"].tolist() == [105.0, 115.0, 125.0] * 2 and not frames.attrs["complete"]
+    assert job.passing() is None and job.envelope(1).attrs["unit"] == "strain"
+    for name, value in {
+        "status": "diverged",
+        "steps": 1000,
+        "largest": 0.4,
+        "speed_rad_s": 115.0,
+        "time_s": 0.15,
+    }.items():
+        assert runs[name].iloc[0] == value and runs[name].isna().tolist() == [False, True]
+    axes = plot.envelope(frames, quantity="largest")
+    # The slow run comes first; each is a line, a broad one and a ring, and then there is the limit.
+    lines = axes.get_lines()
+    assert [line.get_label() for line in lines[::3]] == ["100 rad/s²", "1000 rad/s²", "limit"]
+    assert np.isnan(np.asarray(lines[1].get_ydata())).tolist() == [True, False, False]
+    assert lines[2].get_ydata() == [0.4] and axes.get_ylabel() == "largest displacement at any sector, mm"
+    points = _MARCHED | {"runs": [{k: v for k, v in _MARCHED["runs"][0].items() if k != "rate_rad_s2"}]}
+    monkeypatch.setattr(job, "json", lambda _: points)
+    assert job.runs()["rate_rad_s2"].isna().all()
+    assert plot.envelope(job.envelope()).get_lines()[0].get_label() == "run"
+    monkeypatch.setattr(job, "json", lambda _: _MARCHED | {"runs": []})
+    plot.envelope(job.envelope())
+    assert job.runs().empty
+
+
+def test_a_spectrogram_is_over_speed_or_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    job = rubmap.RunUps(Service("http://nowhere"), {}, "id")
+    told = _SEEN
+    monkeypatch.setattr(job, "json", lambda *_, **__: told)
+    found = job.spectrogram()
+    assert found.attrs["unit"] == "mm" and found.attrs["rate_rad_s2"] is None
+    assert found[1.0].tolist() == [1.0, 2.0, 3.0]
+    np.testing.assert_allclose(found.index.get_level_values("speed_rpm"), np.array([100, 100, 110]) * 30.0 / np.pi)
+    axes = plot.spectrogram(found)
+    # The mean is not among the colours.
+    assert axes.get_xlabel() == "speed of rotation, rpm" and axes.collections[0].get_clim()[1] == 3.0
+    for speeds in ([[100.0, 100.0]] * 3, [[100.0, 120.0], [120.0, 110.0], [110.0, 100.0]]):
+        told = _SEEN | {"speeds_rad_s": speeds}
+        assert plot.spectrogram(job.spectrogram()).get_xlabel() == "time, s"
+    told = _SEEN | {name: [] for name in ("engine_orders", "times_s", "speeds_rad_s", "amplitudes")}
+    assert plot.spectrogram(job.spectrogram()).get_ylabel() == "engine order"
 
 
 def test_a_download_is_asked_for_again_and_keeps_what_a_file_is(tmp_path: Path) -> None:

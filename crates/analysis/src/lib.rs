@@ -21,6 +21,7 @@ mod check;
 mod component;
 mod contact;
 mod diagram;
+mod digits;
 mod discretisation;
 pub mod effects;
 pub mod end_state;

@@ -6,13 +6,14 @@ use super::cells::rpm;
 use super::colour::DISTINCT;
 use super::diagram::Diagram;
 use super::key::{Key, MARK_WIDTH};
-use super::labels::Labels;
+use super::labels::{Labels, traced};
+use super::marched::Dot;
 use super::svg::{Element, INK, document, group, line, polyline, rectangle};
-use super::{heading, marks, scheme};
+use super::{heading, marched, marks, scheme};
 use rubmap_analysis::request::{BranchParameter, Sensor};
 use rubmap_analysis::result::{
     Bifurcation, BifurcationKind, BranchEnd, BranchMaximum, BranchPoint, BranchTrack, Branches, Point,
-    PointStatus, Stability, Verdict,
+    Stability,
 };
 
 const WIDTH: f64 = 1180.0;
@@ -30,9 +31,6 @@ pub(super) const NONE: &str = "no point of a branch can be drawn";
 
 /// What changes along the branches is drawn over at least this part of what was asked for, as long as they are being followed.
 const LEAST_PART: f64 = 0.3;
-
-/// Colour of what was marched.
-const MARCHED: &str = "#999999";
 
 /// Draws the amplitude of a sensor along branches, stable and unstable, with bifurcations and maxima; `marched`: speeds of a sweep, as dots.
 pub fn branches(branches: &Branches, sensor: usize, marched: &[Point]) -> String {
@@ -255,14 +253,6 @@ pub(super) struct Marked {
     label: Option<String>,
 }
 
-/// A speed of the sweep beside.
-#[derive(Debug)]
-pub(super) struct Dot {
-    pub(super) place: Place,
-    pub(super) settled: bool,
-    pub(super) title: String,
-}
-
 /// What is seen of branches.
 pub(super) struct View<'a> {
     pub(super) branches: &'a Branches,
@@ -286,7 +276,8 @@ impl<'a> View<'a> {
         let (curves, marked, dots) = (Vec::new(), Vec::new(), Vec::new());
         let mut view = Self { branches, sensor, unit, over, diagram, curves, marked, dots, index };
         let x = view.range();
-        view.dots = view.dots(marked_speeds(branches, sensor, marched), x);
+        let beside = sensor.filter(|_| branches.head.parameter == BranchParameter::Speed);
+        view.dots = beside.map_or_else(Vec::new, |sensor| marched::dots(marched, sensor, unit, x));
         let y = view.heights();
         view.diagram = Diagram::new((LEFT, top), SIZE, x, y);
         view.curves = view.curves();
@@ -489,26 +480,13 @@ impl<'a> View<'a> {
         ended.collect()
     }
 
-    fn dots(&self, speeds: Vec<(&Point, f64)>, (slow, fast): (f64, f64)) -> Vec<Dot> {
-        let dot = |(point, amplitude): (&Point, f64)| {
-            let place = (rpm(point.speed_rad_s), amplitude);
-            let seen = (slow..=fast).contains(&place.0) && amplitude.is_finite();
-            let settled = point.settling.as_ref().is_none_or(|found| found.verdict != Verdict::NotSettled);
-            let what = if settled { "" } else { ", not settled" };
-            let words = format!("{} rpm", label(place.0, 0));
-            let title = format!("of the sweep, {words}: {} {}{what}", significant(amplitude), self.unit);
-            seen.then_some(Dot { place, settled, title })
-        };
-        speeds.into_iter().filter_map(dot).collect()
-    }
-
     fn draw(&self) -> Vec<Element> {
         let diagram = &self.diagram;
         let (x, y) = (ticks(diagram.x.values, 8.0), ticks(diagram.y.values, 8.0));
         let mut content = vec![diagram.grid(&x, &y)];
         content.extend(self.dots.iter().filter_map(|dot| {
             let place = diagram.inside(dot.place.0, dot.place.1)?;
-            Some(marched_dot(place, dot.settled).title(&dot.title))
+            Some(marched::mark(place, dot.settled).title(&dot.title))
         }));
         // The first branch lies over those that leave it.
         content.extend(self.curves.iter().rev().map(|curve| self.curve(curve)));
@@ -545,17 +523,9 @@ impl<'a> View<'a> {
 
     /// Places of the drawing close together along all lines.
     fn traced(&self) -> Vec<Place> {
-        const APART: f64 = 4.0;
-        /// More places than this are not needed: a line that has so many fills the diagram.
-        const MOST: f64 = 200.0;
-        let stretch = |pair: &[(Place, Option<usize>)]| {
-            let [from, to] = [pair[0], pair[1]].map(|((x, y), _)| self.diagram.point(x, y));
-            let steps = (f64::hypot(to.0 - from.0, to.1 - from.1) / APART).clamp(1.0, MOST).ceil();
-            let at = move |share: f64| (from.0 + share * (to.0 - from.0), from.1 + share * (to.1 - from.1));
-            (1..=steps as u32).map(move |k| at(f64::from(k) / steps))
-        };
         let runs = self.curves.iter().flat_map(|curve| &curve.runs);
-        runs.flat_map(|run| run.corners.windows(2).flat_map(stretch)).collect()
+        let lines = runs.map(|run| run.corners.iter().map(|((x, y), _)| self.diagram.point(*x, *y)));
+        lines.flat_map(traced).collect()
     }
 
     fn marks(&self) -> Element {
@@ -613,30 +583,13 @@ impl<'a> View<'a> {
                 key = key.row(group().child(mark.draw(middle, INK)), mark.meaning());
             }
         }
-        for (settled, words) in [(true, "speed of the sweep"), (false, "the same, not settled")] {
+        for (settled, words) in marched::KINDS {
             if self.dots.iter().any(|dot| dot.settled == settled) {
-                key = key.row(marched_dot(middle, settled), words);
+                key = key.row(marched::mark(middle, settled), words);
             }
         }
         key.draw()
     }
-}
-
-/// Speeds of the sweep beside branches over speed, with what the sensor says there.
-fn marked_speeds<'a>(
-    branches: &Branches,
-    sensor: Option<&Sensor>,
-    marched: &'a [Point],
-) -> Vec<(&'a Point, f64)> {
-    let Some(sensor) = sensor.filter(|_| branches.head.parameter == BranchParameter::Speed) else {
-        return Vec::new();
-    };
-    let completed = marched.iter().filter(|point| point.status == PointStatus::Completed);
-    let seen = completed.filter_map(|point| {
-        let response = point.responses.iter().find(|response| response.sensor == *sensor)?;
-        Some((point, response.half_peak_to_peak))
-    });
-    seen.collect()
 }
 
 fn bounds(values: impl Iterator<Item = f64>) -> (f64, f64) {
@@ -674,11 +627,6 @@ fn pen(stroke: Element, branch: &BranchTrack, fate: Fate) -> Element {
         "" => stroke.set("stroke-linejoin", "round"),
         dashes => stroke.set("stroke-linejoin", "round").set("stroke-dasharray", dashes),
     }
-}
-
-fn marched_dot((x, y): Place, settled: bool) -> Element {
-    let dot = Element::new("circle").number("cx", x).number("cy", y).number("r", 2.8).set("class", "marched");
-    dot.set("stroke", MARCHED).set("fill", if settled { MARCHED } else { "white" })
 }
 
 /// Stability in words.

@@ -40,6 +40,17 @@ impl Diagram {
         Self::with_scales(corner, size, |places| Scale::linear(x, places), logarithmic)
     }
 
+    /// With a logarithmic axis to the right, whose values must be positive, and a linear one upwards.
+    pub(super) fn rightwards_logarithmic(
+        corner: (f64, f64),
+        size: (f64, f64),
+        x: (f64, f64),
+        y: (f64, f64),
+    ) -> Self {
+        let logarithmic = |places| Scale::logarithmic(x, places);
+        Self::with_scales(corner, size, logarithmic, |places| Scale::linear(y, places))
+    }
+
     /// With linear axes of one scale about all places, with some room; no wider and no higher than there is something to see, and at
     /// most of the size `within`.
     pub(super) fn of_one_scale(places: &[(f64, f64)], corner: (f64, f64), within: (f64, f64)) -> Self {

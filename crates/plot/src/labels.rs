@@ -100,6 +100,21 @@ impl Labels {
     }
 }
 
+/// Places close together along a line with these corners.
+pub(super) fn traced(corners: impl IntoIterator<Item = (f64, f64)>) -> Vec<(f64, f64)> {
+    const APART: f64 = 4.0;
+    /// More places than this are not needed: a line that has so many fills the diagram.
+    const MOST: f64 = 200.0;
+    let corners: Vec<(f64, f64)> = corners.into_iter().collect();
+    let stretch = |pair: &[(f64, f64)]| {
+        let [from, to] = [pair[0], pair[1]];
+        let steps = (f64::hypot(to.0 - from.0, to.1 - from.1) / APART).clamp(1.0, MOST).ceil();
+        let at = move |share: f64| (from.0 + share * (to.0 - from.0), from.1 + share * (to.1 - from.1));
+        (1..=steps as u32).map(move |k| at(f64::from(k) / steps))
+    };
+    corners.windows(2).flat_map(stretch).collect()
+}
+
 /// Where a text may stand: its middle height, and where it begins.
 #[derive(Debug, Clone, Copy)]
 struct Place {

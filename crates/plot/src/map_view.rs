@@ -11,6 +11,7 @@ use super::svg::{Element, group, line, polyline, rectangle, text};
 use super::window::Window;
 use super::{hatching, heat, marks};
 use rubmap_analysis::effects::casing::shape::Shape;
+use rubmap_analysis::request::Scene;
 use rubmap_analysis::result::{Campbell, CriticalSpeeds, InteractionMap, Wave};
 
 /// Amplitudes below this share of the loudest are shown as quiet.
@@ -314,7 +315,12 @@ impl View {
 
 /// A line of an engine order: drawn through if the lobes excite it, otherwise dotted.
 fn order_line(from: (f64, f64), to: (f64, f64), excited: bool) -> Element {
-    line(from, to)
+    order_stroke(line(from, to), excited)
+}
+
+/// The same of any course.
+pub(super) fn order_stroke(course: Element, excited: bool) -> Element {
+    course
         .set("stroke", "white")
         .set("stroke-opacity", if excited { "0.45" } else { "0.6" })
         .set("stroke-width", if excited { "0.9" } else { "1" })
@@ -333,8 +339,12 @@ pub(super) fn missing_words(map: &InteractionMap, cell: &Cell) -> String {
     format!("{:.0} rpm: {reason}", cell.rpm)
 }
 
-/// How often the casing repeats, its lobes if they are equal; at least 1.
+/// How often the casing of a map repeats.
 pub(super) fn lobes(map: &InteractionMap) -> u32 {
-    let casing = map.settings.scene.casing.as_ref();
-    casing.and_then(|casing| Shape::of(casing).repeats()).unwrap_or(1)
+    lobes_of(&map.settings.scene)
+}
+
+/// How often the casing of a scene repeats, its lobes if they are equal; at least 1.
+pub(super) fn lobes_of(scene: &Scene) -> u32 {
+    scene.casing.as_ref().and_then(|casing| Shape::of(casing).repeats()).unwrap_or(1)
 }

@@ -92,11 +92,10 @@ impl JobRequest {
         match self {
             Self::Sweep(request) => request.speeds().count(),
             Self::ModalAnalysis(request) => request.speeds().count(),
-            Self::ModelGeneration(_) => 0,
+            Self::ModelGeneration(_) | Self::RunUps(_) => 0,
             Self::Study(request) => request.speeds().count(),
             Self::CaseStudy(case) => case.speeds().len() as u32,
             Self::Branches(branches) => branches.sweep().speeds().count(),
-            Self::RunUps(asked) => asked.runs(),
             Self::Campaign(campaign) => campaign.simulations(),
         }
     }

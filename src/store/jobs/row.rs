@@ -37,7 +37,7 @@ pub(super) fn read_head(row: &AnyRow) -> Result<JobHead, StoreError> {
     let finished = match (kind, status) {
         // These compute their speeds together.
         (
-            JobKind::ModalAnalysis | JobKind::Study | JobKind::CaseStudy | JobKind::Branches | JobKind::RunUp,
+            JobKind::ModalAnalysis | JobKind::Study | JobKind::CaseStudy | JobKind::Branches,
             JobStatus::Successful,
         ) => total,
         _ => number(row, "finished")?,

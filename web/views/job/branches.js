@@ -4,12 +4,13 @@ import { api, Refusal } from '../../lib/api.js';
 import { h, replace } from '../../lib/dom.js';
 import { downloadButton } from '../../lib/download.js';
 import { growing } from '../../lib/growing.js';
-import { count, known, nameOf, number, rpm } from '../../lib/format.js';
+import { count, known, number, rpm } from '../../lib/format.js';
 import { plot } from '../../lib/plot.js';
 import { unread } from '../../lib/problem.js';
 import { table } from '../../lib/table.js';
 import { unitOf } from '../../lib/units.js';
-import { select, sensors } from './choices.js';
+import { besideWords, sweepBeside } from './beside.js';
+import { sensors } from './choices.js';
 import { STABILITY } from './verdicts.js';
 
 const KINDS = {
@@ -43,10 +44,9 @@ export async function show(place, context, signal) {
   const found = h('div');
   const files = ['json', 'csv', 'npz', 'svg', 'png'].map((form) => downloadButton(form, path, { ...asked, format: form }, `${job.id}-branches.${form}`, signal));
   replace(place,
-    h('div', { class: 'row' }, sensors(job.request.sweep, context), await besides(context, signal)),
-    told, figure,
-    query.get('sweep') ? h('p', { class: 'quiet small' }, 'Dots are the speeds of ', h('a', { href: `#/jobs/${query.get('sweep')}` }, 'the sweep beside'), ', which are of the same motion only where its scene is the same.') : null,
-    found, h('div', { class: 'row', role: 'group', 'aria-label': 'Downloads' }, files));
+    h('div', { class: 'row' }, sensors(job.request.sweep, context), job.request.along.parameter === 'speed' ? await sweepBeside(context, 'the sweep it began at', signal) : null),
+    told, figure, besideWords(context), found,
+    h('div', { class: 'row', role: 'group', 'aria-label': 'Downloads' }, files));
 
   async function read() {
     try {
@@ -69,17 +69,6 @@ export async function show(place, context, signal) {
     return phase !== before;
   };
   await growing(context, { read, grown }, signal);
-}
-
-/** Choice of a sweep of the same model, whose speeds are drawn as dots beside branches over speed. */
-async function besides(context, signal) {
-  const { job, query } = context;
-  if (job.request.along.parameter !== 'speed') return null;
-  const { jobs } = await api.get('/v1/jobs', { query: { kind: 'sweep', status: 'successful', model: job.model, limit: 100 }, signal });
-  const chosen = query.get('sweep') ?? '';
-  const options = [['', 'none'], ...jobs.map((each) => [each.id, nameOf(each)])];
-  if (!options.some(([id]) => id === chosen)) options.push([chosen, 'the sweep it began at']);
-  return options.length > 1 ? select('Sweep beside', options, chosen, (sweep) => context.go({ sweep })) : null;
 }
 
 function tables(read, sensor) {

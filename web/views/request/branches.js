@@ -1,6 +1,7 @@
 // What branches are asked for: from a speed of a sweep, and as branches that are there.
 
 import { rpm } from '../../lib/format.js';
+import { OF_SPEED, tidy } from '../../lib/units.js';
 
 /** What may change along branches. */
 export const PARAMETERS = {
@@ -26,11 +27,6 @@ export function rangeOf(parameter, speed_rad_s) {
   return { from: Math.round((1 - ASIDE.speed) * at), to: Math.round((1 + ASIDE.speed) * at) };
 }
 
-/** A number without the last digits, which a change of units has spoilt. */
-function tidy(value) {
-  return Number(value.toPrecision(12));
-}
-
 /** A sweep's settings that branches have as well. A response is always sought, so that how a sweep comes to it is left out. */
 function shared(sweep) {
   const { steady, ...integration } = sweep.integration ?? {};
@@ -52,7 +48,7 @@ export function branchesFrom(job, speed_rad_s, along) {
 export function branchesOf(job) {
   const { sweep, along, doubled, most_points } = job.request;
   const { values, unit } = Array.isArray(sweep.speeds) ? sweep.speeds[0] : sweep.speeds;
-  const of = { rpm: rpm(1), hz: 1 / (2 * Math.PI), rad_s: 1 }[unit] ?? 1;
+  const of = OF_SPEED[unit] ?? 1;
   const asked = (value) => (along.parameter === 'speed' ? tidy(of * value) : value);
   return {
     model: job.model,

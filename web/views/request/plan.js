@@ -2,11 +2,14 @@
 
 import { api, Refusal } from '../../lib/api.js';
 import { debounced, facts, h, replace } from '../../lib/dom.js';
-import { bytes, count, duration, number } from '../../lib/format.js';
+import { bytes, count, duration, number, rate } from '../../lib/format.js';
 import { unread } from '../../lib/problem.js';
 
 /** How long nothing must change before the plan is asked for. */
 const PAUSE_MS = 400;
+
+/** Most runs that are told one by one. */
+const LISTED = 12;
 
 /** From the cost without any contact to that with contact in every step; where marches end by themselves, from the shortest to the longest. */
 export function between(range, words) {
@@ -55,20 +58,37 @@ function atMost(settings) {
   return settings?.budget ? `; the whole job is planned for ${duration(settings.budget.seconds)}` : '';
 }
 
+/** What each run takes; as long as there is no reduction, its steps and its time are not known. */
+function runs(list) {
+  if (!list) return null;
+  const words = (run) => [
+    duration(run.duration_s),
+    count(run.revolutions, 'revolution'),
+    `${count(run.segments, 'piece')} of one speed`,
+    run.steps ? count(run.steps, 'step') : null,
+    run.computing_time_s ? `${between(run.computing_time_s, duration)} to compute` : null,
+  ].filter(Boolean).join(', ');
+  return h('ul', { class: 'plain' },
+    list.slice(0, LISTED).map((run) => h('li', {}, run.rate_rad_s2 ? h('strong', {}, `${rate(run.rate_rad_s2)}: `) : null, words(run))),
+    list.length > LISTED ? h('li', {}, `and ${list.length - LISTED} more`) : null);
+}
+
 function shown(whole) {
   // A campaign has the plan of its scene beside its own numbers.
   const plan = { ...whole.scene, ...whole };
   const { estimate } = plan;
-  const scheme = (plan.point ?? plan.points?.[0])?.scheme;
+  const scheme = (plan.point ?? plan.points?.[0] ?? plan.runs?.[0])?.scheme;
   const off = (plan.effects ?? []).filter((effect) => !effect.on).map((effect) => effect.name.replaceAll('_', ' '));
   return [
-    plan.point?.message ? h('p', { class: 'note warning' }, plan.point.message) : null,
+    // What keeps one run from being integrated keeps others, too.
+    [...new Set([plan.point, ...(plan.runs ?? [])].map((one) => one?.message))].filter(Boolean).map((text) => h('p', { class: 'note warning' }, text)),
     [...(plan.warnings ?? []), ...(plan.compared?.warnings ?? [])].map((text) => h('p', { class: 'note warning' }, text)),
     facts([
       ['Time', estimate ? between(estimate.wall_time_s, duration) : null],
       ['Computing time', estimate ? between(estimate.computing_time_s, duration) : null],
       ['Designs', plan.designs_at_most > plan.designs ? `${plan.designs}, at most ${plan.designs_at_most}` : plan.designs],
       ['Speeds', plan.speeds],
+      ['Runs', runs(plan.runs)],
       ['Simulations', plan.simulations],
       ['Points', plan.points_at_least ? `at least ${plan.points_at_least}, for which the times are; at most ${plan.points_at_most}, and those of doubled branches` : null],
       ['Steps', estimate && !plan.points_at_least ? `${takesAll(plan.settings?.integration) ? '' : 'at most '}${number(estimate.steps, 3)}` : null],

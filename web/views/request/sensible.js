@@ -12,7 +12,7 @@ const SPEEDS = 40;
 const LOWEST = 1 / 3;
 
 /** Two significant digits: who edits it wants numbers that one can read. */
-function round(value) {
+export function round(value) {
   return Number(value.toPrecision(2));
 }
 
@@ -52,6 +52,7 @@ export function beginning(pointer, model) {
     '/scene/clearance_change': { course: [{ revolutions: 10, change: -round(0.2 * CLEARANCE * radius) }] },
     '/scene/clearance_change/course/-': { revolutions: 20, change: 0 },
     '/scene/orbit': { radius: round(0.1 * CLEARANCE * radius) },
+    '/speed/points/-': { time_s: 0, speed: speedsOf(model).from },
     '/scene/engine_order_excitation/-': { order: 2, contact_nodes: [0], component: 'axial', amplitude: 1 },
     '/record/stress': {},
     '/record/histories': { speeds: 'critical' },

@@ -17,7 +17,7 @@ const GROUPS = [
   { title: null, names: ['speeds', 'speed', 'along', 'scene', 'parameters', 'design', 'severity', 'limit', 'threshold', 'compared_model', 'lobes', 'superharmonics', 'grid'] },
   { title: 'What is recorded', names: ['sensors', 'record', 'stress', 'fields'] },
   { title: 'Name, tags, notes', names: ['name', 'tags', 'notes'] },
-  { title: 'Settings', names: ['budget', 'modes_per_speed', 'integration', 'sweep', 'refine', 'reproducible', 'control_speeds', 'max_engine_order', 'peak_prominence', 'doubled', 'most_points'] },
+  { title: 'Settings', names: ['budget', 'modes_per_speed', 'integration', 'sweep', 'refine', 'reproducible', 'control_speeds', 'max_engine_order', 'peak_prominence', 'doubled', 'most_points', 'frame_revolutions', 'angle_tolerance_rad'] },
 ];
 
 /**

@@ -14,7 +14,7 @@ from .jobs import Job, ModelGeneration
 from .local import local
 from .models import Model
 from .package import write_package
-from .results import Branches, Campaign, CaseStudy, ModalAnalysis, Study, Sweep
+from .results import Branches, Campaign, CaseStudy, ModalAnalysis, RunUps, Study, Sweep
 
 __all__ = [
     "Branches",
@@ -29,6 +29,7 @@ __all__ = [
     "PackageError",
     "Refusal",
     "RubmapError",
+    "RunUps",
     "Study",
     "Sweep",
     "Unreachable",

@@ -15,17 +15,18 @@ from .contract import (
     LabelledCaseStudyRequest,
     LabelledImpellerRequest,
     LabelledModalAnalysisRequest,
+    LabelledRunUpRequest,
     LabelledStudyRequest,
     LabelledSweepRequest,
     MeasuredCasing,
 )
 from .jobs import Job, ModelGeneration, asked_of
 from .models import Model
-from .results import Branches, Campaign, CaseStudy, ModalAnalysis, Study, Sweep
+from .results import Branches, Campaign, CaseStudy, ModalAnalysis, RunUps, Study, Sweep
 from .service import Service
 
 _KINDS: dict[str, type[Job]] = {
-    kind.kind: kind for kind in (Sweep, ModalAnalysis, Study, CaseStudy, Branches, Campaign, ModelGeneration)
+    kind.kind: kind for kind in (Sweep, ModalAnalysis, Study, CaseStudy, Branches, RunUps, Campaign, ModelGeneration)
 }
 
 
@@ -120,12 +121,16 @@ class Client:
         """Periodic responses followed over speed, clearance, height of the lobes or damping, not submitted yet."""
         return Branches(self.service, cast(Mapping[str, Any], request))
 
+    def run_ups(self, request: LabelledRunUpRequest) -> RunUps:
+        """Run-ups or run-downs, whose speed changes, not submitted yet."""
+        return RunUps(self.service, cast(Mapping[str, Any], request))
+
     def campaign(self, request: LabelledCampaignRequest) -> Campaign:
         """Many designs of a scene over speeds, not submitted yet."""
         return Campaign(self.service, cast(Mapping[str, Any], request))
 
     def job(self, id: str) -> Job:
-        """A job by its id, as :class:`Sweep`, :class:`ModalAnalysis`, :class:`Study`, :class:`CaseStudy`, :class:`Branches`, :class:`Campaign` or :class:`ModelGeneration`."""
+        """A job by its id, as :class:`Sweep`, :class:`ModalAnalysis`, :class:`Study`, :class:`CaseStudy`, :class:`Branches`, :class:`RunUps`, :class:`Campaign` or :class:`ModelGeneration`."""
         return self._job(self.service.get(f"/v1/jobs/{quote(id, safe='')}"))
 
     def jobs(self, limit: int | None = None, **query: Any) -> list[Job]:

@@ -345,6 +345,7 @@ JobKind: TypeAlias = Literal[
     "study",
     "case_study",
     "branches",
+    "run_up",
     "campaign",
 ]
 
@@ -368,6 +369,12 @@ class LargestDifference(TypedDict):
     mode: int
     nodal_diameter: int
     relative: float
+
+
+class LargestOfRun(TypedDict):
+    displacement: float
+    speed_rad_s: float
+    time_s: float
 
 
 class LimitsMet(TypedDict):
@@ -485,6 +492,14 @@ class ParameterSensitivity(TypedDict):
     total_error: float
 
 
+class PassingRate(TypedDict):
+    about_rad_s2: NotRequired[float | None]
+    enough_rad_s2: NotRequired[float | None]
+    limit: float
+    message: str
+    too_slow_rad_s2: NotRequired[float | None]
+
+
 class PlacedSensor(TypedDict):
     angle_deg: NotRequired[float | None]
     asked_length: NotRequired[float | None]
@@ -560,6 +575,16 @@ class Ring(TypedDict, closed=True):
     n_max: NotRequired[int]
     radius: float
     second_moment: float
+
+
+class RunUpFrame(TypedDict):
+    contact_share: float
+    half_peak_to_peak: list[float]
+    largest: list[float]
+    revolution: int
+    spectra: NotRequired[list[list[float]]]
+    speeds_rad_s: list[float]
+    times_s: list[float]
 
 
 SchemeChoice: TypeAlias = Literal[
@@ -651,6 +676,14 @@ class SpeedCounts(TypedDict):
     failed: int
     finished: int
     total: int
+
+
+SpeedCourse: TypeAlias = Literal["straight", "smooth"]
+
+
+class SpeedPoint(TypedDict, closed=True):
+    speed: float
+    time_s: float
 
 
 class SpeedSpectra(TypedDict):
@@ -1240,6 +1273,18 @@ class PlannedResponse(TypedDict):
     steps_per_revolution: int
 
 
+class PlannedRunUp(TypedDict):
+    computing_time_s: NotRequired[CostRange | None]
+    duration_s: float
+    frame_revolutions: int
+    message: NotRequired[str | None]
+    rate_rad_s2: NotRequired[float | None]
+    revolutions: int
+    scheme: NotRequired[SchemeReport | None]
+    segments: int
+    steps: NotRequired[int | None]
+
+
 class PointStress(TypedDict):
     cycles: list[StressCycle]
     excluded_nodes: int
@@ -1283,6 +1328,47 @@ class Refinement(TypedDict):
     complete: bool
     rounds: int
     unresolved: NotRequired[list[Unresolved]]
+
+
+class RunUpEnd(TypedDict):
+    contact_share: float
+    energy_residual: float
+    euler_share: float
+    largest: list[LargestOfRun]
+    largest_angle_error_rad: float
+    largest_energy: float
+    largest_penetration: NotRequired[float | None]
+    message: NotRequired[str | None]
+    revolutions: int
+    scheme: NotRequired[SchemeReport | None]
+    segments: int
+    status: PointStatus
+    steps: int
+    stiffening_work: float
+    transfer_loss: float
+    wall_time_s: float
+
+
+class RunUpIntegration(TypedDict, closed=True):
+    kept_modes: NotRequired[AutoOr]
+    ramp_revolutions: NotRequired[float]
+    scheme: NotRequired[SchemeChoice]
+    steps_per_revolution: NotRequired[AutoOr]
+
+
+RunUpSpeed = TypedDict(
+    "RunUpSpeed",
+    {
+        "course": NotRequired[SpeedCourse | None],
+        "from": NotRequired[float | None],
+        "hold_s": NotRequired[float | None],
+        "points": NotRequired[list[SpeedPoint] | None],
+        "rates": NotRequired[list[float] | None],
+        "to": NotRequired[float | None],
+        "unit": SpeedUnit,
+    },
+    closed=True,
+)
 
 
 class SectorGeometry(TypedDict):
@@ -1534,6 +1620,14 @@ class ReductionReport(TypedDict):
     wheel_unknowns: int
 
 
+class RunUp(TypedDict):
+    end: NotRequired[RunUpEnd | None]
+    frames: list[RunUpFrame]
+    order_step: float
+    rate_rad_s2: NotRequired[float | None]
+    run: int
+
+
 class Scene(TypedDict, closed=True):
     abradable: NotRequired[Abradable | None]
     casing: NotRequired[Casing | None]
@@ -1730,6 +1824,22 @@ class LabelledCaseStudyRequest(TypedDict, closed=True):
     tags: NotRequired[list[str]]
 
 
+class LabelledRunUpRequest(TypedDict, closed=True):
+    angle_tolerance_rad: NotRequired[float]
+    frame_revolutions: NotRequired[AutoOr]
+    integration: NotRequired[RunUpIntegration]
+    limit: NotRequired[float | None]
+    max_engine_order: NotRequired[int]
+    model: str
+    modes_per_speed: NotRequired[AutoOr]
+    name: NotRequired[str | None]
+    notes: NotRequired[str | None]
+    scene: Scene
+    sensors: NotRequired[list[Sensor]]
+    speed: RunUpSpeed
+    tags: NotRequired[list[str]]
+
+
 class LabelledStudyRequest(TypedDict, closed=True):
     fields: NotRequired[bool | None]
     grid: NotRequired[Grid]
@@ -1834,15 +1944,23 @@ class Point(TypedDict):
     wear: NotRequired[WearReport | None]
 
 
-RequestBody: TypeAlias = (
-    SweepRequest
-    | ModalAnalysisRequest
-    | StudyRequest
-    | CaseStudySettings
-    | BranchesSettings
-    | CampaignSettings
-    | ImpellerParameters
-)
+class RunUpSettings(TypedDict, closed=True):
+    angle_tolerance_rad: float
+    frame_revolutions: AutoOr
+    limit: NotRequired[float | None]
+    speed: RunUpSpeed
+    sweep: SweepRequest
+
+
+class RunUps(TypedDict):
+    complete: bool
+    passing: NotRequired[PassingRate | None]
+    runs: list[RunUp]
+    sensors: list[Sensor]
+    settings: RunUpSettings
+    units: Units
+    vectors: str
+    version: str
 
 
 class SensorMaps(TypedDict):
@@ -1868,6 +1986,19 @@ class SpectraBody(TypedDict):
     spectra: NotRequired[SpeedSpectra | None]
     units: Units
     wear: NotRequired[WearMap | None]
+
+
+class Spectrogram(TypedDict):
+    amplitudes: list[list[float]]
+    engine_orders: list[float]
+    rate_rad_s2: NotRequired[float | None]
+    run: int
+    sensor: Sensor
+    settings: RunUpSettings
+    speeds_rad_s: list[list[float]]
+    times_s: list[float]
+    units: Units
+    version: str
 
 
 class SpeedHistories(TypedDict):
@@ -2000,15 +2131,41 @@ class InteractionMap(TypedDict):
     version: str
 
 
-class JobDetail(JobBody):
-    choice: NotRequired[Chosen | None]
-    reduction: NotRequired[ReductionReport | None]
-    request: RequestBody
-
-
 MapBody: TypeAlias = InteractionMap | SensorMaps
+
+
+RequestBody: TypeAlias = (
+    SweepRequest
+    | ModalAnalysisRequest
+    | StudyRequest
+    | CaseStudySettings
+    | BranchesSettings
+    | RunUpSettings
+    | CampaignSettings
+    | ImpellerParameters
+)
+
+
+class RunUpPlan(TypedDict):
+    contact_pairs: int
+    effects: list[PlannedEffect]
+    estimate: NotRequired[Estimate | None]
+    machine: NotRequired[Machine | None]
+    reduced_unknowns_at_most: int
+    reduction: ReductionState
+    runs: list[PlannedRunUp]
+    settings: RunUpSettings
+    symmetry: FoundSymmetry
+    version: str
+    warnings: NotRequired[list[str]]
 
 
 class Branches(BranchesHead):
     branches: list[BranchTrack]
     complete: bool
+
+
+class JobDetail(JobBody):
+    choice: NotRequired[Chosen | None]
+    reduction: NotRequired[ReductionReport | None]
+    request: RequestBody

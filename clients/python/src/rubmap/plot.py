@@ -7,13 +7,23 @@ from typing import Any
 import numpy as np
 import pandas as pd
 import xarray as xr
-from matplotlib import pyplot
+from matplotlib import colormaps, pyplot
 from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm, Normalize
 
 from .tables import RPM
 
-__all__ = ["branches", "campbell", "critical_speeds", "interaction_map", "level", "spectrum", "work_precision"]
+__all__ = [
+    "branches",
+    "campbell",
+    "critical_speeds",
+    "envelope",
+    "interaction_map",
+    "level",
+    "spectrogram",
+    "spectrum",
+    "work_precision",
+]
 
 #: Faintest amplitude of a map, of its loudest.
 _QUIETEST = 1e-4
@@ -38,18 +48,10 @@ def interaction_map(
         log: whether colours are logarithmic, from 1e-4 of the loudest on.
     """
     ax = _axes(ax)
-    amplitude = found["amplitude"].to_numpy()
-    loudest = float(np.nanmax(amplitude, initial=0.0))
     across, orders = _edges(found["speed_rpm"].to_numpy()), _edges(found["engine_order"].to_numpy())
     upwards = np.outer(across / 60.0, orders) if frequency else np.broadcast_to(orders, (len(across), len(orders)))
-    logarithmic = log and loudest > 0.0
-    # Where nothing moves, all is as quiet as the colours go.
-    norm = LogNorm(_QUIETEST * loudest, loudest) if logarithmic else Normalize(0.0, loudest or 1.0)
-    shown = np.maximum(amplitude, _QUIETEST * loudest) if logarithmic else amplitude
     corners = np.broadcast_to(across[:, None], upwards.shape)
-    cells = ax.pcolormesh(corners, upwards, shown, norm=norm, cmap="viridis", shading="flat", rasterized=True)
-    unit = found["amplitude"].attrs["units"]
-    _figure(ax).colorbar(cells, ax=ax, label=f"amplitude, {unit}")
+    _cells(ax, corners, upwards, found["amplitude"].to_numpy(), found["amplitude"].attrs["units"], log)
     if critical is not None:
         for speed in critical["speed_rpm"]:
             ax.axvline(speed, color="white", linewidth=0.8, linestyle="--")
@@ -181,6 +183,70 @@ def branches(points: pd.DataFrame, ax: Axes | None = None, bifurcations: pd.Data
     if not points.empty:
         ax.legend(fontsize="small")
     return ax
+
+
+#: What is told of frames, as an axis.
+_OF_FRAMES = {"half_peak_to_peak": "half peak to peak", "largest": "largest displacement at any sector"}
+
+
+def envelope(frames: pd.DataFrame, ax: Axes | None = None, quantity: str = "half_peak_to_peak") -> Axes:
+    """Envelopes of run-ups over the speed, a line per run, of :meth:`RunUps.envelope`: broad where something touches, with a ring where it is highest.
+
+    Args:
+        quantity: ``half_peak_to_peak`` at the sensor's own sector, or ``largest`` at any sector, with the limit if there is one.
+    """
+    ax = _axes(ax)
+    runs = frames[["run", "rate_rad_s2"]].drop_duplicates().sort_values("rate_rad_s2", kind="stable")
+    for rank, (number, rate) in enumerate(zip(runs["run"], runs["rate_rad_s2"], strict=True)):
+        # Slow runs are dark; yellow is too pale for a line.
+        colour = _COLOURS[0] if len(runs) == 1 else colormaps["viridis"](0.9 * rank / (len(runs) - 1))
+        own = frames[frames["run"] == number]
+        across, upwards = own["speed_rpm"].to_numpy(float), own[quantity].to_numpy(float)
+        ax.plot(across, upwards, color=colour, label="run" if np.isnan(rate) else f"{rate:.4g} rad/s²")
+        touching = np.where(own["contact_share"].to_numpy(float) > 0.0, upwards, np.nan)
+        ax.plot(across, touching, color=colour, linewidth=3.0)
+        highest = int(np.argmax(upwards))
+        ax.plot(across[highest], upwards[highest], "o", markerfacecolor="none", color=colour)
+    limit = frames.attrs["settings"].get("limit") if quantity == "largest" else None
+    if limit is not None:
+        ax.axhline(limit, color="grey", linewidth=0.8, linestyle="--", label="limit")
+    ax.set_xlabel("speed of rotation, rpm")
+    ax.set_ylabel(f"{_OF_FRAMES[quantity]}, {frames.attrs['unit']}")
+    ax.set_ylim(bottom=0.0)
+    if not frames.empty:
+        ax.legend(fontsize="small")
+    return ax
+
+
+def spectrogram(found: pd.DataFrame, ax: Axes | None = None) -> Axes:
+    """Amplitude over engine order and speed, of :meth:`RunUps.spectrogram`; over time where the speed turns back or never changes. The mean is left out."""
+    ax = _axes(ax)
+    rpm, times = (found.index.get_level_values(name).to_numpy(float) for name in ("speed_rpm", "time_s"))
+    orders = found.columns.to_numpy(float)
+    # Under a Hann window the mean is in the line next to it as well; without a frame there are no orders.
+    shown = orders >= np.minimum(1.0, 2.0 * orders[1:2].sum())
+    # Frames in which the speed is held have no width over it.
+    steps, same = np.diff(rpm), 1e-9 * rpm.max(initial=0.0)
+    over_speed = bool(np.any(abs(steps) > same) and (np.all(steps >= -same) or np.all(steps <= same)))
+    if not found.empty:
+        across, upwards = np.meshgrid(_edges(rpm if over_speed else times), _edges(orders[shown]), indexing="ij")
+        _cells(ax, across, upwards, found.to_numpy()[:, shown], found.attrs["unit"])
+    ax.set_xlabel("speed of rotation, rpm" if over_speed else "time, s")
+    ax.set_ylabel("engine order")
+    rate = found.attrs["rate_rad_s2"]
+    ax.set_title("Spectrogram" if rate is None else f"Spectrogram at {rate:.4g} rad/s²")
+    return ax
+
+
+def _cells(ax: Axes, across: Any, upwards: Any, amplitude: Any, unit: str, log: bool = True) -> None:
+    """Amplitudes as cells between corners, with a bar of their colours."""
+    loudest = float(np.nanmax(amplitude, initial=0.0))
+    logarithmic = log and loudest > 0.0
+    # Where nothing moves, all is as quiet as the colours go.
+    norm = LogNorm(_QUIETEST * loudest, loudest) if logarithmic else Normalize(0.0, loudest or 1.0)
+    shown = np.maximum(amplitude, _QUIETEST * loudest) if logarithmic else amplitude
+    cells = ax.pcolormesh(across, upwards, shown, norm=norm, cmap="viridis", shading="flat", rasterized=True)
+    _figure(ax).colorbar(cells, ax=ax, label=f"amplitude, {unit}")
 
 
 def _edges(centres: Any) -> Any:

@@ -113,7 +113,7 @@ class Sweep(Planned, _Recorded):
         if frame.empty:
             frame = pd.DataFrame(columns=["index", "speed_rad_s", "status"])
         frame = frame.sort_values("speed_rad_s", ignore_index=True)
-        unit = "strain" if found["sensor"].get("gauge") else found["units"]["length"]
+        unit = _unit(found["sensor"], found["units"])
         frame.attrs.update(unit=unit, units=found["units"], version=found["version"])
         frame.insert(2, "speed_rpm", frame["speed_rad_s"] * RPM)
         return frame
@@ -283,10 +283,19 @@ class Branches(Planned):
         return _branch_table(found, rows, sensor, columns)
 
     def _found(self, sensor: int) -> Any:
-        found = self.json("branches")
-        if not 0 <= sensor < len(found["sensors"]):
-            raise IndexError(f"there is no sensor {sensor}; there are {len(found['sensors'])}")
-        return found
+        return _with_sensor(self.json("branches"), sensor)
+
+
+def _with_sensor(found: Any, sensor: int) -> Any:
+    """What was found, if there is this sensor."""
+    if not 0 <= sensor < len(found["sensors"]):
+        raise IndexError(f"there is no sensor {sensor}; there are {len(found['sensors'])}")
+    return found
+
+
+def _unit(sensor: Mapping[str, Any], units: Mapping[str, str]) -> str:
+    """The unit of what a sensor says."""
+    return "strain" if sensor.get("gauge") else units["length"]
 
 
 def _leading(multipliers: list[dict[str, Any]]) -> dict[str, Any]:
@@ -298,18 +307,126 @@ def _leading(multipliers: list[dict[str, Any]]) -> dict[str, Any]:
 def _branch_table(
     found: Mapping[str, Any], rows: list[dict[str, Any]], sensor: int, columns: list[str]
 ) -> pd.DataFrame:
+    frame = _sensor_table(found, rows, sensor, columns)
+    frame.attrs.update(parameter=found["parameter"])
+    return frame
+
+
+def _sensor_table(
+    found: Mapping[str, Any], rows: list[dict[str, Any]], sensor: int, columns: list[str]
+) -> pd.DataFrame:
+    """Rows, which have a speed, of one sensor; without any there are at least these columns."""
     frame = pd.DataFrame(rows) if rows else pd.DataFrame(columns=columns)
     frame.insert(list(frame.columns).index("speed_rad_s") + 1, "speed_rpm", frame["speed_rad_s"] * RPM)
-    unit = "strain" if found["sensors"][sensor].get("gauge") else found["units"]["length"]
     frame.attrs.update(
-        parameter=found["parameter"],
-        unit=unit,
+        unit=_unit(found["sensors"][sensor], found["units"]),
         complete=found["complete"],
         units=found["units"],
         settings=found["settings"],
         version=found["version"],
     )
     return frame
+
+
+class RunUps(Planned):
+    """Run-ups or run-downs: a scene whose speed changes, at one rate after the other or through points."""
+
+    kind = "run_up"
+    path = "/v1/run-ups"
+
+    def envelope(self, sensor: int = 0) -> pd.DataFrame:
+        """How far a sensor moves, a row per frame of every run; also while the job runs, once there is a frame.
+
+        ``largest`` is the largest displacement at any sector, ``half_peak_to_peak`` that at the sensor's own sector, which a sweep tells of a
+        speed; both in the unit of ``attrs["unit"]``. ``speed_rad_s`` is the mean of the speeds at the frame's ends, ``contact_share`` the share of
+        the steps in which something touches. A run through points has no rate: NaN.
+        """
+        found = _with_sensor(self.json("run-ups"), sensor)
+        columns = ["run", "rate_rad_s2", "revolution", "start_s", "end_s", "speed_rad_s"]
+        columns += ["largest", "half_peak_to_peak", "contact_share"]
+        rows = [
+            _run(run)
+            | {"revolution": frame["revolution"], "start_s": frame["times_s"][0], "end_s": frame["times_s"][1]}
+            | {"speed_rad_s": sum(frame["speeds_rad_s"]) / 2.0}
+            | {name: frame[name][sensor] for name in ("largest", "half_peak_to_peak")}
+            | {"contact_share": frame["contact_share"]}
+            for run in found["runs"]
+            for frame in run["frames"]
+        ]
+        return _sensor_table(found, rows, sensor, columns)
+
+    def runs(self, sensor: int = 0) -> pd.DataFrame:
+        """How runs ended, a row each: ``status`` (missing while a run goes on), ``message``, the ``largest`` displacement of a sensor at any
+        sector, in the unit of ``attrs["unit"]``, with the speed and the time at which it is, and credentials."""
+        found = _with_sensor(self.json("run-ups"), sensor)
+        rows = [_run(run) | _ended(run.get("end"), sensor) for run in found["runs"]]
+        return _sensor_table(found, rows, sensor, ["run", "rate_rad_s2", *_ended(None, sensor)])
+
+    def spectrogram(self, run: int = 0, sensor: int = 0) -> pd.DataFrame:
+        """Amplitudes of a sensor at its own sector, a row per frame, a column per engine order, in the unit of ``attrs["unit"]``.
+
+        The index has ``time_s``, ``speed_rad_s`` and ``speed_rpm`` of the middle of every frame. A line has the frequency of its order times the
+        speed over 2π. The last frame of a run is left out where it is shorter than the others.
+        """
+        found = self.json("spectrogram", run=run, sensor=sensor)
+        orders = found["engine_orders"]
+        speeds = np.array(found["speeds_rad_s"], dtype=float).reshape(-1, 2).mean(axis=1)
+        index = pd.MultiIndex.from_arrays(
+            [found["times_s"], speeds, speeds * RPM], names=["time_s", "speed_rad_s", "speed_rpm"]
+        )
+        frame = pd.DataFrame(
+            np.array(found["amplitudes"], dtype=float).reshape(len(index), len(orders)),
+            index=index,
+            columns=pd.Index(orders, name="engine_order", dtype=float),
+        )
+        frame.attrs.update(
+            run=found["run"],
+            rate_rad_s2=found.get("rate_rad_s2"),
+            unit=_unit(found["sensor"], found["units"]),
+            units=found["units"],
+            settings=found["settings"],
+            version=found["version"],
+        )
+        return frame
+
+    def passing(self) -> dict[str, Any] | None:
+        """How fast one must pass to stay below the ``limit`` of the request: ``enough_rad_s2``, ``too_slow_rad_s2``, ``about_rad_s2`` between the
+        two, and ``message``; None without a limit, without rates, and until all runs have ended."""
+        found: dict[str, Any] | None = self.json("run-ups").get("passing")
+        return found
+
+
+def _run(run: Mapping[str, Any]) -> dict[str, Any]:
+    return {"run": run["run"], "rate_rad_s2": run.get("rate_rad_s2", np.nan)}
+
+
+#: Numbers that are told of a run that has ended.
+_CREDENTIALS_OF_RUN = (
+    "revolutions",
+    "steps",
+    "segments",
+    "contact_share",
+    "largest_angle_error_rad",
+    "largest_energy",
+    "energy_residual",
+    "stiffening_work",
+    "transfer_loss",
+    "largest_penetration",
+    "euler_share",
+    "wall_time_s",
+)
+
+
+def _ended(end: Mapping[str, Any] | None, sensor: int) -> dict[str, Any]:
+    """The end of a run as part of a row."""
+    told = end or {}
+    largest = told["largest"][sensor] if told else {}
+    return (
+        {"status": told.get("status"), "message": told.get("message"), "largest": largest.get("displacement", np.nan)}
+        | {name: largest.get(name, np.nan) for name in ("speed_rad_s", "time_s")}
+        | {"scheme": told.get("scheme", {}).get("name")}
+        | {name: told.get(name, np.nan) for name in _CREDENTIALS_OF_RUN}
+    )
 
 
 class Campaign(Planned):

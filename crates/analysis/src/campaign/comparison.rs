@@ -1,8 +1,8 @@
 //! How another model differs: paired differences of designs that both were simulated with.
 
-use super::digits::short;
 use super::sensitivities::sensitivities;
 use super::threshold::{CONFIDENCE, threshold};
+use crate::digits::short;
 use crate::request::DesignKind;
 use crate::resolved::ResolvedCampaign;
 use crate::result::{CampaignDesign, Comparison, DesignOutcome, Difference, DifferenceVerdict, LimitsMet};

@@ -3,7 +3,6 @@
 pub(crate) mod answer;
 mod comparison;
 pub(crate) mod designs;
-mod digits;
 pub(crate) mod more;
 mod outcomes;
 pub(crate) mod plan;

@@ -1,6 +1,6 @@
 //! Where a parameter meets the limit with a probability: what the designs so far say.
 
-use super::digits::short;
+use crate::digits::short;
 use crate::request::Threshold;
 use crate::resolved::ResolvedCampaign;
 use crate::result::{CampaignThreshold, DesignOutcome, ThresholdShare};

@@ -19,7 +19,7 @@ use crate::run_up::cutting;
 const TOLERANCE: std::ops::RangeInclusive<f64> = 1e-8..=0.1;
 
 /// Most revolutions of all runs together, and most frames of one.
-const REVOLUTIONS: u64 = 1_000_000;
+const REVOLUTIONS: f64 = 1e6;
 const FRAMES: u64 = 10_000;
 
 /// Parses run-ups and checks them against their model.
@@ -130,7 +130,7 @@ fn check_runs(found: &mut Findings, asked: &ResolvedRunUps, facts: &ModelFacts) 
         }
     }
     let samples = Discretisation::of_every_speed(&asked.sweep, facts.sectors as usize);
-    let mut all = 0;
+    let mut all = 0.0;
     for run in 0..asked.runs() {
         let profile = asked.speed.profile(run);
         let revolutions = profile.revolutions();
@@ -140,24 +140,24 @@ fn check_runs(found: &mut Findings, asked: &ResolvedRunUps, facts: &ModelFacts) 
             ResolvedCourse::Points { .. } => "/speed/points".to_owned(),
         };
         found.require(
-            revolutions >= 1,
+            revolutions >= 1.0,
             &pointer,
             "a run takes at least one revolution: change the speed more slowly",
         );
         found.require(
             all <= REVOLUTIONS,
             &pointer,
-            format!("{all} revolutions with this run; all runs together take at most {REVOLUTIONS}"),
+            format!("{all:.0} revolutions with this run; all runs together take at most {REVOLUTIONS:.0}"),
         );
-        if all > REVOLUTIONS || revolutions == 0 {
+        if all > REVOLUTIONS || revolutions < 1.0 {
             return;
         }
-        let frames = revolutions.div_ceil(asked.frame_revolutions(revolutions));
+        let frames = (revolutions as u64).div_ceil(asked.frame_revolutions(revolutions));
         found.require(
             frames <= FRAMES,
             "/frame_revolutions",
             format!(
-                "{frames} frames of a run of {revolutions} revolutions; at most {FRAMES}: make them longer"
+                "{frames} frames of a run of {revolutions:.0} revolutions; at most {FRAMES}: make them longer"
             ),
         );
         // What holds for the fastest change at the lowest speed holds everywhere.

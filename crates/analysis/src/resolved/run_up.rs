@@ -61,10 +61,10 @@ impl ResolvedRunUps {
     }
 
     /// Revolutions of a frame of a run that turns so often.
-    pub(crate) fn frame_revolutions(&self, revolutions: u64) -> u64 {
+    pub(crate) fn frame_revolutions(&self, revolutions: f64) -> u64 {
         match self.frame_revolutions {
             AutoOr::Fixed(frame) => u64::from(frame),
-            AutoOr::Auto => FRAME * revolutions.div_ceil(FRAME * FRAMES).max(1),
+            AutoOr::Auto => FRAME * ((revolutions as u64).div_ceil(FRAME * FRAMES)).max(1),
         }
     }
 }

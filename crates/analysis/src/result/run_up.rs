@@ -85,8 +85,8 @@ pub struct RunUpEnd {
     /// Scheme and step at the lowest speed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub scheme: Option<SchemeReport>,
-    /// Whole revolutions that it took.
-    pub revolutions: u64,
+    /// Revolutions that it took.
+    pub revolutions: f64,
     /// Steps.
     pub steps: u64,
     /// Pieces of one speed each.
@@ -222,8 +222,8 @@ pub struct PlannedRunUp {
     pub rate_rad_s2: Option<f64>,
     /// How long it lasts, s.
     pub duration_s: f64,
-    /// Whole revolutions.
-    pub revolutions: u64,
+    /// Revolutions.
+    pub revolutions: f64,
     /// Revolutions of a frame.
     pub frame_revolutions: u64,
     /// Pieces of one speed each.

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::frame::{Frame, order_step};
 use super::{BAND_RATIO, cutting};
+use crate::discretisation::Discretisation;
 use crate::effects::casing::convert::running_clearance;
 use crate::end_state::{EndState, Shapes};
 use crate::error::{AnalysisError, Violation};
@@ -14,7 +15,7 @@ use crate::monitor::Monitor;
 use crate::not_runnable::NotRunnable;
 use crate::record::cut_short;
 use crate::resolved::{ResolvedRunUps, ResolvedSweep};
-use crate::result::{LargestOfRun, PointStatus, RunUpEnd, RunUpLeg, SchemeReport};
+use crate::result::{LargestOfRun, PointStatus, RunUpEnd, RunUpFrame, RunUpLeg, SchemeReport};
 use crate::speed::{ready, staged};
 use crate::start::initial;
 use crate::stepping::Stepping;
@@ -28,8 +29,6 @@ use rubmap_wheel::dynamics::run_up::profile::SpeedProfile;
 use rubmap_wheel::dynamics::run_up::segments::Segment;
 use rubmap_wheel::dynamics::schemes::Scheme;
 use rubmap_wheel::vectors::vectors;
-
-use crate::discretisation::Discretisation;
 
 /// Steps of a leg, about: what is lost where the service dies.
 const LEG_STEPS: u64 = 1_000_000;
@@ -57,6 +56,8 @@ struct SoFar {
     stiffening_work: f64,
     transfer_loss: f64,
     largest_penetration: f64,
+    /// Mechanical energy at the end of the last segment.
+    last_energy: Option<f64>,
     wall_time_s: f64,
 }
 
@@ -71,17 +72,27 @@ pub fn run_up_leg(
     course: Option<RunUpCourse>,
     monitor: &dyn Monitor,
 ) -> Result<(RunUpLeg, Option<RunUpCourse>), AnalysisError> {
-    let course = course.unwrap_or(RunUpCourse { run: 0, segments: 0, state: None, so_far: SoFar::default() });
+    let course = course.unwrap_or_else(|| RunUpCourse::begins(0));
     let run = course.run;
     let march = March::new(asked, sector.wheel.sectors, run)?;
-    let (leg, next) = march.go(sector, course, monitor)?;
-    let next_run = (run + 1 < asked.runs()).then(|| RunUpCourse {
-        run: run + 1,
-        segments: 0,
-        state: None,
-        so_far: SoFar::default(),
-    });
+    let turned = |run: u32| asked.speed.profile(run).revolutions();
+    let (before, all) = ((0..run).map(turned).sum::<f64>(), (0..asked.runs()).map(turned).sum::<f64>());
+    let own = march.profile.revolutions();
+    let watch = |share: f64, speed_rad_s: f64| {
+        let words = format!("run {} of {}, {speed_rad_s:.0} rad/s", run + 1, asked.runs());
+        monitor.progress((before + share * own) / all, &words);
+        !monitor.is_cancelled()
+    };
+    let (leg, next) = march.go(sector, course, &watch)?;
+    let next_run = (run + 1 < asked.runs()).then(|| RunUpCourse::begins(run + 1));
     Ok((leg, next.or(next_run)))
+}
+
+impl RunUpCourse {
+    /// That of a run before its first segment.
+    fn begins(run: u32) -> Self {
+        Self { run, segments: 0, state: None, so_far: SoFar::default() }
+    }
 }
 
 /// A run with all that can be known before it begins.
@@ -152,12 +163,12 @@ impl<'a> March<'a> {
         self.take(sector, &first, (None, None), &stepping, &mut SoFar::default(), &|_| true).map(|_| ())
     }
 
-    /// Some frames further.
+    /// Some frames further; `watch` is told the share of the run that is done, and the speed.
     fn go(
         &self,
         sector: &ReducedSector,
         course: RunUpCourse,
-        monitor: &dyn Monitor,
+        watch: &dyn Fn(f64, f64) -> bool,
     ) -> Result<(RunUpLeg, Option<RunUpCourse>), AnalysisError> {
         let clock = Instant::now();
         let RunUpCourse { run, segments: mut done, mut state, mut so_far } = course;
@@ -169,7 +180,7 @@ impl<'a> March<'a> {
             end: None,
             vectors: vectors(),
         };
-        let mut last: Option<(Wheel, Vec<InitialMode>)> = None;
+        let mut last: Option<Wheel> = None;
         let mut steppings = Steppings(Vec::new());
         let of_frame =
             |segment: &Segment| segment.first_sample / (self.samples as u64 * self.frame_revolutions);
@@ -178,16 +189,15 @@ impl<'a> March<'a> {
             let mut frame = Frame::begin(&self.segments[done], self.samples, self.request().sensors.len());
             while let Some(segment) = self.segments.get(done).filter(|segment| of_frame(segment) == number) {
                 let share = |within: f64| {
-                    let run_share = (done as f64 + within) / self.segments.len() as f64;
-                    (f64::from(run) + run_share) / f64::from(self.asked.runs())
+                    watch((done as f64 + within) / self.segments.len() as f64, segment.speed_rad_s)
                 };
-                let watch = |within: f64| {
-                    monitor.progress(share(within), &format!("run {} of {}", run + 1, self.asked.runs()));
-                    !monitor.is_cancelled()
-                };
+                // Shorter than what a run looks up after.
+                if !share(0.0) {
+                    return Err(AnalysisError::Cancelled);
+                }
                 let taken = steppings.of(self, sector, segment.band).and_then(|stepping| {
                     so_far.scheme.get_or_insert_with(|| stepping.report.clone());
-                    self.take(sector, segment, (state.as_ref(), last.take()), stepping, &mut so_far, &watch)
+                    self.take(sector, segment, (state.as_ref(), last.take()), stepping, &mut so_far, &share)
                 });
                 let failed = match taken {
                     Ok((wheel, stretch)) => {
@@ -214,7 +224,8 @@ impl<'a> March<'a> {
                 frame.add(segment, &stretch, &self.profile);
                 so_far.count(&stretch);
                 state = Some(EndState::new(&stretch.end, &wheel.shapes));
-                last = Some((wheel, stretch.end));
+                so_far.last_energy = Some(modal_energy(&wheel.modal, &stretch.end));
+                last = Some(wheel);
                 done += 1;
             }
             so_far.gather(frame.largest());
@@ -225,7 +236,7 @@ impl<'a> March<'a> {
         if done < self.segments.len() {
             return Ok((leg, Some(RunUpCourse { run, segments: done, state, so_far })));
         }
-        let message = leg.frames.last().and_then(|frame| self.ends_inside(frame.times_s, &so_far));
+        let message = leg.frames.last().and_then(|last| ends_inside(last, &so_far));
         leg.end = Some(self.end(&so_far, done, PointStatus::Completed, message));
         Ok((leg, None))
     }
@@ -235,15 +246,14 @@ impl<'a> March<'a> {
         &self,
         sector: &ReducedSector,
         segment: &Segment,
-        (state, last): (Option<&EndState>, Option<(Wheel, Vec<InitialMode>)>),
+        (state, last): (Option<&EndState>, Option<Wheel>),
         stepping: &Stepping,
         so_far: &mut SoFar,
         watch: &dyn Fn(f64) -> bool,
     ) -> Result<(Wheel, Stretch), NotRunnable> {
         let (request, reduced) = (self.request(), &*sector.wheel);
-        let before = last.as_ref().map(|(wheel, modes)| modal_energy(&wheel.modal, modes, |_| true));
         let wheel = match last {
-            Some((wheel, _)) if wheel.modal.speed_rad_s == segment.speed_rad_s => wheel,
+            Some(wheel) if wheel.modal.speed_rad_s == segment.speed_rad_s => wheel,
             _ => {
                 let (modal, shapes) =
                     ModalWheel::with_shapes(reduced, segment.speed_rad_s, rotation(&request.scene))?;
@@ -266,11 +276,11 @@ impl<'a> March<'a> {
                                 .scheme
                                 .integrated_modes(wheel.modal.harmonics[mode.harmonic].omega.len())
                     };
-                    if let Some(before) = before {
-                        so_far.stiffening_work += modal_energy(&wheel.modal, &all, |_| true) - before;
-                    }
-                    so_far.transfer_loss += modal_energy(&wheel.modal, &all, |mode| !kept(mode));
-                    all.into_iter().filter(kept).collect()
+                    let energy = modal_energy(&wheel.modal, &all);
+                    let kept: Vec<InitialMode> = all.into_iter().filter(kept).collect();
+                    so_far.stiffening_work += so_far.last_energy.map_or(0.0, |before| energy - before);
+                    so_far.transfer_loss += (energy - modal_energy(&wheel.modal, &kept)).max(0.0);
+                    kept
                 }
                 None => initial(request, &wheel.modal, &reduced.contact, staged.casing, stepping)?,
             };
@@ -312,19 +322,6 @@ impl<'a> March<'a> {
         }))
     }
 
-    /// What to say of a run whose largest displacement is in its last frame, which ends within a critical speed.
-    fn ends_inside(&self, last: [f64; 2], so_far: &SoFar) -> Option<String> {
-        let (start, end) = (self.profile.speed_rad_s(0.0), self.profile.speed_rad_s(last[1]));
-        let inside = so_far
-            .largest
-            .iter()
-            .position(|largest| largest.displacement > 0.0 && largest.time_s > last[0] && start != end)?;
-        Some(format!(
-            "the displacement of sensor {inside} is largest at the end: the run ends within a critical speed, and what would follow is \
-             not known; let it go further"
-        ))
-    }
-
     fn end(&self, so_far: &SoFar, segments: usize, status: PointStatus, message: Option<String>) -> RunUpEnd {
         let done = &self.segments[..segments];
         let samples: u64 = done.iter().map(|segment| segment.samples).sum();
@@ -340,7 +337,7 @@ impl<'a> March<'a> {
             message,
             largest: so_far.largest.clone(),
             scheme: so_far.scheme.clone(),
-            revolutions: samples / self.samples as u64,
+            revolutions: samples as f64 / self.samples as f64,
             steps: so_far.steps,
             segments: segments as u64,
             largest_angle_error_rad: done.iter().map(|segment| segment.off_rad).fold(0.0, f64::max),
@@ -376,11 +373,24 @@ impl SoFar {
     }
 }
 
-/// ½(|ż|² + ω²|z|²) summed over those of the modes that `counts`.
-fn modal_energy(wheel: &ModalWheel, modes: &[InitialMode], counts: impl Fn(&InitialMode) -> bool) -> f64 {
+/// What to say of a run whose largest displacement is in its `last` frame, in which the speed still changes.
+fn ends_inside(last: &RunUpFrame, so_far: &SoFar) -> Option<String> {
+    if last.speeds_rad_s[0] == last.speeds_rad_s[1] {
+        return None;
+    }
+    let at_end = |largest: &LargestOfRun| largest.displacement > 0.0 && largest.time_s > last.times_s[0];
+    let inside = so_far.largest.iter().position(at_end)?;
+    Some(format!(
+        "the displacement of sensor {inside} is largest at the end: the run ends within a critical speed, and what would follow is not \
+         known; let it go further"
+    ))
+}
+
+/// ½(|ż|² + ω²|z|²) summed over the modes.
+fn modal_energy(wheel: &ModalWheel, modes: &[InitialMode]) -> f64 {
     let of = |mode: &InitialMode| {
         let omega = wheel.harmonics[mode.harmonic].omega[mode.family];
         0.5 * (mode.velocity.norm_sqr() + omega * omega * mode.displacement.norm_sqr())
     };
-    modes.iter().filter(|mode| counts(mode)).map(of).sum()
+    modes.iter().map(of).sum()
 }

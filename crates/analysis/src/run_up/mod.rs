@@ -13,7 +13,7 @@ use rubmap_wheel::dynamics::run_up::segments::Cutting;
 const BAND_RATIO: f64 = std::f64::consts::SQRT_2;
 
 /// How a run of so many revolutions is cut.
-pub(crate) fn cutting(asked: &ResolvedRunUps, revolutions: u64, samples_per_revolution: usize) -> Cutting {
+pub(crate) fn cutting(asked: &ResolvedRunUps, revolutions: f64, samples_per_revolution: usize) -> Cutting {
     Cutting {
         samples_per_revolution,
         tolerance_rad: asked.angle_tolerance_rad,

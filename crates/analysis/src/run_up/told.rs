@@ -47,7 +47,10 @@ pub fn run_ups(asked: &ResolvedRunUps, facts: &ModelFacts, legs: Vec<RunUpLeg>) 
         sensors: asked.sweep.sensors.iter().copied().map(Into::into).collect(),
         units: facts.units.clone(),
         complete,
-        passing: asked.limit.filter(|_| complete && rated).and_then(|limit| passing(limit, &runs)),
+        passing: asked
+            .limit
+            .filter(|_| complete && rated)
+            .and_then(|limit| passing(limit, &facts.units.length, &runs)),
         runs,
         settings: asked.clone().into(),
         version: VERSION.to_owned(),

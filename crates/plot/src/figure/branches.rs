@@ -5,6 +5,7 @@ use serde_json::json;
 
 use super::document::{Figure, axis, speeds};
 use super::interaction_map::ends;
+use super::marched::dots;
 use super::marks::{PointTrace, line, marks, words};
 use super::palette::NEUTRAL;
 use crate::branch_line::{Fate, Place};
@@ -30,7 +31,7 @@ pub fn branches(branches: &Branches, sensor: usize, marched: &[Point]) -> Figure
     };
     figure
         .high(560)
-        .with_all(dots(&view))
+        .with_all(dots(&view.dots))
         .with_all(view.curves.iter().rev().flat_map(|curve| curves(&view, curve)))
         .with_all(Mark::ALL.into_iter().rev().filter_map(|mark| marked(&view, mark)))
         .axis("xaxis", x.range(ends(view.diagram.x.values)))
@@ -74,17 +75,4 @@ fn marked(view: &View<'_>, mark: Mark) -> Option<PointTrace> {
     };
     let of = view.marked.iter().filter(|one| one.mark == mark);
     marks(mark.words(), of.map(|one| (one.place, one.title.clone())), (symbol, size, NEUTRAL))
-}
-
-/// Speeds of the sweep beside.
-fn dots(view: &View<'_>) -> Vec<PointTrace> {
-    let of = |(settled, name, symbol)| {
-        let dots = view.dots.iter().filter(move |dot| dot.settled == settled);
-        marks(name, dots.map(|dot| (dot.place, dot.title.clone())), (symbol, 6, NEUTRAL))
-    };
-    let kinds = [
-        (true, "speed of the sweep", MarkerSymbol::Circle),
-        (false, "the same, not settled", MarkerSymbol::CircleOpen),
-    ];
-    kinds.into_iter().filter_map(of).collect()
 }

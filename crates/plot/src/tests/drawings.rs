@@ -8,14 +8,15 @@ use rubmap_wheel::dynamics::sector::Units;
 use super::branched::{marched, over_clearance, resonance};
 use super::fixtures::{contact, recorded, sector, spectra, worn};
 use super::impeller::{SECTORS, impeller};
+use super::passed::{many_rates, passed, stayed, through_points};
 use super::stresses::{of_sweep, stressed_critical, stressed_map};
 use super::studies::{RUNS, first_revolutions, study};
 use super::{critical, decoded, map, modes, point, units, waves};
 use crate::{
-    ForceQuantity, Frame, HaighColour, HistoryQuantity, LevelColour, PngError, SectionView, SurfaceView,
-    VerticalAxis, Window, branches, campbell, campbell_fixed_frame, critical_speeds, error_over_step,
-    fixed_frame_map, force_map, haigh, histories, interaction_map, map_sheet, png, section, spectrum,
-    speed_histories, surface, trajectories, wear_map, work_precision,
+    ForceQuantity, Frame, HaighColour, HistoryQuantity, LevelColour, PngError, SectionView, SpectrogramUnit,
+    SurfaceView, VerticalAxis, Window, branches, campbell, campbell_fixed_frame, critical_speeds,
+    error_over_step, fixed_frame_map, force_map, haigh, histories, interaction_map, map_sheet, png, run_ups,
+    section, spectrogram, spectrum, speed_histories, surface, trajectories, wear_map, work_precision,
 };
 
 pub(super) fn credentials() -> Point {
@@ -44,6 +45,26 @@ fn all() -> Vec<Drawing> {
     let history = |what| speed_histories(&short, what, 0);
     let turned = |frame| spectrum(&spectra, &credentials(), &mm(), 0, frame);
     vec![
+        (
+            run_ups(&passed(&[5.0, 50.0], true), 0, &stayed()),
+            "Run-ups: radial",
+            &["rotational speed Ω, rpm", "half peak to peak, mm"],
+        ),
+        (
+            run_ups(&passed(&many_rates(), false), 1, &[]),
+            "Run-downs: axial",
+            &["rotational speed Ω, rpm", "half peak to peak, mm"],
+        ),
+        (
+            spectrogram(&passed(&[50.0], true), 0, 0, SpectrogramUnit::Order),
+            "Spectrogram of a run-up at 50 rad/s²: radial",
+            &["rotational speed Ω, rpm", "engine order k", "½ p–p, mm"],
+        ),
+        (
+            spectrogram(&through_points(), 0, 0, SpectrogramUnit::Hz),
+            "Spectrogram of a run with a changing speed: radial",
+            &["time, s", "frequency (rotating frame), Hz", "½ p–p, mm", "Ω, rpm"],
+        ),
         (
             by_speed(VerticalAxis::EngineOrder),
             "Interaction map: radial",

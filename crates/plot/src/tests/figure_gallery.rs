@@ -7,12 +7,14 @@ use super::branched::{marched, over_clearance, resonance};
 use super::drawings::{credentials, mm};
 use super::fixtures::{contact, recorded, sector, spectra, worn};
 use super::gallery::read;
+use super::passed::{passed, stayed, through_points};
 use super::stresses::{of_sweep, stressed_critical, stressed_map};
 use super::studies::{RUNS, first_revolutions, study};
 use super::{critical, map, modes, waves};
 use crate::figure::{self, Figure};
 use crate::{
-    ForceQuantity, Frame, HaighColour, HistoryQuantity, LevelColour, SectionView, VerticalAxis, Window,
+    ForceQuantity, Frame, HaighColour, HistoryQuantity, LevelColour, SectionView, SpectrogramUnit,
+    VerticalAxis, Window,
 };
 use rubmap_analysis::result::{Campbell, CriticalSpeeds, InteractionMap, Quantity};
 
@@ -39,6 +41,12 @@ pub(super) fn all() -> Vec<(String, Figure)> {
     all.push(("branches".to_owned(), figure::branches(&resonance(true), 0, &marched())));
     all.push(("campaign".to_owned(), figure::campaign(&super::campaigns::designs(), 0)));
     all.push(("branches-clearance".to_owned(), figure::branches(&over_clearance(), 0, &[])));
+    all.push(("run-ups".to_owned(), figure::run_ups(&passed(&[5.0, 50.0, 400.0], true), 0, &stayed())));
+    for (name, unit) in [("", SpectrogramUnit::Order), ("-hz", SpectrogramUnit::Hz)] {
+        let (up, through) = (passed(&[50.0], true), through_points());
+        all.push((format!("spectrogram{name}"), figure::spectrogram(&up, 0, 0, unit)));
+        all.push((format!("spectrogram-points{name}"), figure::spectrogram(&through, 0, 0, unit)));
+    }
     for (name, frame) in [("spectrum", Frame::Rotating), ("spectrum-fixed-frame", Frame::Fixed)] {
         let figure = figure::spectrum(&spectra(6), &credentials(), &mm(), 0, frame);
         all.push((name.to_owned(), figure));

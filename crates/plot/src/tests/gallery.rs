@@ -8,13 +8,14 @@ use super::branched::{marched, over_clearance, resonance};
 use super::drawings::{credentials, mm};
 use super::fixtures::{contact, recorded, sector, spectra, worn};
 use super::impeller::{SECTORS, impeller};
+use super::passed::{many_rates, passed, stayed, through_points};
 use super::stresses::{of_sweep, stressed_critical, stressed_map};
 use super::studies::{RUNS, first_revolutions, study};
 use crate::{
-    ForceQuantity, Frame, HaighColour, HistoryQuantity, LevelColour, SectionView, SurfaceView, VerticalAxis,
-    Window, branches, campbell, campbell_fixed_frame, critical_speeds, error_over_step, force_map, haigh,
-    histories, interaction_map, map_sheet, png, section, spectrum, speed_histories, surface, trajectories,
-    wear_map, work_precision,
+    ForceQuantity, Frame, HaighColour, HistoryQuantity, LevelColour, SectionView, SpectrogramUnit,
+    SurfaceView, VerticalAxis, Window, branches, campbell, campbell_fixed_frame, critical_speeds,
+    error_over_step, force_map, haigh, histories, interaction_map, map_sheet, png, run_ups, section,
+    spectrogram, spectrum, speed_histories, surface, trajectories, wear_map, work_precision,
 };
 use rubmap_analysis::result::{
     Campbell, CriticalSpeeds, InteractionMap, Quantity, SectorGeometry, SpeedSpectra,
@@ -78,6 +79,17 @@ fn gallery() {
     save(&folder, "branches", &branches(&resonance(true), 0, &marched()));
     save(&folder, "branches-growing", &branches(&resonance(false), 0, &[]));
     save(&folder, "branches-clearance", &branches(&over_clearance(), 0, &[]));
+
+    for (name, of) in [("", passed(&[5.0, 50.0, 400.0], true)), ("-many", passed(&many_rates(), true))] {
+        save(&folder, &format!("run-ups{name}"), &run_ups(&of, 0, &stayed()));
+    }
+    save(&folder, "run-downs", &run_ups(&passed(&[20.0], false), 1, &[]));
+    for (name, unit) in [("", SpectrogramUnit::Order), ("-hz", SpectrogramUnit::Hz)] {
+        let (up, through) = (passed(&[50.0], true), through_points());
+        save(&folder, &format!("spectrogram{name}"), &spectrogram(&up, 0, 0, unit));
+        save(&folder, &format!("spectrogram-points{name}"), &spectrogram(&through, 0, 0, unit));
+    }
+    save(&folder, "run-through-points", &run_ups(&through_points(), 0, &[]));
 
     let zoom = Window { speeds_rpm: Some((18_000.0, 26_000.0)), engine_orders: Some((1.0, 12.0)) };
     let maps: Option<Vec<InteractionMap>> =

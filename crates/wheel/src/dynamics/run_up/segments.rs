@@ -47,20 +47,27 @@ pub struct TooFast {
 }
 
 impl Cutting {
-    /// Cuts all whole revolutions of `profile`: no segment has part of one and part of another, nor revolutions of two bands.
+    /// Samples of `profile`, all that it reaches.
+    pub fn samples(&self, profile: &SpeedProfile) -> u64 {
+        // What round-off takes from the last one is no sample.
+        (profile.revolutions() * self.samples_per_revolution as f64 * (1.0 + 1e-12)) as u64
+    }
+
+    /// Cuts `profile` up to its last sample: no segment has part of one revolution and part of another, nor revolutions of two bands.
     ///
     /// # Errors
     /// [`TooFast`] where the tolerance cannot be kept.
     pub fn segments(&self, profile: &SpeedProfile) -> Result<Vec<Segment>, TooFast> {
         let (lowest, _) = profile.range_rad_s();
+        let (all, per_revolution) = (self.samples(profile), self.samples_per_revolution as u64);
         let mut segments: Vec<Segment> = Vec::new();
-        let mut end_s = 0.0;
-        for revolution in 0..profile.revolutions() {
-            let start_s = end_s;
-            end_s = profile.time_at((revolution + 1) as f64);
-            let slowest = profile.speed_rad_s(start_s).min(profile.speed_rad_s(end_s));
+        for revolution in 0..all.div_ceil(per_revolution) {
+            let samples = per_revolution.min(all - revolution * per_revolution);
+            let whole = self.segment(profile, revolution, 0, (0, samples));
+            let [from, to] = whole.times_s;
+            let slowest = profile.speed_rad_s(from).min(profile.speed_rad_s(to));
             let band = ((slowest / lowest).ln() / self.band_ratio.ln() + 1e-9).max(0.0) as u32;
-            let whole = self.segment(profile, revolution, band, (0, self.samples_per_revolution as u64));
+            let whole = Segment { band, ..whole };
             let parts = (whole.off_rad / self.tolerance_rad).sqrt().ceil().max(1.0) as u64;
             if parts == 1 {
                 match segments.last_mut().and_then(|last| self.joined(profile, last, &whole)) {
@@ -69,7 +76,6 @@ impl Cutting {
                 }
                 continue;
             }
-            let samples = self.samples_per_revolution as u64;
             let parts = parts.min(samples);
             for part in 0..parts {
                 let ends = (part * samples / parts, (part + 1) * samples / parts);
@@ -122,7 +128,7 @@ impl Cutting {
         if !is_whole || last.band != whole.band || frame(last.first_sample) != frame(whole.first_sample) {
             return None;
         }
-        let joined = self.between(profile, last.first_sample, last.samples + per_revolution, last.band);
+        let joined = self.between(profile, last.first_sample, last.samples + whole.samples, last.band);
         (joined.off_rad <= self.tolerance_rad).then_some((last, joined))
     }
 }
@@ -146,8 +152,7 @@ mod tests {
             for segment in &segments {
                 assert_eq!(segment.first_sample, next);
                 next += segment.samples;
-                let revolutions = segment.samples / 120;
-                assert!(revolutions <= 8 && (segment.samples % 120 == 0 || revolutions == 0));
+                assert!(segment.samples <= 8 * 120, "{segment:?}");
                 let [from, to] = segment.times_s;
                 for share in [0.1, 0.3, 0.5, 0.8] {
                     let sample = segment.first_sample as f64 + share * segment.samples as f64;
@@ -159,13 +164,13 @@ mod tests {
                 let slowest = profile.speed_rad_s(from).min(profile.speed_rad_s(to));
                 assert!(slowest >= 60.0 * 1.5f64.powf(f64::from(segment.band)) * (1.0 - 1e-6));
             }
-            assert_eq!(next, 120 * profile.revolutions());
+            assert_eq!(next, (120.0 * profile.revolutions()) as u64);
         }
     }
 
     /// The revolutions turned until an instant, by halving.
     fn turned(profile: &SpeedProfile, time: f64) -> f64 {
-        let (mut low, mut high) = (0.0, profile.revolutions() as f64 + 1.0);
+        let (mut low, mut high) = (0.0, profile.revolutions() + 1.0);
         for _ in 0..80 {
             let middle = 0.5 * (low + high);
             if profile.time_at(middle) < time { low = middle } else { high = middle }

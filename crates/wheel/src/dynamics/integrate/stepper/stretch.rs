@@ -6,7 +6,7 @@ use super::super::instant::Instant;
 use super::super::run::Outcome;
 use super::super::simulation::Simulation;
 use super::super::stretch::{Part, Stretch};
-use super::{Affected, Completing, Free, Massless, Motion, Stepper, modal_state};
+use super::{Affected, Motion, Stepper, modal_state};
 use crate::dynamics::oscillators::Oscillators;
 
 impl Stepper {
@@ -20,13 +20,7 @@ impl Stepper {
         watch: &dyn Fn(f64) -> bool,
     ) -> Stretch {
         let mut largest = vec![Vec::with_capacity(part.samples as usize); simulation.sensors.len()];
-        let sampled = (simulation, part, largest.as_mut_slice());
-        let ended = match &self.obstacle {
-            _ if self.is_affected() => self.stretch_by::<S, Affected>(simd, sampled, watch),
-            None => self.stretch_by::<S, Free>(simd, sampled, watch),
-            Some(_) if self.massless => self.stretch_by::<S, Massless>(simd, sampled, watch),
-            Some(_) => self.stretch_by::<S, Completing>(simd, sampled, watch),
-        };
+        let ended = self.take(simd, (simulation, part, largest.as_mut_slice()), watch);
         let revolutions =
             (part.first_sample + part.samples) as f64 / simulation.samples_per_revolution as f64;
         if let Some(drive) = &mut self.drive {
@@ -43,8 +37,10 @@ impl Stepper {
         }
     }
 
+    /// The loop. One is compiled for scenes with and without effects: what they do not have costs a question a step, another loop the compiler
+    /// half a minute.
     #[inline(always)]
-    fn stretch_by<S: Simd, M: Motion>(
+    fn take<S: Simd>(
         &mut self,
         simd: S,
         (simulation, part, largest): (&Simulation<'_>, Part, &mut [Vec<f64>]),
@@ -59,24 +55,24 @@ impl Stepper {
             0 => Instant::beginning(revolution),
             step => Instant::new(revolution, step, steps),
         };
-        if M::TOUCHES && self.touches_at::<S, M>(simd, start) {
+        if self.touches_at::<S, Affected>(simd, start) {
             // Of the step before the first: nothing of it counts.
             let (statistics, energy) = (self.statistics, self.energy);
-            self.solve::<S, M>(simd, start)?;
+            self.solve::<S, Affected>(simd, start)?;
             (self.statistics, self.energy) = (statistics, energy);
         }
         for step in 1..=all {
             let now = Instant::of_any(revolution, before + step, steps);
-            M::predict(self, simd, now);
-            if !self.gaps::<S, M>(simd, now) {
-                self.solve::<S, M>(simd, now)?;
+            Affected::predict(self, simd, now);
+            if !self.gaps::<S, Affected>(simd, now) {
+                self.solve::<S, Affected>(simd, now)?;
             }
             self.statistics.steps += 1;
-            self.quench::<M>();
+            self.quench::<Affected>();
             self.look_up(watch, step as f64 / all as f64)?;
             if step % sampling == 0 {
-                M::apply(self, simd);
-                self.record::<S, M>(simd, now, false)?;
+                Affected::apply(self, simd);
+                self.record::<S, Affected>(simd, now, false)?;
                 self.recorder.largest(&self.fourier, largest);
             }
         }

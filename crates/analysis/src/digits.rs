@@ -1,7 +1,7 @@
 //! Numbers in sentences.
 
 /// The same with four significant digits.
-pub(super) fn short(value: f64) -> f64 {
+pub(crate) fn short(value: f64) -> f64 {
     format!("{value:.3e}").parse().unwrap_or(value)
 }
 

@@ -1,0 +1,17 @@
+//! Speeds of a sweep as dots.
+
+use plotly::common::MarkerSymbol;
+
+use super::marks::{PointTrace, marks};
+use super::palette::NEUTRAL;
+use crate::marched::{Dot, KINDS};
+
+/// A trace of those that have settled, and one of those that have not.
+pub(super) fn dots(dots: &[Dot]) -> Vec<PointTrace> {
+    let of = |(settled, name): (bool, &str)| {
+        let symbol = if settled { MarkerSymbol::Circle } else { MarkerSymbol::CircleOpen };
+        let dots = dots.iter().filter(|dot| dot.settled == settled);
+        marks(name, dots.map(|dot| (dot.place, dot.title.clone())), (symbol, 6, NEUTRAL))
+    };
+    KINDS.into_iter().filter_map(of).collect()
+}

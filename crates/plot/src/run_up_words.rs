@@ -1,0 +1,107 @@
+//! What is said of run-ups.
+
+use super::axis::{label, significant};
+use super::cells::rpm;
+use super::heading;
+use rubmap_analysis::request::{AutoOr, RunUpSettings, RunUpSpeed};
+use rubmap_analysis::result::{RunUp, RunUps};
+
+/// Most runs of which it is said how they ended.
+const MOST_ENDS: usize = 3;
+
+/// How a speed changes, in a word.
+pub(super) fn course(speed: &RunUpSpeed) -> &'static str {
+    let speeds: Vec<f64> = match &speed.points {
+        Some(points) => points.iter().map(|point| point.speed).collect(),
+        None => speed.from.into_iter().chain(speed.to).collect(),
+    };
+    let all = |in_order: fn(&[f64]) -> bool| speeds.windows(2).all(in_order);
+    if all(|pair| pair[0] <= pair[1]) {
+        "run-up"
+    } else if all(|pair| pair[0] >= pair[1]) {
+        "run-down"
+    } else {
+        "run with a changing speed"
+    }
+}
+
+/// What a run is called: by its rate.
+pub(super) fn name(run: &RunUp) -> String {
+    run.rate_rad_s2.map_or_else(|| "run".to_owned(), |rate| format!("{} rad/s²", digits(rate)))
+}
+
+/// A rate to three digits, without zeros at the end.
+fn digits(rate: f64) -> String {
+    let digits = significant(rate);
+    if digits.contains('e') || !digits.contains('.') {
+        return digits;
+    }
+    digits.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+/// A run with what its rate is in rpm, in words.
+pub(super) fn long_name(run: &RunUp) -> String {
+    match run.rate_rad_s2 {
+        Some(rate) => format!("{} ({} rpm/s)", name(run), digits(rpm(rate))),
+        None => name(run),
+    }
+}
+
+/// What the envelopes are of.
+pub(super) fn title(run_ups: &RunUps, sensor: usize) -> String {
+    let what = match course(&run_ups.settings.speed) {
+        "run-up" => "Run-ups",
+        "run-down" => "Run-downs",
+        _ => "Run with a changing speed",
+    };
+    match run_ups.sensors.get(sensor) {
+        Some(sensor) => format!("{what}: {sensor}"),
+        None => format!("{what}: no such sensor"),
+    }
+}
+
+/// What stands below the title: how much there is, how fast one must pass, and how runs ended that do not say all.
+pub(super) fn words(run_ups: &RunUps) -> Vec<String> {
+    let frames = run_ups.runs.iter().map(|run| run.frames.len()).sum();
+    let mut words = vec![counted(run_ups.runs.len(), "run"), of_frames(frames, &run_ups.settings)];
+    words.extend((!run_ups.complete).then(|| "still running, or stopped".to_owned()));
+    words.push(heading::origin(&run_ups.settings.sweep.model, &run_ups.version));
+    let passing = run_ups.passing.as_ref().map(|passing| {
+        let unit = &run_ups.units.length;
+        format!(
+            "largest displacement at any sector, limit {} {unit}: {}",
+            significant(passing.limit),
+            passing.message
+        )
+    });
+    let ends = ends(run_ups);
+    [Some(words.join(" · ")), passing, (!ends.is_empty()).then_some(ends)].into_iter().flatten().collect()
+}
+
+/// So many frames, and how long they are, in words.
+pub(super) fn of_frames(frames: usize, settings: &RunUpSettings) -> String {
+    let frames = counted(frames, "frame");
+    match settings.frame_revolutions {
+        AutoOr::Fixed(1) => format!("{frames} of a revolution"),
+        AutoOr::Fixed(revolutions) => format!("{frames} of {revolutions} revolutions"),
+        AutoOr::Auto => frames,
+    }
+}
+
+pub(super) fn counted(count: usize, what: &str) -> String {
+    format!("{} {what}{}", label(count as f64, 0), if count == 1 { "" } else { "s" })
+}
+
+fn ends(run_ups: &RunUps) -> String {
+    let told = |run: &RunUp| {
+        let message = run.end.as_ref()?.message.as_ref()?;
+        Some(format!("{}: {message}", name(run)))
+    };
+    let mut words: Vec<String> = run_ups.runs.iter().filter_map(told).collect();
+    let more = words.len().saturating_sub(MOST_ENDS);
+    words.truncate(MOST_ENDS);
+    words.extend(
+        (more > 0).then(|| format!("and {} of which something must be known", counted(more, "more run"))),
+    );
+    words.join(" · ")
+}
