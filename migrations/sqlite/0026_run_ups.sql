@@ -4,7 +4,7 @@
 pragma writable_schema = on;
 
 update sqlite_schema set sql = replace(sql, '''campaign''))', '''campaign'', ''run_up''))') where type = 'table' and name = 'jobs';
-update sqlite_schema set sql = replace(sql, '''branch_course''))', '''branch_course'', ''run_ups'', ''run_up_course''))')
+update sqlite_schema set sql = replace(sql, '''branch_course''))', '''branch_course'', ''run_ups'', ''run_up_course'', ''run_up_spectra''))')
 where type = 'table' and name = 'documents';
 
 pragma writable_schema = reset;

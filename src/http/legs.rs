@@ -7,6 +7,7 @@ use super::forms::READ_MEMORY;
 use super::problem::{Kind, Problem};
 use super::state::AppState;
 use crate::store::jobs::{Job, JobId};
+use crate::store::results::Document;
 use crate::store::status::JobStatus;
 use crate::store::{Followed, Store};
 
@@ -31,7 +32,7 @@ impl Legs {
         followed: Followed,
         thing: &str,
     ) -> Result<Self, Problem> {
-        let count = state.store.legs(job.id, followed).await?;
+        let (count, stored_bytes) = state.store.parts(job.id, followed.leg(0)).await?;
         if count == 0 {
             let kind = match job.status {
                 JobStatus::Accepted | JobStatus::Running | JobStatus::Paused => Kind::ResultNotReady,
@@ -39,10 +40,6 @@ impl Legs {
             };
             let detail = format!("the job is {} and has no {thing}", job.status.as_str());
             return Err(Problem::new(kind, detail));
-        }
-        let mut stored_bytes = 0;
-        for index in 0..count {
-            stored_bytes += state.store.document_bytes(job.id, followed.leg(index)).await?.unwrap_or(0);
         }
         let (store, runtime) = (state.store.clone(), Handle::current());
         Ok(Self { store, runtime, job: job.id, followed, count, stored_bytes })
@@ -57,9 +54,18 @@ impl Legs {
     pub(super) fn read<L: DeserializeOwned>(&self) -> Result<Vec<L>, Problem> {
         let mut found = Vec::new();
         for index in 0..self.count {
-            let text = self.runtime.block_on(self.store.document(self.job, self.followed.leg(index)))?;
-            found.extend(text.map(|text| serde_json::from_str(&text)).transpose()?);
+            found.extend(self.document(self.followed.leg(index))?);
         }
         Ok(found)
+    }
+
+    /// Reads what is kept beside one of them, waiting.
+    pub(super) fn read_beside<B: DeserializeOwned>(&self, index: usize) -> Result<Option<B>, Problem> {
+        self.followed.beside(index as u32).map_or(Ok(None), |document| self.document(document))
+    }
+
+    fn document<D: DeserializeOwned>(&self, document: Document) -> Result<Option<D>, Problem> {
+        let text = self.runtime.block_on(self.store.document(self.job, document))?;
+        Ok(text.map(|text| serde_json::from_str(&text)).transpose()?)
     }
 }

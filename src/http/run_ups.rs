@@ -8,7 +8,7 @@ use utoipa::{IntoParams, ToSchema};
 
 use super::download::{Download, DownloadQuery, lasting};
 use super::extract::{JobPath, JsonBody, Parameters, job_not_found};
-use super::forms::Forms;
+use super::forms::{Forms, READ_MEMORY};
 use super::idempotency::IdempotencyKey;
 use super::labels::Labelled;
 use super::legs::Legs;
@@ -25,6 +25,7 @@ use crate::jobs::Submission;
 use crate::plot;
 use crate::store::Followed;
 use crate::store::jobs::{Job, JobKind, JobRequest};
+use crate::store::results::Document;
 use crate::tokens::Principal;
 
 type RunUpBody = Labelled<RunUpRequest>;
@@ -141,11 +142,7 @@ pub(super) async fn get_run_ups(
     let legs = Legs::of(&state, &job, Followed::RunUps, FRAME).await?;
     let bytes = legs.bytes();
     let (asked, facts) = (asked.clone(), facts.clone());
-    let read = move || {
-        let mut found = run::run_ups(&asked, &facts, legs.read()?).ok_or_else(|| job_not_found(&id))?;
-        found.leave_out_spectra();
-        Ok(found)
-    };
+    let read = move || run::run_ups(&asked, &facts, legs.read()?).ok_or_else(|| job_not_found(&id));
     let sensor = query.sensor as usize;
     let dots = steady.clone();
     let draw = move |run_ups: &RunUps| plot::run_ups(run_ups, sensor, &dots);
@@ -210,13 +207,19 @@ pub(super) async fn get_spectrogram(
         return Err(Problem::parameter("run", detail));
     }
     let legs = Legs::of(&state, &job, Followed::RunUps, FRAME).await?;
-    let bytes = legs.bytes();
+    let (_, spectra) = state.store.parts(id, Document::RunUpSpectra(0)).await?;
+    let bytes = legs.bytes() + READ_MEMORY * spectra;
     let (asked, facts) = (asked.clone(), facts.clone());
     let SpectrogramQuery { run: number, sensor, over } = query;
     let has_ended = lasting(&job).is_some();
     let read = move || {
-        let legs: Vec<RunUpLeg> = legs.read()?;
-        let of_run = legs.into_iter().filter(|leg| leg.run() == number).collect();
+        let mut of_run = Vec::new();
+        for (index, leg) in legs.read::<RunUpLeg>()?.into_iter().enumerate() {
+            if leg.run() == number {
+                let spectra = legs.read_beside(index)?.unwrap_or_default();
+                of_run.push(leg.with_spectra(spectra));
+            }
+        }
         let found = run::run_ups(&asked, &facts, of_run).and_then(|run_ups| {
             let spectrogram = run::spectrogram(&run_ups, number, sensor as usize)?;
             Some(Drawn { spectrogram, run_ups })

@@ -8,7 +8,24 @@ use super::error::Interruption;
 use super::finish;
 use super::patience::patiently;
 use crate::analysis::error::AnalysisError;
+use crate::analysis::result::{BranchLeg, RunUpLeg};
 use crate::store::Followed;
+
+/// A leg, as it is kept.
+pub(super) trait Leg: Serialize {
+    /// What is kept beside it, as text.
+    fn beside(&self) -> Result<Option<String>, serde_json::Error> {
+        Ok(None)
+    }
+}
+
+impl Leg for BranchLeg {}
+
+impl Leg for RunUpLeg {
+    fn beside(&self) -> Result<Option<String>, serde_json::Error> {
+        serde_json::to_string(&self.spectra()).map(Some)
+    }
+}
 
 /// Follows a job to its end from where it was left; `further` computes the next leg after a course, and the course after it.
 pub(super) async fn follow<L, C, F>(
@@ -18,7 +35,7 @@ pub(super) async fn follow<L, C, F>(
     further: F,
 ) -> Result<(), Interruption>
 where
-    L: Serialize + Send + 'static,
+    L: Leg + Send + 'static,
     C: Serialize + DeserializeOwned + Send + 'static,
     F: Fn(Option<C>) -> Result<(L, Option<C>), AnalysisError> + Clone + Send + 'static,
 {
@@ -30,9 +47,10 @@ where
     while legs == 0 || course.is_some() {
         let (from, further) = (course.take(), further.clone());
         let (leg, next) = engine.computing.run(&job.watch, move || further(from)).await??;
-        let (text, rest) =
-            (serde_json::to_string(&leg)?, next.as_ref().map(serde_json::to_string).transpose()?);
-        patiently(&job.watch, || engine.store.keep_leg(job.id, (followed, legs), &text, rest.as_deref()))
+        let (text, beside) = (serde_json::to_string(&leg)?, leg.beside()?);
+        let rest = next.as_ref().map(serde_json::to_string).transpose()?;
+        let kept = (text.as_str(), beside.as_deref());
+        patiently(&job.watch, || engine.store.keep_leg(job.id, (followed, legs), kept, rest.as_deref()))
             .await?;
         engine.computing.acquit(job.id);
         legs += 1;

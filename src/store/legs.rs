@@ -32,21 +32,32 @@ impl Followed {
             Self::RunUps => Document::RunUpCourse,
         }
     }
+
+    /// What is kept beside a leg, if it has such.
+    pub fn beside(self, index: u32) -> Option<Document> {
+        match self {
+            Self::Branches => None,
+            Self::RunUps => Some(Document::RunUpSpectra(index)),
+        }
+    }
 }
 
 impl Store {
-    /// Keeps leg `index` of a job together with the course after it, in place of the one before; none where nothing is left to follow. A
-    /// leg that is there already stays as it is, and so does its course; a job that was deleted keeps nothing.
+    /// Keeps leg `index` of a job, with what belongs `beside` it, together with the course after it, in place of the one before; none where
+    /// nothing is left to follow. A leg that is there already stays as it is, and so does its course; a job that was deleted keeps nothing.
     pub async fn keep_leg(
         &self,
         job: JobId,
         (followed, index): (Followed, u32),
-        leg: &str,
+        (leg, beside): (&str, Option<&str>),
         course: Option<&str>,
     ) -> Result<(), StoreError> {
         let mut transaction = self.write().await?;
         transaction.guard(Guarded::Job(job)).await?;
         if keep_result(&mut transaction, job, followed.leg(index), leg).await? {
+            if let Some((document, text)) = followed.beside(index).zip(beside) {
+                keep_result(&mut transaction, job, document, text).await?;
+            }
             let (name, part) = followed.course().columns();
             sqlx::query("delete from documents where job = $1 and name = $2 and part = $3")
                 .bind(job.to_string())
@@ -64,12 +75,19 @@ impl Store {
 
     /// How many legs of a job there are.
     pub async fn legs(&self, job: JobId, followed: Followed) -> Result<u32, StoreError> {
-        let (name, _) = followed.leg(0).columns();
-        let count: i64 = sqlx::query_scalar("select count(*) from documents where job = $1 and name = $2")
-            .bind(job.to_string())
-            .bind(name)
-            .fetch_one(&self.readers)
-            .await?;
-        of("documents.part", count)
+        Ok(self.parts(job, followed.leg(0)).await?.0)
+    }
+
+    /// How many documents of the kind of this one a job has, and the bytes of their texts.
+    pub async fn parts(&self, job: JobId, of_kind: Document) -> Result<(u32, u64), StoreError> {
+        let (name, _) = of_kind.columns();
+        let (count, bytes): (i64, i64) = sqlx::query_as(
+            "select count(*), cast(coalesce(sum(octet_length(body)), 0) as bigint) from documents where job = $1 and name = $2",
+        )
+        .bind(job.to_string())
+        .bind(name)
+        .fetch_one(&self.readers)
+        .await?;
+        Ok((of("documents.part", count)?, bytes.unsigned_abs()))
     }
 }

@@ -41,6 +41,8 @@ pub enum Document {
     RunUpLeg(u32),
     /// How far run-ups have got, of a job under way.
     RunUpCourse,
+    /// Spectra of so manyeth stretch of run-ups.
+    RunUpSpectra(u32),
 }
 
 impl Document {
@@ -58,6 +60,7 @@ impl Document {
             Self::BranchCourse,
             Self::RunUpLeg(part),
             Self::RunUpCourse,
+            Self::RunUpSpectra(part),
         ];
         let found = all.into_iter().find(|document| document.columns().0 == name);
         found.ok_or_else(|| StoreError::Unknown { column: "documents.name", value: name.to_owned() })
@@ -77,6 +80,7 @@ impl Document {
             Self::BranchCourse => ("branch_course", 0),
             Self::RunUpLeg(index) => ("run_ups", index),
             Self::RunUpCourse => ("run_up_course", 0),
+            Self::RunUpSpectra(index) => ("run_up_spectra", index),
         }
     }
 }

@@ -187,7 +187,11 @@ async fn what_cannot_be_run_up_is_refused_at_its_field() {
         (json!([{"time_s": 0.1, "speed": 300.0}, {"time_s": 1.0, "speed": 400.0}]), "/speed/points/0/time_s"),
         (json!([{"time_s": 0.0, "speed": 300.0}, {"time_s": 0.0, "speed": 400.0}]), "/speed/points/1/time_s"),
         (json!([{"time_s": 0.0, "speed": 300.0}, {"time_s": 1.0, "speed": 0.0}]), "/speed/points/1/speed"),
-        (json!([{"time_s": 0.0, "speed": 300.0}, {"time_s": 1e-6, "speed": 301.0}]), "/speed/points"),
+        (json!([{"time_s": 0.0, "speed": 300.0}, {"time_s": 1e-5, "speed": 301.0}]), "/speed/points"),
+        (
+            json!([{"time_s": 0.0, "speed": 300.0}, {"time_s": 1e-9, "speed": 301.0}]),
+            "/speed/points/1/time_s",
+        ),
     ] {
         refused(&|request| request["speed"] = json!({"unit": "rad_s", "points": points}), pointer).await;
     }
@@ -196,10 +200,29 @@ async fn what_cannot_be_run_up_is_refused_at_its_field() {
         ("angle_tolerance_rad", json!(1.0)),
         ("frame_revolutions", json!(0)),
         ("frame_revolutions", json!(12)),
+        ("frame_revolutions", json!(1_000_000)),
         ("limit", json!(0.0)),
     ] {
         refused(&|request| request[field] = value.clone(), &format!("/{field}")).await;
     }
+    // Hundreds of thousands of pieces.
+    refused(
+        &|request| {
+            request["speed"] = json!({"unit": "rad_s", "from": 1000.0, "to": 60_000.0, "rates": [2000.0]});
+            request["angle_tolerance_rad"] = json!(1e-8);
+        },
+        "/speed/rates/0",
+    )
+    .await;
+    refused(
+        &|request| {
+            let rates: Vec<f64> = (0..100).map(|rate| 10.0 + f64::from(rate)).collect();
+            request["speed"]["rates"] = json!(rates);
+            request["max_engine_order"] = json!(1000);
+        },
+        "/max_engine_order",
+    )
+    .await;
     refused(
         &|request| {
             request["sensors"] = json!([{"gauge": {"nodes": [1, 2]}}]);

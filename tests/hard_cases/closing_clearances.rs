@@ -45,7 +45,7 @@ fn resolved(sector: &SectorModel, scheme: &str, changes: Value) -> Result<Resolv
 }
 
 /// The wheel, with tips that grow by up to 0.5 mm at the higher speed: their nodes are pulled outwards.
-fn growing(sector: &SectorModel) -> (ReducedSector, Vec<Vec<f64>>) {
+pub(crate) fn growing(sector: &SectorModel) -> (ReducedSector, Vec<Vec<f64>>) {
     let mut load = vec![0.0; sector.own_dofs()];
     for (k, node) in sector.contact.iter().enumerate() {
         load[node.dofs[0]] = 1.0 + 0.3 * k as f64;

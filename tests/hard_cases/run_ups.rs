@@ -7,10 +7,11 @@
 use rubmap::analysis::monitor::Unwatched;
 use rubmap::analysis::request::RunUpRequest;
 use rubmap::analysis::result::{RunUpEnd, RunUps};
-use rubmap::analysis::run::{ModelFacts, ReducedSector, resolve_run_ups, run_up_leg, run_ups};
+use rubmap::analysis::run::{MeshFacts, ModelFacts, ReducedSector, resolve_run_ups, run_up_leg, run_ups};
 use rubmap::dynamics::sector::SectorModel;
 use serde_json::{Value, json};
 
+use crate::closing_clearances::growing;
 use crate::fixtures::{TOP_SPEED, WheelRecipe, wheel};
 use crate::support::{ENERGY_TOLERANCE, SCHEMES, merge, reduced};
 
@@ -29,7 +30,9 @@ fn told(sector: &SectorModel, reduced: &ReducedSector, scheme: &str, changes: Va
     });
     merge(&mut request, changes);
     let request: RunUpRequest = serde_json::from_value(request).unwrap();
-    let facts = ModelFacts::of(sector);
+    // As of a model with elements, of which growth is known.
+    let mesh = Some(MeshFacts { elements: 1, sets: Vec::new(), tip_thickness: None });
+    let facts = ModelFacts { mesh, ..ModelFacts::of(sector) };
     let asked = resolve_run_ups(request, &facts).unwrap();
     let (mut legs, mut course) = (Vec::new(), None);
     loop {
@@ -72,7 +75,7 @@ fn a_run_that_ends_within_a_critical_speed_says_so() {
         assert!((1030.0..1150.0).contains(&critical), "{critical}");
         let into = run(critical - 15.0);
         let message = sound(&into).message.as_deref().unwrap_or_default();
-        assert!(message.contains("ends within a critical speed"), "{message}");
+        assert!(message.contains("may end within a critical speed"), "{message}");
     }
 }
 
@@ -90,7 +93,7 @@ fn contact_is_handed_on_without_loss() {
         let (coarse, fine) = (run(4e-3), run(2.5e-4));
         for found in [&coarse, &fine] {
             let end = sound(found);
-            assert!(end.contact_share > 0.05 && end.message.is_none(), "{end:?}");
+            assert!(end.contact_share > 0.05, "{end:?}");
         }
         let ends = [&coarse, &fine].map(|found| found.runs[0].end.as_ref().unwrap());
         assert!(ends[1].segments > 2 * ends[0].segments, "{} {}", ends[0].segments, ends[1].segments);
@@ -98,5 +101,40 @@ fn contact_is_handed_on_without_loss() {
             eprintln!("{scheme} {} {}", a.displacement, b.displacement);
             assert!((a.displacement / b.displacement - 1.0).abs() < 0.1, "{scheme}: {a:?} {b:?}");
         }
+    }
+}
+
+/// A run-down whose cold clearances are closed at first, and open as the tips shrink: the casing comes with its ramp, whatever the step, and the
+/// wheel is let go.
+#[test]
+fn what_presses_at_first_lets_go() {
+    let sector = wheel(WheelRecipe { stiffening: true, ..WheelRecipe::default() });
+    let (reduced, growth) = growing(&sector);
+    assert!(growth[1].iter().any(|growth| *growth > 0.42) && growth[0].iter().all(|growth| *growth < 0.3));
+    for scheme in SCHEMES {
+        let run = |steps: u32| {
+            let casing = json!({"clearance": {"leading": null, "trailing": null, "values": [0.42, 0.42, 0.42], "given": "cold"}, "lobes": null});
+            let speed = json!({"from": 0.6 * TOP_SPEED, "to": 0.3 * TOP_SPEED, "rates": [9000.0]});
+            let scene = json!({"casing": casing, "damping": {"modal_ratio": 0.2}});
+            let mut integration = json!({"steps_per_revolution": steps});
+            if scheme == "massless_boundary" {
+                integration["kept_modes"] = json!(5);
+            }
+            told(
+                &sector,
+                &reduced,
+                scheme,
+                json!({"speed": speed, "scene": scene, "integration": integration}),
+            )
+        };
+        let energies = [20_800, 41_600].map(|steps| {
+            let found = run(steps);
+            let end = sound(&found);
+            let frames = &found.runs[0].frames;
+            assert!(frames[0].contact_share > 0.5 && frames.last().unwrap().contact_share == 0.0, "{end:?}");
+            assert!(frames.last().unwrap().largest[0] < 0.01 * end.largest[0].displacement, "{end:?}");
+            end.largest_energy
+        });
+        assert!((energies[1] / energies[0] - 1.0).abs() < 0.05, "{scheme}: {energies:?}");
     }
 }

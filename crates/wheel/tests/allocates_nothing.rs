@@ -142,8 +142,12 @@ fn with_each_effect_and_with_all() {
     let mistuning = Effects { mistuning: Some(&[0.01, -0.02, 0.0, 0.015, -0.005]), ..Effects::default() };
     let excitation = Effects { excitation: &excitation, ..Effects::default() };
     let change = ClearanceChange { course: vec![(0.5, 0.01), (1.0, -0.01)], along_chord: None };
-    let drift =
-        ClearanceDrift { revolutions: [0.0, 4.0], first: vec![0.01; NODES], last: vec![-0.01; NODES] };
+    let drift = ClearanceDrift {
+        revolutions: [0.0, 4.0],
+        without: vec![0.0; NODES],
+        first: vec![0.01; NODES],
+        last: vec![-0.01; NODES],
+    };
     let all = Effects {
         friction: friction.friction,
         flexible_casing: casing.flexible_casing,

@@ -582,7 +582,6 @@ class RunUpFrame(TypedDict):
     half_peak_to_peak: list[float]
     largest: list[float]
     revolution: int
-    spectra: NotRequired[list[list[float]]]
     speeds_rad_s: list[float]
     times_s: list[float]
 
@@ -1279,7 +1278,7 @@ class PlannedRunUp(TypedDict):
     frame_revolutions: int
     message: NotRequired[str | None]
     rate_rad_s2: NotRequired[float | None]
-    revolutions: int
+    revolutions: float
     scheme: NotRequired[SchemeReport | None]
     segments: int
     steps: NotRequired[int | None]
@@ -1339,7 +1338,7 @@ class RunUpEnd(TypedDict):
     largest_energy: float
     largest_penetration: NotRequired[float | None]
     message: NotRequired[str | None]
-    revolutions: int
+    revolutions: float
     scheme: NotRequired[SchemeReport | None]
     segments: int
     status: PointStatus

@@ -18,9 +18,15 @@ use crate::run_up::cutting;
 /// Angles by which a wheel may be off, rad: finer ones are round-off, coarser ones are nothing that a run-up is made for.
 const TOLERANCE: std::ops::RangeInclusive<f64> = 1e-8..=0.1;
 
-/// Most revolutions of all runs together, and most frames of one.
-const REVOLUTIONS: f64 = 1e6;
+/// Most revolutions of all runs together.
+const REVOLUTIONS: f64 = 200_000.0;
+
+/// Most frames of a run, and revolutions of a frame.
 const FRAMES: u64 = 10_000;
+const FRAME_REVOLUTIONS: u64 = 1000;
+
+/// Most amplitudes of all frames of all runs together.
+const AMPLITUDES: u64 = 10_000_000;
 
 /// Parses run-ups and checks them against their model.
 pub fn resolve_run_ups(request: RunUpRequest, facts: &ModelFacts) -> Result<ResolvedRunUps, Vec<Violation>> {
@@ -56,9 +62,18 @@ pub fn resolve_run_ups(request: RunUpRequest, facts: &ModelFacts) -> Result<Reso
         record: Record::default(),
         fields: None,
     };
-    let at_its_field = |violation: Violation| match violation.pointer.strip_prefix("/speeds") {
-        Some(_) => Violation { pointer: "/speed".to_owned(), ..violation },
-        None => violation,
+    let at_its_field = |violation: Violation| {
+        if violation.pointer.starts_with("/speeds") {
+            Violation { pointer: "/speed".to_owned(), ..violation }
+        } else if violation.pointer == "/integration/most_revolutions" {
+            // The numbers that a speed of a sweep records: a frame has fewer, in the same proportion.
+            Violation::new(
+                "/sensors",
+                "these sensors record more numbers than a run holds: ask for fewer, or for fewer engine orders",
+            )
+        } else {
+            violation
+        }
     };
     let sweep = match resolve_sweep(sweep, facts) {
         Ok(sweep) => sweep,
@@ -120,17 +135,18 @@ fn check_scene(found: &mut Findings, sweep: &ResolvedSweep) {
 fn check_runs(found: &mut Findings, asked: &ResolvedRunUps, facts: &ModelFacts) {
     if let AutoOr::Fixed(frame) = asked.frame_revolutions {
         let frame = u64::from(frame);
+        let sound = (1..=FRAME).contains(&frame) || (frame > 0 && frame.is_multiple_of(FRAME));
         found.require(
-            (1..=FRAME).contains(&frame) || (frame > 0 && frame.is_multiple_of(FRAME)),
+            sound && frame <= FRAME_REVOLUTIONS,
             "/frame_revolutions",
-            format!("1 to {FRAME} revolutions, or a multiple of {FRAME}"),
+            format!("1 to {FRAME} revolutions, or a multiple of {FRAME} up to {FRAME_REVOLUTIONS}"),
         );
         if frame == 0 {
             return;
         }
     }
     let samples = Discretisation::of_every_speed(&asked.sweep, facts.sectors as usize);
-    let mut all = 0.0;
+    let (mut all, mut amplitudes) = (0.0, 0);
     for run in 0..asked.runs() {
         let profile = asked.speed.profile(run);
         let revolutions = profile.revolutions();
@@ -147,12 +163,15 @@ fn check_runs(found: &mut Findings, asked: &ResolvedRunUps, facts: &ModelFacts) 
         found.require(
             all <= REVOLUTIONS,
             &pointer,
-            format!("{all:.0} revolutions with this run; all runs together take at most {REVOLUTIONS:.0}"),
+            format!(
+                "{all:.0} revolutions with this run; all runs together take at most {REVOLUTIONS:.0}: change the speed faster"
+            ),
         );
-        if all > REVOLUTIONS || revolutions < 1.0 {
+        if !found.0.is_empty() {
             return;
         }
-        let frames = (revolutions as u64).div_ceil(asked.frame_revolutions(revolutions));
+        let frame = asked.frame_revolutions(revolutions);
+        let frames = (revolutions as u64).div_ceil(frame);
         found.require(
             frames <= FRAMES,
             "/frame_revolutions",
@@ -160,19 +179,19 @@ fn check_runs(found: &mut Findings, asked: &ResolvedRunUps, facts: &ModelFacts) 
                 "{frames} frames of a run of {revolutions:.0} revolutions; at most {FRAMES}: make them longer"
             ),
         );
-        // What holds for the fastest change at the lowest speed holds everywhere.
-        let (lowest, _) = profile.range_rad_s();
-        let revolution_s = std::f64::consts::TAU / lowest;
-        let most =
-            profile.largest_rate(0.0, profile.duration_s()) * (revolution_s / samples as f64).powi(2) / 8.0;
-        if most > asked.angle_tolerance_rad
-            && let Err(too_fast) = cutting(asked, revolutions, samples).segments(&profile)
-        {
-            found.require(
-                false,
-                &pointer,
-                format!("{too_fast}; allow more by `angle_tolerance_rad`, or change the speed more slowly"),
-            );
+        let lines = u64::from(asked.sweep.max_engine_order) * frame.min(FRAME) + 1;
+        amplitudes += frames * lines * asked.sweep.sensors.len() as u64;
+        if let Err(reason) = cutting(asked, revolutions, samples).segments(&profile) {
+            let advice = "allow more by `angle_tolerance_rad`, or change the speed more slowly";
+            found.require(false, &pointer, format!("{reason}; {advice}"));
         }
     }
+    found.require(
+        amplitudes <= AMPLITUDES,
+        "/max_engine_order",
+        format!(
+            "spectrograms of {amplitudes} amplitudes in all; at most {AMPLITUDES}: ask for fewer engine orders, sensors or runs, or for longer \
+             frames"
+        ),
+    );
 }

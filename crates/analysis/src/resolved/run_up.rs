@@ -35,6 +35,9 @@ const FRAMES: u64 = 1000;
 /// Revolutions of a frame, of which longer ones are multiples.
 pub(crate) const FRAME: u64 = 8;
 
+/// Shortest time in which a speed changes, s: what is shorter is a jump.
+const SHORTEST_S: f64 = 1e-6;
+
 /// Most runs, and points of one.
 const RUNS: usize = 100;
 const POINTS: usize = 10_000;
@@ -94,11 +97,14 @@ impl ResolvedCourse {
                 for (index, point) in points.iter().enumerate().take(POINTS) {
                     require(plausible(point.speed), &format!("/points/{index}/speed"), words());
                     let before = index.checked_sub(1).map(|before| points[before].time_s);
-                    let ascends = before.map_or(point.time_s == 0.0, |before| point.time_s > before);
+                    let ascends =
+                        before.map_or(point.time_s == 0.0, |before| point.time_s - before >= SHORTEST_S);
                     require(
                         ascends && point.time_s.is_finite(),
                         &format!("/points/{index}/time_s"),
-                        "0 for the first point, then later than the one before".to_owned(),
+                        format!(
+                            "0 for the first point, then at least {SHORTEST_S} s later than the one before"
+                        ),
                     );
                 }
                 let points = points.iter().map(|point| (point.time_s, point.speed * unit)).collect();
@@ -128,6 +134,9 @@ impl ResolvedCourse {
                         &pointer,
                         format!("{rate} is in the list already"),
                     );
+                    let change = (to.unwrap_or_default() - from.unwrap_or_default()).abs();
+                    let lasts = !positive || change / rate >= SHORTEST_S;
+                    require(lasts, &pointer, format!("the speed changes within less than {SHORTEST_S} s"));
                 }
                 let hold_s = hold_s.unwrap_or(0.0);
                 require(hold_s.is_finite() && hold_s >= 0.0, "/hold_s", "a time, 0 or more".to_owned());

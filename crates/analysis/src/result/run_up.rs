@@ -66,8 +66,9 @@ pub struct RunUpFrame {
     /// Share of its steps in which something touches.
     pub contact_share: f64,
     /// Amplitudes of every sensor at its own sector, line by line of the order; under a Hann window, and of several lines that fall together
-    /// the largest. Empty of a last frame that is shorter than the others, and where they are left out.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    /// the largest. Empty of a last frame that is shorter than the others. Kept apart, and told as a [`Spectrogram`].
+    #[serde(default, skip_serializing)]
+    #[cfg_attr(feature = "schema", schema(ignore))]
     pub spectra: Vec<Vec<f64>>,
 }
 

@@ -14,6 +14,7 @@ use crate::model::ReducedSector;
 use crate::monitor::Monitor;
 use crate::not_runnable::NotRunnable;
 use crate::record::cut_short;
+use crate::request::{AutoOr, SchemeChoice};
 use crate::resolved::{ResolvedRunUps, ResolvedSweep};
 use crate::result::{LargestOfRun, PointStatus, RunUpEnd, RunUpFrame, RunUpLeg, SchemeReport};
 use crate::speed::{ready, staged};
@@ -30,8 +31,9 @@ use rubmap_wheel::dynamics::run_up::segments::Segment;
 use rubmap_wheel::dynamics::schemes::Scheme;
 use rubmap_wheel::vectors::vectors;
 
-/// Steps of a leg, about: what is lost where the service dies.
+/// Steps and amplitudes of a leg, about: what is lost where the service dies, and what is kept at once.
 const LEG_STEPS: u64 = 1_000_000;
+const LEG_AMPLITUDES: usize = 500_000;
 
 /// Where runs have got to.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -48,7 +50,8 @@ pub struct RunUpCourse {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 struct SoFar {
     largest: Vec<LargestOfRun>,
-    scheme: Option<SchemeReport>,
+    /// Of the lowest band so far.
+    scheme: Option<(u32, SchemeReport)>,
     steps: u64,
     contact_steps: u64,
     largest_energy: f64,
@@ -148,19 +151,33 @@ impl<'a> March<'a> {
         self.profile.range_rad_s().0 * BAND_RATIO.powi(band as i32)
     }
 
-    /// How a band is stepped: as its lowest speed is.
+    /// How a band is stepped: as its lowest speed is. A boundary without mass keeps the modes of the highest band in all: one that is
+    /// integrated only from some speed on would begin at rest, under forces that it had followed.
     pub(super) fn stepping(&self, sector: &ReducedSector, band: u32) -> Result<Stepping, NotRunnable> {
-        let (_, mut stepping) = ready(sector, self.request(), self.lowest_of(band))?;
+        let request = self.request();
+        let highest = self.segments.iter().map(|segment| segment.band).max().unwrap_or(band);
+        let (_, of_highest) = ready(sector, request, self.lowest_of(highest))?;
+        let mut stepping = match of_highest.scheme {
+            _ if band == highest => of_highest,
+            Scheme::MasslessBoundary { kept_modes } => {
+                let mut kept = request.clone();
+                kept.integration.scheme = SchemeChoice::MasslessBoundary;
+                kept.integration.kept_modes = AutoOr::Fixed(kept_modes as u32);
+                ready(sector, &kept, self.lowest_of(band))?.1
+            }
+            Scheme::CentralDifferences | Scheme::ExactModal => {
+                ready(sector, request, self.lowest_of(band))?.1
+            }
+        };
         stepping.discretisation = stepping.discretisation.sampled(self.samples);
         Ok(stepping)
     }
 
-    /// Takes the first sample of all: what setting up a segment takes, and whether it can be.
-    pub(super) fn begin(&self, sector: &ReducedSector) -> Result<(), NotRunnable> {
+    /// Takes the first sample of all, as `stepping` has it: what setting up a segment takes.
+    pub(super) fn begin(&self, sector: &ReducedSector, stepping: &Stepping) -> Result<(), NotRunnable> {
         let Some(first) = self.segments.first() else { return Ok(()) };
-        let stepping = self.stepping(sector, first.band)?;
         let first = Segment { samples: 1, ..*first };
-        self.take(sector, &first, (None, None), &stepping, &mut SoFar::default(), &|_| true).map(|_| ())
+        self.take(sector, &first, (None, None), stepping, &mut SoFar::default(), &|_| true).map(|_| ())
     }
 
     /// Some frames further; `watch` is told the share of the run that is done, and the speed.
@@ -184,7 +201,11 @@ impl<'a> March<'a> {
         let mut steppings = Steppings(Vec::new());
         let of_frame =
             |segment: &Segment| segment.first_sample / (self.samples as u64 * self.frame_revolutions);
-        while done < self.segments.len() && so_far.steps - first_steps < LEG_STEPS {
+        let mut amplitudes = 0;
+        while done < self.segments.len()
+            && so_far.steps - first_steps < LEG_STEPS
+            && amplitudes < LEG_AMPLITUDES
+        {
             let number = of_frame(&self.segments[done]);
             let mut frame = Frame::begin(&self.segments[done], self.samples, self.request().sensors.len());
             while let Some(segment) = self.segments.get(done).filter(|segment| of_frame(segment) == number) {
@@ -196,7 +217,9 @@ impl<'a> March<'a> {
                     return Err(AnalysisError::Cancelled);
                 }
                 let taken = steppings.of(self, sector, segment.band).and_then(|stepping| {
-                    so_far.scheme.get_or_insert_with(|| stepping.report.clone());
+                    if so_far.scheme.as_ref().is_none_or(|(band, _)| segment.band < *band) {
+                        so_far.scheme = Some((segment.band, stepping.report.clone()));
+                    }
                     self.take(sector, segment, (state.as_ref(), last.take()), stepping, &mut so_far, &share)
                 });
                 let failed = match taken {
@@ -230,13 +253,16 @@ impl<'a> March<'a> {
             }
             so_far.gather(frame.largest());
             let told = (self.samples, self.frame_revolutions);
-            leg.frames.push(frame.told(&self.profile, told, self.request().max_engine_order));
+            let frame = frame.told(&self.profile, told, self.request().max_engine_order);
+            amplitudes += frame.spectra.iter().map(Vec::len).sum::<usize>();
+            leg.frames.push(frame);
         }
         so_far.wall_time_s = before + clock.elapsed().as_secs_f64();
         if done < self.segments.len() {
             return Ok((leg, Some(RunUpCourse { run, segments: done, state, so_far })));
         }
-        let message = leg.frames.last().and_then(|last| ends_inside(last, &so_far));
+        let message =
+            leg.frames.last().filter(|last| last.revolution > 0).and_then(|last| ends_inside(last, &so_far));
         leg.end = Some(self.end(&so_far, done, PointStatus::Completed, message));
         Ok((leg, None))
     }
@@ -297,7 +323,7 @@ impl<'a> March<'a> {
         Ok((wheel, stretch))
     }
 
-    /// How clearances given cold follow the speed within a segment, about those of its mean speed; none of others.
+    /// How clearances given cold follow the speed within a segment whose casing has those of its mean speed; none of others.
     fn drift(
         &self,
         sector: &ReducedSector,
@@ -308,17 +334,13 @@ impl<'a> March<'a> {
             return Ok(None);
         }
         let at = |speed: f64| running_clearance(sector, request, speed).map(Option::unwrap_or_default);
-        let mean = at(segment.speed_rad_s)?;
-        let off = |time: f64| {
-            let there = at(self.profile.speed_rad_s(time))?;
-            Ok::<_, NotRunnable>(there.iter().zip(&mean).map(|(there, mean)| there - mean).collect())
-        };
-        let revolutions = |sample: u64| sample as f64 / self.samples as f64;
         let [from, to] = segment.times_s;
+        let revolutions = |sample: u64| sample as f64 / self.samples as f64;
         Ok(Some(ClearanceDrift {
             revolutions: [segment.first_sample, segment.first_sample + segment.samples].map(revolutions),
-            first: off(from)?,
-            last: off(to)?,
+            without: at(segment.speed_rad_s)?,
+            first: at(self.profile.speed_rad_s(from))?,
+            last: at(self.profile.speed_rad_s(to))?,
         }))
     }
 
@@ -336,7 +358,7 @@ impl<'a> March<'a> {
             status,
             message,
             largest: so_far.largest.clone(),
-            scheme: so_far.scheme.clone(),
+            scheme: so_far.scheme.as_ref().map(|(_, report)| report.clone()),
             revolutions: samples as f64 / self.samples as f64,
             steps: so_far.steps,
             segments: segments as u64,
@@ -381,7 +403,7 @@ fn ends_inside(last: &RunUpFrame, so_far: &SoFar) -> Option<String> {
     let at_end = |largest: &LargestOfRun| largest.displacement > 0.0 && largest.time_s > last.times_s[0];
     let inside = so_far.largest.iter().position(at_end)?;
     Some(format!(
-        "the displacement of sensor {inside} is largest at the end: the run ends within a critical speed, and what would follow is not \
+        "the displacement of sensor {inside} is largest at the end: the run may end within a critical speed, and what would follow is not \
          known; let it go further"
     ))
 }

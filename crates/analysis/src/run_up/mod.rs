@@ -12,6 +12,9 @@ use rubmap_wheel::dynamics::run_up::segments::Cutting;
 /// Highest speed over the lowest of those for which scheme and step are chosen once.
 const BAND_RATIO: f64 = std::f64::consts::SQRT_2;
 
+/// Most pieces of one speed in a run.
+const SEGMENTS: usize = 200_000;
+
 /// How a run of so many revolutions is cut.
 pub(crate) fn cutting(asked: &ResolvedRunUps, revolutions: f64, samples_per_revolution: usize) -> Cutting {
     Cutting {
@@ -19,5 +22,6 @@ pub(crate) fn cutting(asked: &ResolvedRunUps, revolutions: f64, samples_per_revo
         tolerance_rad: asked.angle_tolerance_rad,
         frame_revolutions: asked.frame_revolutions(revolutions),
         band_ratio: BAND_RATIO,
+        most_segments: SEGMENTS,
     }
 }

@@ -1,52 +1,63 @@
 //! How fast one must pass a critical speed.
 
 use crate::digits::short;
-use crate::result::{PassingRate, RunUp};
+use crate::result::{PassingRate, RunUp, RunUpEnd};
 
-/// From runs of several rates that have all ended, those that came to their end; none where nothing could be said. Lengths are in `unit`.
+/// From runs of several rates that have all ended; none where none came to its end. A run that did not keeps no limit. Lengths are in `unit`.
 pub(super) fn passing(limit: f64, unit: &str, runs: &[RunUp]) -> Option<PassingRate> {
-    let mut found: Vec<(f64, f64)> = runs
+    let largest =
+        |end: &RunUpEnd| end.largest.iter().fold(0.0f64, |most, largest| most.max(largest.displacement));
+    let mut found: Vec<(f64, Option<f64>)> = runs
         .iter()
         .filter_map(|run| {
-            let end = run.end.as_ref().filter(|end| end.is_complete())?;
-            let largest = end.largest.iter().fold(0.0f64, |most, largest| most.max(largest.displacement));
-            Some((run.rate_rad_s2?, largest))
+            Some((run.rate_rad_s2?, run.end.as_ref().filter(|end| end.is_complete()).map(largest)))
         })
         .collect();
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let (_, fastest) = found.last()?;
-    let below = found.iter().rposition(|(_, largest)| *largest > limit).map_or(0, |last| last + 1);
-    let enough = found.get(below);
+    let keeps = |largest: Option<f64>| largest.is_some_and(|largest| largest <= limit);
+    let lost = found.iter().filter(|(_, largest)| largest.is_none()).count();
+    if lost == found.len() {
+        return None;
+    }
+    let below = found.iter().rposition(|(_, largest)| !keeps(*largest)).map_or(0, |last| last + 1);
+    let enough = found.get(below).copied();
     let too_slow = below.checked_sub(1).map(|slower| found[slower]);
-    let about = enough.zip(too_slow).map(|(fast, slow)| {
-        let share = (slow.1 / limit).ln() / (slow.1 / fast.1.max(f64::MIN_POSITIVE)).ln();
-        (slow.0.ln() + share * (fast.0 / slow.0).ln()).exp()
-    });
-    let lost = runs.len() - found.len();
+    let about = match (enough, too_slow) {
+        (Some((fast, Some(low))), Some((slow, Some(high)))) => {
+            let share = (high / limit).ln() / (high / low.max(f64::MIN_POSITIVE)).ln();
+            Some((slow.ln() + share * (fast / slow).ln()).exp())
+        }
+        _ => None,
+    };
     let mut message = match (enough, too_slow) {
         (Some((fast, _)), Some((slow, _))) => {
             let about = about.map_or_else(String::new, |about| format!(", about {},", short(about)));
             format!(
                 "the limit is kept from a rate between {} and {} rad/s²{about} on",
                 short(slow),
-                short(*fast)
+                short(fast)
             )
         }
         (Some((fast, _)), None) => {
-            format!("the slowest rate of all, {} rad/s², keeps the limit", short(*fast))
+            format!("the slowest rate of all, {} rad/s², keeps the limit", short(fast))
         }
-        (None, _) => format!("no rate keeps the limit: the fastest goes to {} {unit}", short(*fastest)),
+        (None, Some((_, Some(most)))) => {
+            format!(
+                "no rate keeps the limit from which on all do: the fastest goes to {} {unit}",
+                short(most)
+            )
+        }
+        (None, _) => "the fastest run did not come to its end".to_owned(),
     };
-    let kept: Vec<bool> = found.iter().map(|(_, largest)| *largest <= limit).collect();
-    if kept[..below].iter().any(|kept| *kept) {
+    if found[..below].iter().any(|(_, largest)| keeps(*largest)) {
         message.push_str("; a slower one keeps it too, but not all between");
     }
     if lost > 0 {
-        message.push_str(&format!("; {lost} of the runs did not come to their end and say nothing"));
+        message.push_str(&format!("; {lost} of the runs did not come to their end, which keeps no limit"));
     }
     Some(PassingRate {
         limit,
-        enough_rad_s2: enough.map(|(rate, _)| *rate),
+        enough_rad_s2: enough.map(|(rate, _)| rate),
         too_slow_rad_s2: too_slow.map(|(rate, _)| rate),
         about_rad_s2: about,
         message,
@@ -93,14 +104,19 @@ mod tests {
         let none = passing(0.1, "mm", &runs(&[(1.0, Some(1.0)), (2.0, Some(0.5))])).unwrap();
         assert_eq!((none.enough_rad_s2, none.about_rad_s2), (None, None));
         assert!(none.message.ends_with("goes to 0.5 mm"), "{}", none.message);
-        // A slower run that swings less than a faster one, and one that says nothing.
+        // A slower run that swings less than a faster one; one that diverged between two that keep the limit.
         let mixed =
-            passing(0.6, "mm", &runs(&[(1.0, Some(0.5)), (2.0, Some(0.7)), (3.0, None), (4.0, Some(0.2))]))
-                .unwrap();
+            passing(0.6, "mm", &runs(&[(1.0, Some(0.5)), (2.0, Some(0.7)), (4.0, Some(0.2))])).unwrap();
         assert_eq!((mixed.enough_rad_s2, mixed.too_slow_rad_s2), (Some(4.0), Some(2.0)));
-        assert!(
-            mixed.message.contains("a slower one keeps it too") && mixed.message.contains("1 of the runs")
+        assert!(mixed.message.contains("a slower one keeps it too"), "{}", mixed.message);
+        let lost = passing(0.6, "mm", &runs(&[(1.0, Some(0.5)), (2.0, None), (4.0, Some(0.2))])).unwrap();
+        assert_eq!(
+            (lost.enough_rad_s2, lost.too_slow_rad_s2, lost.about_rad_s2),
+            (Some(4.0), Some(2.0), None)
         );
+        assert!(lost.message.contains("1 of the runs did not come to their end"), "{}", lost.message);
+        let last = passing(0.6, "mm", &runs(&[(1.0, Some(0.5)), (2.0, None)])).unwrap();
+        assert_eq!(last.enough_rad_s2, None);
         assert_eq!(passing(1.0, "mm", &runs(&[(1.0, None)])), None);
     }
 }

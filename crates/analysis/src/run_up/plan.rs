@@ -6,6 +6,7 @@ use super::march::March;
 use crate::calibration::Calibration;
 use crate::calibration::effects::EffectSizes;
 use crate::calibration::size::StepSize;
+use crate::discretisation::Discretisation;
 use crate::effects::symmetry::result::FoundSymmetry;
 use crate::effects::table::planned;
 use crate::end_state::Shapes;
@@ -115,8 +116,10 @@ fn price(
         }
     }
     bands.sort_unstable();
+    let first = march.segments.first().map_or(0, |segment| segment.band);
+    let stepping = march.stepping(reduced, first)?;
     let clock = Instant::now();
-    march.begin(reduced)?;
+    march.begin(reduced, &stepping)?;
     let set_up = clock.elapsed().as_secs_f64() * march.segments.len() as f64;
     let (mut all, mut time, mut scheme) = (0, CostRange { free: set_up, contact: set_up }, None);
     for (band, samples) in bands {
@@ -136,13 +139,22 @@ fn price(
     Ok((scheme.unwrap_or_else(|| unreachable!("a run has at least one segment")), all, time))
 }
 
-/// Memory that a run holds, in bytes: what a speed does, its shapes, and the samples of a frame.
+/// Memory that a run holds, in bytes: what a speed does, the lowest or the highest, its shapes, the samples of a frame and the amplitudes of a leg
+/// with their text.
 pub fn run_ups_memory(reduced: &ReducedSector, asked: &ResolvedRunUps) -> u64 {
+    const LEG: u64 = 64 << 20;
     let sweep = asked.sweep();
-    let Ok((wheel, stepping)) = ready(reduced, sweep, asked.speed.range().0) else { return 0 };
-    let longest =
-        (0..asked.runs()).map(|run| asked.frame_revolutions(asked.speed.profile(run).revolutions()));
-    let samples = stepping.discretisation.samples as u64 * longest.max().unwrap_or(0);
-    let frame = 4 * samples * sweep.sensors().len() as u64 * size_of::<f64>() as u64;
-    running_bytes(&wheel, sweep, &stepping, touching(reduced, sweep)) + 2 * Shapes::bytes(&wheel) + frame
+    let (lowest, highest) = asked.speed.range();
+    let of = |speed: f64| {
+        let (wheel, stepping) = ready(reduced, sweep, speed).ok()?;
+        Some(running_bytes(&wheel, sweep, &stepping, touching(reduced, sweep)) + 2 * Shapes::bytes(&wheel))
+    };
+    let running = [lowest, highest].into_iter().filter_map(of).max().unwrap_or(0);
+    let frame = |run: u32| {
+        let revolutions = asked.speed.profile(run).revolutions();
+        asked.frame_revolutions(revolutions).min(revolutions.ceil() as u64)
+    };
+    let longest = (0..asked.runs()).map(frame).max().unwrap_or(0);
+    let samples = longest * Discretisation::of_every_speed(sweep, reduced.wheel.sectors) as u64;
+    running + 4 * samples * sweep.sensors().len() as u64 * size_of::<f64>() as u64 + LEG
 }

@@ -18,12 +18,17 @@ impl RunUpLeg {
     pub fn run(&self) -> u32 {
         self.run
     }
-}
 
-impl RunUps {
-    /// Leaves out what a [`spectrogram`] tells.
-    pub fn leave_out_spectra(&mut self) {
-        self.runs.iter_mut().flat_map(|run| &mut run.frames).for_each(|frame| frame.spectra.clear());
+    /// Spectra of its frames, `[frame][sensor][line]`, which are kept apart from it.
+    pub fn spectra(&self) -> Vec<&[Vec<f64>]> {
+        self.frames.iter().map(|frame| frame.spectra.as_slice()).collect()
+    }
+
+    /// With the spectra of its frames.
+    #[must_use]
+    pub fn with_spectra(mut self, spectra: Vec<Vec<Vec<f64>>>) -> Self {
+        self.frames.iter_mut().zip(spectra).for_each(|(frame, spectra)| frame.spectra = spectra);
+        self
     }
 }
 

@@ -1,30 +1,40 @@
 //! Clearances that follow the speed: within a segment of a run-up they go straight from what they are at its beginning to what they are
 //! at its end (docs/method.md, Run-up and run-down).
+//!
+//! Where they are less than nothing the casing presses, by as much as it has grown: c as long as it is positive, otherwise c times the
+//! growth of the restriction.
 
-/// What is added to the clearance of every contact node.
+/// Clearances of every contact node, lengths; negative ones press.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ClearanceDrift {
     /// Revolutions after the start of the run at which it begins and ends.
     pub revolutions: [f64; 2],
-    /// Then, length.
+    /// What the casing has without it.
+    pub without: Vec<f64>,
+    /// At the beginning.
     pub first: Vec<f64>,
-    /// At the end, length.
+    /// At the end.
     pub last: Vec<f64>,
 }
 
 impl ClearanceDrift {
     /// Largest that it adds or takes.
     pub(crate) fn largest(&self) -> f64 {
-        self.first.iter().chain(&self.last).fold(0.0, |most, shift| most.max(shift.abs()))
+        let off = |ends: &[f64]| {
+            ends.iter().zip(&self.without).map(|(end, without)| (end - without).abs()).fold(0.0, f64::max)
+        };
+        off(&self.first).max(off(&self.last))
     }
 
-    /// Adds to the gaps of all sectors, their nodes padded to `stride`.
-    pub(crate) fn add(&self, revolutions: f64, stride: usize, gaps: &mut [f64]) {
+    /// Adds to the gaps of all sectors, their nodes padded to `stride`, of a restriction that has grown to this share.
+    pub(crate) fn add(&self, revolutions: f64, growth: f64, stride: usize, gaps: &mut [f64]) {
         let [from, to] = self.revolutions;
         let share = ((revolutions - from) / (to - from)).clamp(0.0, 1.0);
+        let grown = |clearance: f64| if clearance >= 0.0 { clearance } else { clearance * growth };
+        let ends = || self.first.iter().zip(&self.last).zip(&self.without);
         for sector in gaps.chunks_exact_mut(stride) {
-            for (gap, (first, last)) in sector.iter_mut().zip(self.first.iter().zip(&self.last)) {
-                *gap += first + share * (last - first);
+            for (gap, ((first, last), without)) in sector.iter_mut().zip(ends()) {
+                *gap += grown(first + share * (last - first)) - grown(*without);
             }
         }
     }

@@ -178,7 +178,7 @@ impl Surroundings {
             change.add(revolutions, shift);
         }
         if let Some(drift) = &self.drift {
-            drift.add(revolutions, self.stride, shift);
+            drift.add(revolutions, growth, self.stride, shift);
         }
         if let Some(casing) = &mut self.casing {
             casing.add(revolutions, shift);

@@ -120,6 +120,13 @@ impl SpeedProfile {
         ends.fold((f64::INFINITY, 0.0), |(low, high), speed| (low.min(speed), high.max(speed)))
     }
 
+    /// Lowest Ω between two instants, rad/s: at one of them, or at a point between.
+    pub fn lowest_rad_s(&self, from_s: f64, to_s: f64) -> f64 {
+        let points =
+            self.pieces.iter().map(|piece| piece.start_s).filter(|time| (from_s..=to_s).contains(time));
+        points.chain([from_s, to_s]).map(|time| self.speed_rad_s(time)).fold(f64::INFINITY, f64::min)
+    }
+
     /// Largest |Ω̇| between two instants, rad/s².
     pub fn largest_rate(&self, from_s: f64, to_s: f64) -> f64 {
         let (first, last) = (self.piece(from_s), self.piece(to_s));

@@ -1,5 +1,7 @@
 //! Where a run-up is cut.
 
+use std::f64::consts::TAU;
+
 use super::profile::SpeedProfile;
 
 /// Part of a run-up that is stepped at one speed.
@@ -30,20 +32,33 @@ pub struct Cutting {
     pub frame_revolutions: u64,
     /// Lowest speed of every band over that of the one below: what is chosen for all speeds of a range is chosen once for each.
     pub band_ratio: f64,
+    /// Most segments.
+    pub most_segments: usize,
 }
 
-/// The speed changes so fast that angles are off by more than the tolerance from one sample to the next.
+/// Why a run cannot be cut.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-#[error(
-    "at {speed_rad_s:.1} rad/s the speed changes by {rate_rad_s2:.3e} rad/s², and angles would be off by {off_rad:.1e} rad within a sample"
-)]
-pub struct TooFast {
-    /// Where.
-    pub speed_rad_s: f64,
-    /// How fast.
-    pub rate_rad_s2: f64,
-    /// By how much.
-    pub off_rad: f64,
+pub enum Uncut {
+    /// The speed changes so fast that angles are off by more than the tolerance from one sample to the next.
+    #[error(
+        "at {speed_rad_s:.1} rad/s the speed changes by {rate_rad_s2:.3e} rad/s², and angles would be off by {off_rad:.1e} rad within a sample"
+    )]
+    TooFast {
+        /// Where.
+        speed_rad_s: f64,
+        /// How fast.
+        rate_rad_s2: f64,
+        /// By how much.
+        off_rad: f64,
+    },
+    /// The tolerance takes too many segments.
+    #[error("angles are kept to {tolerance_rad:.1e} rad only by more than {most} pieces of one speed")]
+    TooMany {
+        /// The tolerance.
+        tolerance_rad: f64,
+        /// Most of them.
+        most: usize,
+    },
 }
 
 impl Cutting {
@@ -56,8 +71,8 @@ impl Cutting {
     /// Cuts `profile` up to its last sample: no segment has part of one revolution and part of another, nor revolutions of two bands.
     ///
     /// # Errors
-    /// [`TooFast`] where the tolerance cannot be kept.
-    pub fn segments(&self, profile: &SpeedProfile) -> Result<Vec<Segment>, TooFast> {
+    /// [`Uncut`] where the tolerance cannot be kept.
+    pub fn segments(&self, profile: &SpeedProfile) -> Result<Vec<Segment>, Uncut> {
         let (lowest, _) = profile.range_rad_s();
         let (all, per_revolution) = (self.samples(profile), self.samples_per_revolution as u64);
         let mut segments: Vec<Segment> = Vec::new();
@@ -65,18 +80,22 @@ impl Cutting {
             let samples = per_revolution.min(all - revolution * per_revolution);
             let whole = self.segment(profile, revolution, 0, (0, samples));
             let [from, to] = whole.times_s;
-            let slowest = profile.speed_rad_s(from).min(profile.speed_rad_s(to));
+            let slowest = profile.lowest_rad_s(from, to);
             let band = ((slowest / lowest).ln() / self.band_ratio.ln() + 1e-9).max(0.0) as u32;
             let whole = Segment { band, ..whole };
             let parts = (whole.off_rad / self.tolerance_rad).sqrt().ceil().max(1.0) as u64;
             if parts == 1 {
                 match segments.last_mut().and_then(|last| self.joined(profile, last, &whole)) {
                     Some((last, joined)) => *last = joined,
-                    None => segments.push(whole),
+                    None => {
+                        self.check(segments.len() + 1)?;
+                        segments.push(whole);
+                    }
                 }
                 continue;
             }
             let parts = parts.min(samples);
+            self.check(segments.len() + parts as usize)?;
             for part in 0..parts {
                 let ends = (part * samples / parts, (part + 1) * samples / parts);
                 let segment = self.segment(profile, revolution, band, ends);
@@ -85,12 +104,17 @@ impl Cutting {
                     let [from, to] = segment.times_s;
                     let (speed_rad_s, off_rad) = (segment.speed_rad_s, segment.off_rad);
                     let rate_rad_s2 = profile.largest_rate(from, to);
-                    return Err(TooFast { speed_rad_s, rate_rad_s2, off_rad });
+                    return Err(Uncut::TooFast { speed_rad_s, rate_rad_s2, off_rad });
                 }
                 segments.push(segment);
             }
         }
         Ok(segments)
+    }
+
+    fn check(&self, segments: usize) -> Result<(), Uncut> {
+        let (tolerance_rad, most) = (self.tolerance_rad, self.most_segments);
+        if segments <= most { Ok(()) } else { Err(Uncut::TooMany { tolerance_rad, most }) }
     }
 
     /// A segment between two samples of a revolution.
@@ -105,12 +129,18 @@ impl Cutting {
         let [from, to] =
             [first_sample, first_sample + samples].map(|sample| profile.time_at(revolutions(sample)));
         let lasts = to - from;
+        let rate = profile.largest_rate(from, to);
         Segment {
             first_sample,
             samples,
             times_s: [from, to],
-            speed_rad_s: std::f64::consts::TAU * revolutions(samples) / lasts,
-            off_rad: profile.largest_rate(from, to) * lasts * lasts / 8.0,
+            // A speed that is held is the same to the last digit in all of its segments.
+            speed_rad_s: if rate == 0.0 {
+                profile.speed_rad_s(from)
+            } else {
+                TAU * revolutions(samples) / lasts
+            },
+            off_rad: rate * lasts * lasts / 8.0,
             band,
         }
     }
@@ -136,10 +166,15 @@ impl Cutting {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::f64::consts::TAU;
 
     fn cutting(tolerance_rad: f64) -> Cutting {
-        Cutting { samples_per_revolution: 120, tolerance_rad, frame_revolutions: 8, band_ratio: 1.5 }
+        Cutting {
+            samples_per_revolution: 120,
+            tolerance_rad,
+            frame_revolutions: 8,
+            band_ratio: 1.5,
+            most_segments: 20_000,
+        }
     }
 
     /// All samples, one after the other; angles of equal steps against the profile's own.
@@ -183,7 +218,22 @@ mod tests {
         let profile = SpeedProfile::linear(&[(0.0, TAU * 10.0), (2.0, TAU * 10.0)]);
         let segments = cutting(1e-3).segments(&profile).unwrap();
         assert_eq!(segments.iter().map(|segment| segment.samples / 120).collect::<Vec<_>>(), [8, 8, 4]);
-        assert!(segments.iter().all(|segment| segment.off_rad == 0.0));
+        assert!(segments.iter().all(|segment| (segment.off_rad, segment.speed_rad_s) == (0.0, TAU * 10.0)));
+    }
+
+    /// The band is that of the slowest moment, also within a revolution.
+    #[test]
+    fn a_dip_within_a_revolution_is_of_the_lower_band() {
+        let profile = SpeedProfile::linear(&[(0.0, 100.0), (0.02, 60.0), (0.04, 100.0), (0.2, 100.0)]);
+        let segments = cutting(1e-1).segments(&profile).unwrap();
+        assert_eq!((segments[0].band, segments.last().unwrap().band), (0, 1));
+    }
+
+    #[test]
+    fn segments_have_an_end() {
+        let profile = SpeedProfile::linear(&[(0.0, 100.0), (60.0, 2000.0)]);
+        let refused = Cutting { most_segments: 50, ..cutting(1e-4) }.segments(&profile).unwrap_err();
+        assert_eq!(refused, Uncut::TooMany { tolerance_rad: 1e-4, most: 50 });
     }
 
     #[test]

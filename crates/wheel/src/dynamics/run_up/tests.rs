@@ -8,8 +8,10 @@ use super::profile::SpeedProfile;
 use super::segments::{Cutting, Segment};
 use crate::dynamics::casing::{Casing, Lobes};
 use crate::dynamics::clearance_drift::ClearanceDrift;
+use crate::dynamics::contact::disc::disc_directions;
+use crate::dynamics::contact::friction::sliding_directions;
 use crate::dynamics::direction::Direction;
-use crate::dynamics::effects::Effects;
+use crate::dynamics::effects::{Effects, Friction, FrictionLaw};
 use crate::dynamics::excitation::EngineOrderExcitation;
 use crate::dynamics::initial::InitialMode;
 use crate::dynamics::integrate::{Outcome, Part, SensorRow, Simulation, Stretch};
@@ -64,15 +66,66 @@ fn excitation() -> [EngineOrderExcitation; 1] {
     }]
 }
 
-/// The same parts one after the other are the run: free, touching, driven, on turning wheels; parts that begin within a revolution.
+/// What acts in a run that is taken in parts.
+#[derive(Debug, Clone, Copy, Default)]
+struct Acting {
+    touching: bool,
+    driven: bool,
+    coriolis: bool,
+    mistuned: bool,
+    friction: Option<FrictionLaw>,
+    drifting: bool,
+}
+
+/// The same parts one after the other are the run: free, touching, driven, on turning wheels, under friction, mistuned; parts that begin within
+/// a revolution, and clearances that drift about others in each.
 #[test]
 fn parts_of_a_run_are_the_run() {
+    let touching = Acting { touching: true, ..Acting::default() };
+    let acting = [
+        Acting::default(),
+        touching,
+        Acting { driven: true, ..touching },
+        Acting { driven: true, coriolis: true, ..Acting::default() },
+        Acting { driven: true, coriolis: true, ..touching },
+        Acting { driven: true, mistuned: true, ..touching },
+        Acting { friction: Some(FrictionLaw::Sliding), ..touching },
+        Acting { friction: Some(FrictionLaw::Disc), ..touching },
+        Acting { drifting: true, ..touching },
+    ];
+    for scheme in SCHEMES {
+        for acting in acting {
+            let massless = matches!(scheme, Scheme::MasslessBoundary { .. });
+            let runs = match acting {
+                Acting { coriolis: true, .. } => scheme == Scheme::ExactModal,
+                Acting { friction: Some(FrictionLaw::Disc), .. } => !massless,
+                _ => true,
+            };
+            if runs {
+                check_parts(scheme, acting);
+            }
+        }
+    }
+}
+
+fn check_parts(scheme: Scheme, acting: Acting) {
     let (nodes, excitation) = (nodes(), excitation());
     let damping = ModalDamping { modal_ratio: 0.01, family_ratios: Vec::new() };
-    let casing = Casing {
-        clearance: vec![0.25, 0.3],
+    let casing = |clearance: [f64; 2]| Casing {
+        clearance: clearance.to_vec(),
         restriction: Some(Lobes { count: 2, amplitude: 0.5, width_rad: 0.4, phase_rad: 0.1 }.into()),
         ramp_revolutions: 0.5,
+    };
+    // After so many revolutions, with drift.
+    let clearance = |revolutions: f64| [0.25 + 0.02 * revolutions, 0.3 - 0.03 * revolutions];
+    let drift = |revolutions: [f64; 2], without: [f64; 2]| {
+        let [first, last] = revolutions.map(|at| clearance(at).to_vec());
+        ClearanceDrift { revolutions, without: without.to_vec(), first, last }
+    };
+    let directions = match acting.friction {
+        Some(FrictionLaw::Sliding) => sliding_directions(&nodes, 0.05).unwrap(),
+        Some(FrictionLaw::Disc) => disc_directions(&nodes).unwrap(),
+        None => Vec::new(),
     };
     let push = InitialMode {
         harmonic: 1,
@@ -81,74 +134,78 @@ fn parts_of_a_run_are_the_run() {
         velocity: c64::new(0.5, 0.25),
     };
     let sensors = [SensorRow { direction: Direction { node: 1, components: [1.0, 0.25, 0.5] }, sector: 3 }];
-    for scheme in SCHEMES {
-        for (touching, driven, coriolis) in [
-            (false, false, false),
-            (true, false, false),
-            (true, true, false),
-            (false, true, true),
-            (true, true, true),
-        ] {
-            if coriolis && scheme != Scheme::ExactModal {
-                continue;
-            }
-            let wheel = wheel(coriolis);
-            let effects =
-                Effects { excitation: if driven { &excitation } else { &[] }, ..Effects::default() };
-            let whole = Simulation {
-                wheel: &wheel,
-                contact_nodes: &nodes,
-                damping: Some(&damping),
-                casing: touching.then_some(&casing),
-                effects,
-                initial: &[push],
-                sensors: &sensors,
-                scheme,
-                steps_per_revolution: 960,
-                samples_per_revolution: 120,
-                revolutions: 3,
-                window_revolutions: 1,
-                repeats: None,
-                detail: None,
-                states: None,
-            };
-            let run = whole.run(&|_| true);
-            let Outcome::Completed(history) = run.outcome else { panic!("{:?}", run.outcome) };
-            let mut state = vec![push];
-            let (mut found, mut contact_steps) = (Vec::new(), 0);
-            for samples in [37, 60, 83, 100, 80] {
-                let part = Part { first_sample: found.len() as u64, samples };
-                let stretch =
-                    Simulation { initial: &state, window_revolutions: 0, ..whole }.stretch(part, &|_| true);
-                assert_eq!(stretch.ended, None);
-                assert!(stretch.energy.residual() < 1e-10, "{}", stretch.energy.residual());
-                for (largest, here) in stretch.largest[0].iter().zip(&stretch.displacement[0]) {
-                    assert!(*largest >= here.abs());
-                }
-                found.extend_from_slice(&stretch.displacement[0]);
-                contact_steps += stretch.statistics.contact_steps;
-                state = stretch.end;
-            }
-            let scale = history.displacement[0].iter().fold(0.0f64, |most, u| most.max(u.abs()));
-            let off =
-                found.iter().zip(&history.displacement[0]).fold(0.0f64, |m, (a, b)| m.max((a - b).abs()));
-            assert!(off < 1e-8 * scale, "{scheme:?} {touching} {driven} {coriolis}: {}", off / scale);
-            let counted = run.statistics.contact_steps;
-            assert!(
-                contact_steps.abs_diff(counted) <= 2 && (counted > 0) == touching,
-                "{contact_steps} {counted}"
-            );
+    let wheel = wheel(acting.coriolis);
+    let effects = Effects {
+        excitation: if acting.driven { &excitation } else { &[] },
+        mistuning: acting.mistuned.then_some(&[0.01, -0.02, 0.0, 0.015, -0.005][..]),
+        friction: acting.friction.map(|law| Friction { coefficient: 0.05, law, directions: &directions }),
+        ..Effects::default()
+    };
+    let (still, all) = (casing(clearance(0.0)), drift([0.0, 3.0], clearance(0.0)));
+    let whole = Simulation {
+        wheel: &wheel,
+        contact_nodes: &nodes,
+        damping: Some(&damping),
+        casing: acting.touching.then_some(&still),
+        effects: Effects { clearance_drift: acting.drifting.then_some(&all), ..effects },
+        initial: &[push],
+        sensors: &sensors,
+        scheme,
+        steps_per_revolution: 960,
+        samples_per_revolution: 120,
+        revolutions: 3,
+        window_revolutions: 1,
+        repeats: None,
+        detail: None,
+        states: None,
+    };
+    let run = whole.run(&|_| true);
+    let Outcome::Completed(history) = run.outcome else { panic!("{:?}", run.outcome) };
+    let mut state = vec![push];
+    let (mut found, mut contact_steps) = (Vec::new(), 0);
+    for samples in [37, 60, 83, 100, 80] {
+        let part = Part { first_sample: found.len() as u64, samples };
+        let ends = [part.first_sample, part.first_sample + samples].map(|sample| sample as f64 / 120.0);
+        let middle = clearance(0.5 * (ends[0] + ends[1]));
+        let (about, own) = (casing(middle), drift(ends, middle));
+        let mut simulation = Simulation { initial: &state, window_revolutions: 0, ..whole };
+        if acting.drifting {
+            (simulation.casing, simulation.effects.clearance_drift) = (Some(&about), Some(&own));
         }
+        let stretch = simulation.stretch(part, &|_| true);
+        assert_eq!(stretch.ended, None);
+        assert!(stretch.energy.residual() < 1e-9, "{acting:?} {}", stretch.energy.residual());
+        for (largest, here) in stretch.largest[0].iter().zip(&stretch.displacement[0]) {
+            assert!(*largest >= here.abs());
+        }
+        found.extend_from_slice(&stretch.displacement[0]);
+        contact_steps += stretch.statistics.contact_steps;
+        state = stretch.end;
     }
+    let scale = history.displacement[0].iter().fold(0.0f64, |most, u| most.max(u.abs()));
+    let off = found.iter().zip(&history.displacement[0]).fold(0.0f64, |m, (a, b)| m.max((a - b).abs()));
+    assert!(off < 1e-8 * scale, "{scheme:?} {acting:?}: {}", off / scale);
+    let counted = run.statistics.contact_steps;
+    assert!(
+        contact_steps.abs_diff(counted) <= 2 && (counted > 0) == acting.touching,
+        "{contact_steps} {counted}"
+    );
 }
 
-/// Clearances that drift against the same clearances that change, in a range that is straight in both.
+/// Between its ends a drift is straight; what presses does so by as much as the casing has grown.
 #[test]
 fn a_drift_is_linear_between_its_ends() {
-    let drift = ClearanceDrift { revolutions: [4.0, 6.0], first: vec![0.1, -0.1], last: vec![0.3, 0.1] };
-    for (revolutions, expected) in [(4.0, [0.1, -0.1]), (5.0, [0.2, 0.0]), (6.0, [0.3, 0.1])] {
+    let drift = ClearanceDrift {
+        revolutions: [4.0, 6.0],
+        without: vec![0.1, -0.2],
+        first: vec![0.2, -0.3],
+        last: vec![0.4, 0.1],
+    };
+    for (revolutions, growth, expected) in
+        [(4.0, 1.0, [0.1, -0.1]), (5.0, 1.0, [0.2, 0.1]), (6.0, 1.0, [0.3, 0.3]), (4.0, 0.5, [0.1, -0.05])]
+    {
         let mut gaps = vec![0.0; 16];
-        drift.add(revolutions, 8, &mut gaps);
+        drift.add(revolutions, growth, 8, &mut gaps);
         for sector in gaps.chunks_exact(8) {
             assert!((sector[0] - expected[0]).abs() < 1e-15 && (sector[1] - expected[1]).abs() < 1e-15);
             assert_eq!(sector[2..], [0.0; 6]);
@@ -263,6 +320,7 @@ fn one_degree_of_freedom_passes_resonance_as_lewis_has_it() {
                     tolerance_rad,
                     frame_revolutions: 64,
                     band_ratio: 10.0,
+                    most_segments: 100_000,
                 };
                 let segments = cutting.segments(&profile).unwrap();
                 let found = oscillator.run_up(&segments, samples);
