@@ -8,7 +8,7 @@ use super::error::Interruption;
 use super::finish;
 use super::patience::patiently;
 use crate::analysis::error::AnalysisError;
-use crate::analysis::result::{BranchLeg, RunUpLeg};
+use crate::analysis::result::{BranchLeg, PointStatus, RunUpLeg};
 use crate::store::Followed;
 
 /// A leg, as it is kept.
@@ -17,6 +17,11 @@ pub(super) trait Leg: Serialize {
     fn beside(&self) -> Result<Option<String>, serde_json::Error> {
         Ok(None)
     }
+
+    /// How the run ended whose last leg it is.
+    fn ended(&self) -> Option<PointStatus> {
+        None
+    }
 }
 
 impl Leg for BranchLeg {}
@@ -24,6 +29,10 @@ impl Leg for BranchLeg {}
 impl Leg for RunUpLeg {
     fn beside(&self) -> Result<Option<String>, serde_json::Error> {
         serde_json::to_string(&self.spectra()).map(Some)
+    }
+
+    fn ended(&self) -> Option<PointStatus> {
+        self.status()
     }
 }
 
@@ -50,8 +59,10 @@ where
         let (text, beside) = (serde_json::to_string(&leg)?, leg.beside()?);
         let rest = next.as_ref().map(serde_json::to_string).transpose()?;
         let kept = (text.as_str(), beside.as_deref());
-        patiently(&job.watch, || engine.store.keep_leg(job.id, (followed, legs), kept, rest.as_deref()))
-            .await?;
+        patiently(&job.watch, || {
+            engine.store.keep_leg(job.id, (followed, legs), kept, leg.ended(), rest.as_deref())
+        })
+        .await?;
         engine.computing.acquit(job.id);
         legs += 1;
         course = next;

@@ -6,6 +6,7 @@ use super::handle::Store;
 use super::jobs::job::JobId;
 use super::results::{Document, insert_document, keep_result};
 use super::sql::of;
+use crate::analysis::result::PointStatus;
 
 /// What has legs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -43,13 +44,14 @@ impl Followed {
 }
 
 impl Store {
-    /// Keeps leg `index` of a job, with what belongs `beside` it, together with the course after it, in place of the one before; none where
+    /// Keeps leg `index` of a job, with what belongs `beside` it and how the run it is the last of has `ended`, together with the course after it, in place of the one before; none where
     /// nothing is left to follow. A leg that is there already stays as it is, and so does its course; a job that was deleted keeps nothing.
     pub async fn keep_leg(
         &self,
         job: JobId,
         (followed, index): (Followed, u32),
         (leg, beside): (&str, Option<&str>),
+        ended: Option<PointStatus>,
         course: Option<&str>,
     ) -> Result<(), StoreError> {
         let mut transaction = self.write().await?;
@@ -57,6 +59,16 @@ impl Store {
         if keep_result(&mut transaction, job, followed.leg(index), leg).await? {
             if let Some((document, text)) = followed.beside(index).zip(beside) {
                 keep_result(&mut transaction, job, document, text).await?;
+            }
+            if let Some(status) = ended {
+                sqlx::query(
+                    "update jobs set finished = finished + 1, diverged = diverged + $2, failed = failed + $3 where id = $1",
+                )
+                .bind(job.to_string())
+                .bind(i64::from(status == PointStatus::Diverged))
+                .bind(i64::from(status == PointStatus::Failed))
+                .execute(&mut *transaction)
+                .await?;
             }
             let (name, part) = followed.course().columns();
             sqlx::query("delete from documents where job = $1 and name = $2 and part = $3")

@@ -60,7 +60,8 @@ pub(super) fn panel(
         .child(diagram.x_axis(&along, "rate, rad/s²"))
         .child(diagram.y_axis(&y, "", 0.0))
         .child(
-            text(diagram.left, diagram.top - 8.0, "start", "largest over the rate").set("fill", "#555555"),
+            text(diagram.left, diagram.top - 8.0, "start", "largest half peak-to-peak over the rate")
+                .set("fill", "#555555"),
         );
     Some(drawn)
 }

@@ -5,7 +5,7 @@ use serde_json::json;
 use super::{
     begin, facts, keep, labels, model_id, point, queue, queue_request, result, sweep, sweep_on, upload,
 };
-use crate::analysis::result::{SpeedResult, Trial};
+use crate::analysis::result::{PointStatus, SpeedResult, Trial};
 use crate::analysis::run::{Calibration, Estimate, ReducedSector};
 use crate::store::Followed;
 use crate::store::dialect::Dialect;
@@ -189,20 +189,34 @@ async fn legs_of_branches_are_kept_with_the_course_after_them() {
         upload(&store, "eve", 'a', &Labels::default()).await;
         let job = queue(&store, "eve", 'a', 1, &Labels::default()).await;
         assert_eq!(store.legs(job, Followed::Branches).await.unwrap(), 0);
-        store.keep_leg(job, (Followed::Branches, 0), ("[1]", None), Some("{\"at\": 1}")).await.unwrap();
-        store.keep_leg(job, (Followed::Branches, 1), ("[22]", None), Some("{\"at\": 2}")).await.unwrap();
+        store.keep_leg(job, (Followed::Branches, 0), ("[1]", None), None, Some("{\"at\": 1}")).await.unwrap();
+        store
+            .keep_leg(job, (Followed::Branches, 1), ("[22]", None), None, Some("{\"at\": 2}"))
+            .await
+            .unwrap();
         // Somebody was slower.
-        store.keep_leg(job, (Followed::Branches, 0), ("[3]", None), Some("{\"at\": 3}")).await.unwrap();
+        store.keep_leg(job, (Followed::Branches, 0), ("[3]", None), None, Some("{\"at\": 3}")).await.unwrap();
         let text = async |document| store.document(job, document).await.unwrap();
         assert_eq!(store.legs(job, Followed::Branches).await.unwrap(), 2);
         assert_eq!(text(Document::BranchLeg(0)).await.as_deref(), Some("[1]"));
         assert_eq!(text(Document::BranchCourse).await.as_deref(), Some("{\"at\": 2}"));
         assert_eq!(store.job(job).await.unwrap().unwrap().stored_bytes, 7);
-        store.keep_leg(job, (Followed::Branches, 2), ("[4]", None), None).await.unwrap();
+        store.keep_leg(job, (Followed::Branches, 2), ("[4]", None), None, None).await.unwrap();
         // What lies beside a leg comes and stays with it.
         for (leg, spectra) in [("[5]", "[55]"), ("[6]", "[66]")] {
-            store.keep_leg(job, (Followed::RunUps, 0), (leg, Some(spectra)), Some("{}")).await.unwrap();
+            store
+                .keep_leg(
+                    job,
+                    (Followed::RunUps, 0),
+                    (leg, Some(spectra)),
+                    Some(PointStatus::Diverged),
+                    Some("{}"),
+                )
+                .await
+                .unwrap();
         }
+        let speeds = store.job(job).await.unwrap().unwrap().speeds;
+        assert_eq!((speeds.finished, speeds.diverged, speeds.failed), (1, 1, 0));
         assert_eq!(text(Document::RunUpLeg(0)).await.as_deref(), Some("[5]"));
         assert_eq!(text(Document::RunUpSpectra(0)).await.as_deref(), Some("[55]"));
         assert_eq!(store.parts(job, Document::RunUpSpectra(0)).await.unwrap(), (1, 4));

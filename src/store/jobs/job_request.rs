@@ -92,7 +92,9 @@ impl JobRequest {
         match self {
             Self::Sweep(request) => request.speeds().count(),
             Self::ModalAnalysis(request) => request.speeds().count(),
-            Self::ModelGeneration(_) | Self::RunUps(_) => 0,
+            Self::ModelGeneration(_) => 0,
+            // Runs are what it computes one after the other.
+            Self::RunUps(asked) => asked.runs(),
             Self::Study(request) => request.speeds().count(),
             Self::CaseStudy(case) => case.speeds().len() as u32,
             Self::Branches(branches) => branches.sweep().speeds().count(),

@@ -8,7 +8,7 @@ use crate::error::Violation;
 use crate::model::ModelFacts;
 use crate::request::sweep::default_peak_prominence;
 use crate::request::{
-    AutoOr, Record, RunUpRequest, SpeedSet, SpeedUnit, Speeds, SweepDirection, SweepRequest,
+    AutoOr, Integration, Record, RunUpRequest, SpeedSet, SpeedUnit, Speeds, SweepDirection, SweepRequest,
 };
 use crate::resolve::resolve_sweep;
 use crate::resolved::run_up::{FRAME, ResolvedCourse};
@@ -44,12 +44,20 @@ pub fn resolve_run_ups(request: RunUpRequest, facts: &ModelFacts) -> Result<Reso
             return Err(found.0);
         }
     };
+    // No revolutions of a sweep bound what grows and closes in a run.
+    let course = request.scene.clearance_change.iter().flat_map(|change| &change.course);
+    let grown = course.map(|point| point.revolutions).fold(request.integration.ramp_revolutions, f64::max);
+    let integration = request.integration.of_sweep();
+    let least =
+        (grown.clamp(0.0, REVOLUTIONS) as u32 + 1 + integration.window_revolutions).min(limits::REVOLUTIONS);
+    let integration =
+        Integration { most_revolutions: integration.most_revolutions.max(least), ..integration };
     let sweep = SweepRequest {
         model: request.model,
         modes_per_speed: request.modes_per_speed,
         speeds: Speeds::One(ends(&speed)),
         scene: request.scene,
-        integration: request.integration.of_sweep(),
+        integration,
         sensors: request.sensors,
         max_engine_order: request.max_engine_order,
         peak_prominence: default_peak_prominence(),
@@ -170,6 +178,12 @@ fn check_runs(found: &mut Findings, asked: &ResolvedRunUps, facts: &ModelFacts) 
         if !found.0.is_empty() {
             return;
         }
+        let ramp = asked.sweep.integration.ramp_revolutions;
+        found.require(
+            ramp < revolutions,
+            "/integration/ramp_revolutions",
+            format!("less than the {revolutions:.1} revolutions of run {run}, counted from 0: the casing would never have its height"),
+        );
         let frame = asked.frame_revolutions(revolutions);
         let frames = (revolutions as u64).div_ceil(frame);
         found.require(

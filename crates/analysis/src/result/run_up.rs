@@ -65,8 +65,8 @@ pub struct RunUpFrame {
     pub half_peak_to_peak: Vec<f64>,
     /// Share of its steps in which something touches.
     pub contact_share: f64,
-    /// Amplitudes of every sensor at its own sector, line by line of the order; under a Hann window, and of several lines that fall together
-    /// the largest. Empty of a last frame that is shorter than the others. Kept apart, and told as a [`Spectrogram`].
+    /// Amplitudes of every sensor at its own sector, line by line of the order; under a Hann window, and in frames of more than eight revolutions
+    /// the largest of those of eight at a time. Empty of a last frame that is shorter than the others. Kept apart, and told as a [`Spectrogram`].
     #[serde(default, skip_serializing)]
     #[cfg_attr(feature = "schema", schema(ignore))]
     pub spectra: Vec<Vec<f64>>,

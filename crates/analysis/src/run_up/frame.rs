@@ -8,7 +8,7 @@ use rubmap_wheel::dynamics::integrate::Stretch;
 use rubmap_wheel::dynamics::run_up::profile::SpeedProfile;
 use rubmap_wheel::dynamics::run_up::segments::Segment;
 
-/// Most lines of an order: finer ones fall together.
+/// Most lines of an order, and revolutions of a spectrum.
 const LINES: u64 = 8;
 
 /// A frame while it is simulated.
@@ -48,7 +48,7 @@ impl Frame {
         }
         for (largest, line) in self.largest.iter_mut().zip(&stretch.largest) {
             for (sample, &displacement) in line.iter().enumerate() {
-                if displacement > largest.displacement {
+                if displacement > largest.displacement && displacement.is_finite() {
                     let time_s = from + (to - from) * (sample + 1) as f64 / segment.samples as f64;
                     *largest =
                         LargestOfRun { displacement, time_s, speed_rad_s: profile.speed_rad_s(time_s) };
@@ -61,8 +61,13 @@ impl Frame {
     }
 
     /// Largest displacements in it.
-    pub(super) fn largest(&self) -> &[LargestOfRun] {
-        &self.largest
+    pub(super) fn into_largest(self) -> Vec<LargestOfRun> {
+        self.largest
+    }
+
+    /// What is told of it where the run ends before it does; none where that is at once.
+    pub(super) fn cut_short(self, profile: &SpeedProfile, told: (usize, u64)) -> Option<RunUpFrame> {
+        (self.end_s > self.start_s).then(|| RunUpFrame { spectra: Vec::new(), ..self.told(profile, told, 0) })
     }
 
     /// What is told of it, with spectra up to `max_engine_order` if it has `frame_revolutions`.
@@ -98,23 +103,21 @@ pub(super) fn order_step(frame_revolutions: u64) -> f64 {
     1.0 / frame_revolutions.min(LINES) as f64
 }
 
-/// Amplitudes over the order, line by line, of equally spaced samples of the angle under a Hann window: a sinusoid of a whole number of
-/// periods reads its amplitude. Of lines that fall together the largest.
+/// Amplitudes over the order, line by line, of equally spaced samples of the angle: of eight revolutions at a time under a Hann window, of whose
+/// amplitudes the largest counts. A sinusoid of a whole number of periods reads its amplitude.
 fn spectrum(samples: &[f64], revolutions: u64, max_engine_order: u32) -> Vec<f64> {
-    let count = samples.len() as f64;
-    // Half of a window's sum is lost with its flanks.
-    let windowed: Vec<f64> =
-        (samples.iter().enumerate()).map(|(i, u)| u * (1.0 - (TAU * i as f64 / count).cos())).collect();
-    let together = (revolutions / LINES).max(1) as usize;
+    let windows = (revolutions / LINES).max(1) as usize;
     let lines = max_engine_order as usize * revolutions.min(LINES) as usize + 1;
-    let fine = amplitudes(&windowed, (lines * together).min(samples.len() / 2 + 1));
-    // A line stands for those nearer to it than to another.
-    let around = |line: usize| {
-        let (from, to) =
-            ((line * together).saturating_sub(together / 2), line * together + together.div_ceil(2));
-        fine[from..to.min(fine.len())].iter().copied().fold(0.0, f64::max)
-    };
-    (0..lines).map(around).collect()
+    let mut largest = vec![0.0f64; lines];
+    for window in samples.chunks_exact(samples.len() / windows) {
+        let count = window.len() as f64;
+        // Half of a window's sum is lost with its flanks.
+        let weighted: Vec<f64> =
+            (window.iter().enumerate()).map(|(i, u)| u * (1.0 - (TAU * i as f64 / count).cos())).collect();
+        let found = amplitudes(&weighted, lines.min(window.len() / 2 + 1));
+        largest.iter_mut().zip(found).for_each(|(largest, found)| *largest = largest.max(found));
+    }
+    largest
 }
 
 #[cfg(test)]

@@ -225,6 +225,7 @@ impl<'a> March<'a> {
                 let failed = match taken {
                     Ok((wheel, stretch)) => {
                         so_far.steps += stretch.statistics.steps;
+                        so_far.gather(&reached(segment, &stretch, &self.profile));
                         so_far.contact_steps += stretch.statistics.contact_steps;
                         match stretch.ended.as_ref().map(cut_short) {
                             None => Ok((wheel, stretch)),
@@ -237,7 +238,8 @@ impl<'a> March<'a> {
                 let (wheel, stretch) = match failed {
                     Ok(taken) => taken,
                     Err((status, message)) => {
-                        so_far.gather(frame.largest());
+                        let told = (self.samples, self.frame_revolutions);
+                        leg.frames.extend(frame.cut_short(&self.profile, told));
                         so_far.wall_time_s = before + clock.elapsed().as_secs_f64();
                         let message = format!("at {:.4} rad/s: {message}", segment.speed_rad_s);
                         leg.end = Some(self.end(&so_far, done, status, Some(message)));
@@ -251,7 +253,6 @@ impl<'a> March<'a> {
                 last = Some(wheel);
                 done += 1;
             }
-            so_far.gather(frame.largest());
             let told = (self.samples, self.frame_revolutions);
             let frame = frame.told(&self.profile, told, self.request().max_engine_order);
             amplitudes += frame.spectra.iter().map(Vec::len).sum::<usize>();
@@ -393,6 +394,13 @@ impl SoFar {
             }
         }
     }
+}
+
+/// Largest displacements of a segment.
+fn reached(segment: &Segment, stretch: &Stretch, profile: &SpeedProfile) -> Vec<LargestOfRun> {
+    let mut frame = Frame::begin(segment, 1, stretch.largest.len());
+    frame.add(segment, stretch, profile);
+    frame.into_largest()
 }
 
 /// What to say of a run whose largest displacement is in its `last` frame, in which the speed still changes.

@@ -3,7 +3,7 @@
 use crate::digits::short;
 use crate::result::{PassingRate, RunUp, RunUpEnd};
 
-/// From runs of several rates that have all ended; none where none came to its end. A run that did not keeps no limit. Lengths are in `unit`.
+/// From runs of several rates that have all ended. A run that did not come to its end keeps no limit. Lengths are in `unit`.
 pub(super) fn passing(limit: f64, unit: &str, runs: &[RunUp]) -> Option<PassingRate> {
     let largest =
         |end: &RunUpEnd| end.largest.iter().fold(0.0f64, |most, largest| most.max(largest.displacement));
@@ -16,7 +16,7 @@ pub(super) fn passing(limit: f64, unit: &str, runs: &[RunUp]) -> Option<PassingR
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
     let keeps = |largest: Option<f64>| largest.is_some_and(|largest| largest <= limit);
     let lost = found.iter().filter(|(_, largest)| largest.is_none()).count();
-    if lost == found.len() {
+    if found.is_empty() {
         return None;
     }
     let below = found.iter().rposition(|(_, largest)| !keeps(*largest)).map_or(0, |last| last + 1);
@@ -117,6 +117,8 @@ mod tests {
         assert!(lost.message.contains("1 of the runs did not come to their end"), "{}", lost.message);
         let last = passing(0.6, "mm", &runs(&[(1.0, Some(0.5)), (2.0, None)])).unwrap();
         assert_eq!(last.enough_rad_s2, None);
-        assert_eq!(passing(1.0, "mm", &runs(&[(1.0, None)])), None);
+        let none = passing(1.0, "mm", &runs(&[(1.0, None)])).unwrap();
+        assert_eq!((none.enough_rad_s2, none.too_slow_rad_s2), (None, Some(1.0)));
+        assert_eq!(passing(1.0, "mm", &[]), None);
     }
 }

@@ -19,6 +19,11 @@ impl RunUpLeg {
         self.run
     }
 
+    /// How the run ended, if this is its last leg.
+    pub fn status(&self) -> Option<PointStatus> {
+        self.end.as_ref().map(|end| end.status)
+    }
+
     /// Spectra of its frames, `[frame][sensor][line]`, which are kept apart from it.
     pub fn spectra(&self) -> Vec<&[Vec<f64>]> {
         self.frames.iter().map(|frame| frame.spectra.as_slice()).collect()
