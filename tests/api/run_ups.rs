@@ -177,7 +177,7 @@ async fn what_cannot_be_run_up_is_refused_at_its_field() {
         ("rates", json!([1e9]), "/speed/rates/0"),
         ("hold_s", json!(-1.0), "/speed/hold_s"),
         ("course", json!("smooth"), "/speed/course"),
-        ("points", json!([{"time_s": 0.0, "speed": 1.0}]), "/speed"),
+        ("points", json!([{"time_s": 0.0, "speed": 1.0}, {"time_s": 1.0, "speed": 2.0}]), "/speed"),
     ] {
         refused(&|request| request["speed"][field] = value.clone(), pointer).await;
     }
