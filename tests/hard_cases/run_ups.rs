@@ -98,7 +98,6 @@ fn contact_is_handed_on_without_loss() {
         let ends = [&coarse, &fine].map(|found| found.runs[0].end.as_ref().unwrap());
         assert!(ends[1].segments > 2 * ends[0].segments, "{} {}", ends[0].segments, ends[1].segments);
         for (a, b) in ends[0].largest.iter().zip(&ends[1].largest) {
-            eprintln!("{scheme} {} {}", a.displacement, b.displacement);
             assert!((a.displacement / b.displacement - 1.0).abs() < 0.1, "{scheme}: {a:?} {b:?}");
         }
     }

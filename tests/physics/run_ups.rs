@@ -194,7 +194,6 @@ fn a_run_up_is_that_of_a_literal_integration_under_the_stiffness_of_the_moment()
             });
             errors.push(off.fold(0.0, f64::max));
         }
-        eprintln!("{rate}: {errors:?}");
         assert!(errors[1] < 2e-3 && errors[1] < 0.6 * errors[0], "{errors:?}");
     }
 }

@@ -60,7 +60,7 @@ pub(super) fn panel(
         .child(diagram.x_axis(&along, "rate, rad/s²"))
         .child(diagram.y_axis(&y, "", 0.0))
         .child(
-            text(diagram.left, diagram.top - 8.0, "start", "largest half peak-to-peak over the rate")
+            text(diagram.left, diagram.top - 8.0, "start", "largest of them over the rate")
                 .set("fill", "#555555"),
         );
     Some(drawn)

@@ -138,7 +138,7 @@ fn key(view: &View<'_>) -> Element {
         key = key.note(&format!("and {} more runs between", shown.len() - LISTED));
     }
     if shown.iter().any(|line| line.largest.is_some()) {
-        key = key.row(group().child(ring(middle, INK)), "largest half peak-to-peak of a run");
+        key = key.row(group().child(ring(middle, INK)), "largest half peak-to-peak");
     }
     if shown.iter().any(|line| line.touching().next().is_some()) {
         let broad = stroke().set("stroke", INK).set("stroke-width", "7").set("stroke-linecap", "round");

@@ -86,5 +86,5 @@ fn peaks(view: &View<'_>) -> Option<PointTrace> {
         let step = line.largest?;
         Some((step.over_speed(), format!("largest of {}: {}", line.title, step.words(view.unit))))
     });
-    marks("largest half peak-to-peak of a run", of, (MarkerSymbol::CircleOpen, 10, NEUTRAL))
+    marks("largest half peak-to-peak", of, (MarkerSymbol::CircleOpen, 10, NEUTRAL))
 }

@@ -30,7 +30,7 @@ fn every_run_is_a_line_and_speeds_of_a_sweep_are_dots() {
             "5 rad/s²",
             "50 rad/s²",
             "400 rad/s²",
-            "largest half peak-to-peak of a run",
+            "largest half peak-to-peak",
             "something touches",
             "speed of the sweep",
             "the same, not settled"
@@ -41,7 +41,7 @@ fn every_run_is_a_line_and_speeds_of_a_sweep_are_dots() {
     assert_eq!(of_class(&read, "marched").count(), 21 + 2);
     assert!(drawing.contains("5 rad/s² (47.7 rpm/s)"));
     let alone = run_ups(&passed(&[400.0], true), 0, &[]);
-    assert_eq!(key(&alone), ["400 rad/s²", "largest half peak-to-peak of a run"]);
+    assert_eq!(key(&alone), ["400 rad/s²", "largest half peak-to-peak"]);
 }
 
 /// Places of corners are speeds and amplitudes of frames.
@@ -312,7 +312,7 @@ fn figures_of_run_ups_have_their_words() {
     assert!(numbers(&line["y"]).iter().zip(frames).all(|(y, frame)| *y == frame.half_peak_to_peak[0]));
     let words = line["hovertext"][0].as_str().unwrap();
     assert!(words.starts_with("50 rad/s² (477 rpm/s): 4,5") && words.ends_with(" mm"), "{words}");
-    assert_eq!(numbers(&trace(&figure, "largest half peak-to-peak of a run")["x"]).len(), 2);
+    assert_eq!(numbers(&trace(&figure, "largest half peak-to-peak")["x"]).len(), 2);
     let touching = numbers(&trace(&figure, "something touches")["y"]);
     assert!(touching.iter().all(|y| y.is_nan() || *y > 0.45) && touching.len() > 2);
     assert_eq!(numbers(&trace(&figure, "speed of the sweep")["x"]).len(), 20);

@@ -335,7 +335,6 @@ fn one_degree_of_freedom_passes_resonance_as_lewis_has_it() {
                 found.iter().zip(&exact).fold(0.0f64, |most, (a, b)| most.max((a - b).abs())) / scale
             })
             .collect();
-        eprintln!("{from} {to} {rate}: {errors:?}");
         assert!(errors[2] < 4e-3 && errors[2] < 0.4 * errors[1], "{errors:?}");
     }
 }
