@@ -344,7 +344,6 @@ async fn no_place_of_any_body_speaks_rust() {
         "/v1/sweeps/plan",
         "/v1/branches/plan",
         "/v1/run-ups/plan",
-        "/v1/campaigns/plan",
         "/v1/modal-analyses/plan",
         "/v1/studies",
         "/v1/case-studies",
