@@ -8,7 +8,7 @@ use crate::request::{
     Along, BranchParameter, BranchesRequest, CaseSpeed, HIGHEST_SPEED, LOWEST_SPEED, SteadyChoice,
 };
 use crate::resolve::findings::Findings;
-use crate::resolve::one_speed::OneSpeed;
+use crate::resolve::plain_sweep::{PlainSweep, one};
 use crate::resolved::scene::Scene;
 use crate::resolved::{ResolvedBranches, ResolvedSweep};
 use rubmap_wheel::dynamics::integrate::{PassageError, comes_round};
@@ -25,17 +25,17 @@ pub fn resolve_branches(
     facts: &ModelFacts,
 ) -> Result<ResolvedBranches, Vec<Violation>> {
     let CaseSpeed { value, unit } = request.speed;
-    let resolved = OneSpeed {
+    let resolved = PlainSweep {
         model: request.model,
         modes_per_speed: request.modes_per_speed,
-        speed: request.speed,
+        speeds: one(request.speed),
         scene: request.scene,
         integration: request.integration,
         sensors: request.sensors,
         max_engine_order: request.max_engine_order,
         fields: None,
     }
-    .resolve(facts);
+    .resolve(facts, "/speed/value");
     let mut found = Findings::default();
     check_range(&mut found, request.along, value);
     found.require(

@@ -6,7 +6,7 @@ use crate::error::Violation;
 use crate::model::ModelFacts;
 use crate::request::{CaseStudyRequest, HistoriesRequest, RecordedQuantity};
 use crate::resolve::findings::Findings;
-use crate::resolve::one_speed::OneSpeed;
+use crate::resolve::plain_sweep::{PlainSweep, one};
 use crate::resolve::recorded::{check_fields, check_histories, check_recorded, wanted};
 use crate::resolved::{ResolvedCaseStudy, ResolvedSweep};
 
@@ -16,17 +16,17 @@ pub fn resolve_case_study(
     facts: &ModelFacts,
 ) -> Result<ResolvedCaseStudy, Vec<Violation>> {
     let record = request.record;
-    let sweep = OneSpeed {
+    let sweep = PlainSweep {
         model: request.model,
         modes_per_speed: request.modes_per_speed,
-        speed: request.speed,
+        speeds: one(request.speed),
         scene: request.scene,
         integration: request.integration,
         sensors: request.sensors,
         max_engine_order: request.max_engine_order,
         fields: request.fields,
     }
-    .resolve(facts)?;
+    .resolve(facts, "/speed/value")?;
     let mut found = Findings::default();
     check_recorded(&mut found, &record, "/record", &sweep, facts);
     check_fields(&mut found, sweep.fields, record.wants(RecordedQuantity::State));

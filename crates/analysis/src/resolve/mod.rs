@@ -24,7 +24,7 @@ mod effects;
 pub(crate) mod findings;
 mod gauges;
 pub(crate) mod limits;
-mod one_speed;
+mod plain_sweep;
 pub(crate) mod recorded;
 pub(crate) mod run_up;
 pub(crate) mod sensors;

@@ -6,11 +6,8 @@ use crate::discretisation::Discretisation;
 use crate::effects::symmetry::request::Symmetry;
 use crate::error::Violation;
 use crate::model::ModelFacts;
-use crate::request::sweep::default_peak_prominence;
-use crate::request::{
-    AutoOr, Integration, Record, RunUpRequest, SpeedSet, SpeedUnit, Speeds, SweepDirection, SweepRequest,
-};
-use crate::resolve::resolve_sweep;
+use crate::request::{AutoOr, Integration, RunUpRequest, SpeedSet, SpeedUnit};
+use crate::resolve::plain_sweep::{PlainSweep, values};
 use crate::resolved::run_up::{FRAME, ResolvedCourse};
 use crate::resolved::{ResolvedRunUps, ResolvedSweep};
 use crate::run_up::cutting;
@@ -52,38 +49,25 @@ pub fn resolve_run_ups(request: RunUpRequest, facts: &ModelFacts) -> Result<Reso
         (grown.clamp(0.0, REVOLUTIONS) as u32 + 1 + integration.window_revolutions).min(limits::REVOLUTIONS);
     let integration =
         Integration { most_revolutions: integration.most_revolutions.max(least), ..integration };
-    let sweep = SweepRequest {
+    let sweep = PlainSweep {
         model: request.model,
         modes_per_speed: request.modes_per_speed,
-        speeds: Speeds::One(ends(&speed)),
+        speeds: ends(&speed),
         scene: request.scene,
         integration,
         sensors: request.sensors,
         max_engine_order: request.max_engine_order,
-        peak_prominence: default_peak_prominence(),
-        sweep: SweepDirection::Independent,
-        refine: false,
-        reproducible: false,
-        accuracy: None,
-        budget: None,
-        control_speeds: Some(0),
-        record: Record::default(),
         fields: None,
     };
-    let at_its_field = |violation: Violation| {
-        if violation.pointer.starts_with("/speeds") {
-            Violation { pointer: "/speed".to_owned(), ..violation }
-        } else if violation.pointer == "/integration/most_revolutions" {
-            // The numbers that a speed of a sweep records: a frame has fewer, in the same proportion.
-            Violation::new(
-                "/sensors",
-                "these sensors record more numbers than a run holds: ask for fewer, or for fewer engine orders",
-            )
-        } else {
-            violation
-        }
+    // The numbers that a speed of a sweep records: a frame has fewer, in the same proportion.
+    let at_its_field = |violation: Violation| match violation.pointer.as_str() {
+        "/integration/most_revolutions" => Violation::new(
+            "/sensors",
+            "these sensors record more numbers than a run holds: ask for fewer, or for fewer engine orders",
+        ),
+        _ => violation,
     };
-    let sweep = match resolve_sweep(sweep, facts) {
+    let sweep = match sweep.resolve(facts, "/speed") {
         Ok(sweep) => sweep,
         Err(violations) => {
             found.0.extend(violations.into_iter().map(at_its_field));
@@ -103,8 +87,7 @@ pub fn resolve_run_ups(request: RunUpRequest, facts: &ModelFacts) -> Result<Reso
 /// The lowest and the highest speed, as those of a sweep.
 fn ends(speed: &ResolvedCourse) -> SpeedSet {
     let (lowest, highest) = speed.range();
-    let values = if lowest < highest { vec![lowest, highest] } else { vec![lowest] };
-    SpeedSet { from: None, to: None, count: None, values: Some(values), unit: SpeedUnit::RadS }
+    values(if lowest < highest { vec![lowest, highest] } else { vec![lowest] }, SpeedUnit::RadS)
 }
 
 fn check_limit(found: &mut Findings, request: &RunUpRequest) {
@@ -185,7 +168,7 @@ fn check_runs(found: &mut Findings, asked: &ResolvedRunUps, facts: &ModelFacts) 
             format!("less than the {revolutions:.1} revolutions of run {run}, counted from 0: the casing would never have its height"),
         );
         let frame = asked.frame_revolutions(revolutions);
-        let frames = (revolutions as u64).div_ceil(frame);
+        let frames = (revolutions.ceil() as u64).div_ceil(frame);
         found.require(
             frames <= FRAMES,
             "/frame_revolutions",

@@ -1,19 +1,20 @@
-//! One speed of a scene, as case studies and branches ask for it: a sweep that has no other.
+//! Speeds of a scene, as case studies, branches and run-ups ask for them: a sweep with nothing beside.
 
 use crate::error::Violation;
 use crate::model::ModelFacts;
 use crate::request::sweep::default_peak_prominence;
 use crate::request::{
-    AutoOr, CaseSpeed, Integration, Record, Scene, Sensor, SpeedSet, Speeds, SweepDirection, SweepRequest,
+    AutoOr, CaseSpeed, Integration, Record, Scene, Sensor, SpeedSet, SpeedUnit, Speeds, SweepDirection,
+    SweepRequest,
 };
 use crate::resolve::resolve_sweep;
 use crate::resolved::ResolvedSweep;
 
-/// What is asked of the speed.
-pub(super) struct OneSpeed {
+/// What is asked of the speeds.
+pub(super) struct PlainSweep {
     pub(super) model: String,
     pub(super) modes_per_speed: AutoOr,
-    pub(super) speed: CaseSpeed,
+    pub(super) speeds: SpeedSet,
     pub(super) scene: Scene,
     pub(super) integration: Integration,
     pub(super) sensors: Vec<Sensor>,
@@ -21,20 +22,13 @@ pub(super) struct OneSpeed {
     pub(super) fields: Option<bool>,
 }
 
-impl OneSpeed {
-    /// Parses it and checks it against its model; what is wrong with the speed is said at `/speed/value`.
-    pub(super) fn resolve(self, facts: &ModelFacts) -> Result<ResolvedSweep, Vec<Violation>> {
-        let CaseSpeed { value, unit } = self.speed;
+impl PlainSweep {
+    /// Parses it and checks it against its model; what is wrong with the speeds is said `at` the field that they came from.
+    pub(super) fn resolve(self, facts: &ModelFacts, at: &str) -> Result<ResolvedSweep, Vec<Violation>> {
         let sweep = SweepRequest {
             model: self.model,
             modes_per_speed: self.modes_per_speed,
-            speeds: Speeds::One(SpeedSet {
-                from: None,
-                to: None,
-                count: None,
-                values: Some(vec![value]),
-                unit,
-            }),
+            speeds: Speeds::One(self.speeds),
             scene: self.scene,
             integration: self.integration,
             sensors: self.sensors,
@@ -50,9 +44,19 @@ impl OneSpeed {
             fields: self.fields,
         };
         let at_its_field = |violation: Violation| match violation.pointer.strip_prefix("/speeds") {
-            Some(_) => Violation { pointer: "/speed/value".to_owned(), ..violation },
+            Some(_) => Violation { pointer: at.to_owned(), ..violation },
             None => violation,
         };
         resolve_sweep(sweep, facts).map_err(|found| found.into_iter().map(at_its_field).collect())
     }
+}
+
+/// These speeds and no others.
+pub(super) fn values(values: Vec<f64>, unit: SpeedUnit) -> SpeedSet {
+    SpeedSet { from: None, to: None, count: None, values: Some(values), unit }
+}
+
+/// A single one.
+pub(super) fn one(speed: CaseSpeed) -> SpeedSet {
+    values(vec![speed.value], speed.unit)
 }
