@@ -6,6 +6,7 @@ use rubmap::dynamics::contact::disc::disc_directions;
 use rubmap::dynamics::contact::friction::sliding_directions;
 use rubmap::dynamics::direction::Direction;
 use rubmap::dynamics::effects::{Effects, Friction, FrictionLaw};
+use rubmap::dynamics::euler::{EulerForce, SpeedRate};
 use rubmap::dynamics::excitation::EngineOrderExcitation;
 use rubmap::dynamics::flexible_casing::{FlexibleCasing, Ring};
 use rubmap::dynamics::integrate::{Outcome, Simulation};
@@ -51,6 +52,11 @@ pub(crate) fn measure() {
     let orbit = Some(Orbit { radius: 0.02, whirl_ratio: 0.4, phase_rad: 0.0 });
     let change = ClearanceChange { course: vec![(1.0, 0.01), (2.0, -0.01)], along_chord: None };
     let clearance_change = Some(&change);
+    let euler = EulerForce {
+        rate: SpeedRate { revolutions: [0.0, REVOLUTIONS as f64], rad_s2: [100.0; 2] },
+        load: vec![1.0; scene.modal.harmonics[0].omega.len()],
+    };
+    let euler_force = Some(&euler);
     let none = Effects::default();
     let all = Effects {
         friction,
@@ -61,6 +67,7 @@ pub(crate) fn measure() {
         clearance_drift: None,
         mistuning: Some(&deviations),
         excitation: &excitation,
+        euler_force,
         energies: false,
     };
     let [central, exact, massless] = scene.schemes();
@@ -76,7 +83,9 @@ pub(crate) fn measure() {
         ("clearance_change", exact, &scene.modal, Effects { clearance_change, ..none }),
         ("mistuning", exact, &scene.modal, Effects { mistuning: Some(&deviations), ..none }),
         ("engine_order_excitation", exact, &scene.modal, Effects { excitation: &excitation, ..none }),
+        ("euler_force", exact, &scene.modal, Effects { euler_force, ..none }),
         ("coriolis", exact, &turning, none),
+        ("coriolis, euler_force", exact, &turning, Effects { euler_force, ..none }),
         ("all together", exact, &turning, all),
     ];
     // Not of the scene: what is recorded of it.

@@ -28,6 +28,7 @@ mod control;
 mod counters;
 mod engine;
 mod error;
+mod euler_load;
 mod fields;
 mod finish;
 mod generation;

@@ -5,6 +5,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use super::computing::Computing;
 use super::error::Interruption;
+use super::euler_load;
 use super::memory::Memory;
 #[cfg(feature = "cluster")]
 use super::patience::BETWEEN_ATTEMPTS;
@@ -14,7 +15,7 @@ use super::static_wheel::{self, StaticWheelError};
 use super::stress::Making;
 use crate::analysis::error::AnalysisError;
 use crate::analysis::monitor::Monitor;
-use crate::analysis::resolved::ResolvedSweep;
+use crate::analysis::resolved::{ResolvedRunUps, ResolvedSweep};
 use crate::analysis::run::{self, ReducedSector};
 use crate::analysis::tip_growth::TipGrowth;
 use crate::dynamics::kept_rows::KeptRows;
@@ -41,6 +42,8 @@ struct Beside {
     stress_outside: Option<f64>,
     /// Growth of the tips.
     growth: bool,
+    /// The Euler force.
+    euler_force: bool,
     /// Rows of the basis at all nodes: they must be there, must not, or are kept if it reduces.
     fields: Option<bool>,
 }
@@ -55,7 +58,8 @@ impl Beside {
     fn is_of(&self, reduced: &ReducedSector) -> bool {
         let tells = self.stress_outside.is_none_or(|radius| reduced.tells_stress(radius));
         let grows = reduced.growth.is_some() || !self.growth;
-        tells && grows && reduced.reads(&self.nodes) && (reduced.has_basis || !self.needs_basis())
+        let pushes = reduced.euler_load.is_some() || !self.euler_force;
+        tells && grows && pushes && reduced.reads(&self.nodes) && (reduced.has_basis || !self.needs_basis())
     }
 }
 
@@ -103,11 +107,32 @@ impl Reductions {
         fields: Option<bool>,
         monitor: PhaseMonitor,
     ) -> Result<Arc<ReducedSector>, Interruption> {
+        self.with_beside(sweep, Beside { fields, ..Beside::default() }, monitor).await
+    }
+
+    /// The reduction that `run_ups` are made on.
+    pub(super) async fn of_run_ups(
+        &self,
+        run_ups: &ResolvedRunUps,
+        monitor: PhaseMonitor,
+    ) -> Result<Arc<ReducedSector>, Interruption> {
+        let (sweep, euler_force) = (run_ups.sweep(), run_ups.has_euler_force());
+        let beside = Beside { fields: sweep.fields(), euler_force, ..Beside::default() };
+        self.with_beside(sweep, beside, monitor).await
+    }
+
+    /// With what `sweep` itself wants, too.
+    async fn with_beside(
+        &self,
+        sweep: &ResolvedSweep,
+        beside: Beside,
+        monitor: PhaseMonitor,
+    ) -> Result<Arc<ReducedSector>, Interruption> {
         let beside = Beside {
             nodes: sweep.sensor_nodes(),
             stress_outside: sweep.stress_outside(),
             growth: sweep.has_cold_clearances(),
-            fields,
+            ..beside
         };
         self.reading(sweep.model(), sweep.modes_per_speed(), &beside, monitor).await
     }
@@ -248,7 +273,7 @@ impl Reductions {
         // Stress of other jobs is read again, if they go on; a reduction wants its memory.
         self.let_stress_go();
         let facts = self.store.model(model, None).await?.map(|model| model.facts);
-        let needs_basis = beside.needs_basis() || beside.stress_outside.is_some();
+        let needs_basis = beside.needs_basis() || beside.stress_outside.is_some() || beside.euler_force;
         if let Some(facts) = facts.as_ref().filter(|_| needs_basis) {
             // Before hours of computing end in nothing that can be used.
             let room = run::most_basis_bytes(facts, modes_per_speed);
@@ -290,6 +315,8 @@ impl Reductions {
             made.map_err(|error| Interruption::Store(StoreError::File(error)))?;
         }
         self.growth(key, &mut reduced, beside, &monitor).await?;
+        let pushed = self.euler_load(key, &mut reduced, beside, &monitor).await?;
+        pushed.map_err(|error| Interruption::Store(StoreError::File(error)))?;
         Ok(self.remember(key, reduced))
     }
 
@@ -314,6 +341,9 @@ impl Reductions {
                 return Ok(Err(error));
             }
             reduced.has_basis = true;
+        }
+        if let Err(error) = self.euler_load(key, reduced, beside, monitor).await? {
+            return Ok(Err(error));
         }
         let stress = self.stress(key, reduced, beside, monitor).await?;
         if stress.is_ok() {
@@ -350,6 +380,26 @@ impl Reductions {
         let growth = self.computing.run_parallel(monitor.watch(), solve).await??;
         reduced.growth = growth.map(Arc::new);
         Ok(())
+    }
+
+    /// Gives `reduced` the Euler force, if that is asked for, from its mesh and the basis of nodal diameter 0.
+    async fn euler_load(
+        &self,
+        (model, modes_per_speed): &Key,
+        reduced: &mut ReducedSector,
+        beside: &Beside,
+        monitor: &PhaseMonitor,
+    ) -> Result<std::io::Result<()>, Interruption> {
+        if !beside.euler_force || reduced.euler_load.is_some() {
+            return Ok(Ok(()));
+        }
+        monitor.progress(0.0, "Euler force of the mesh");
+        let package = self.store.package(model).await?;
+        let basis = self.store.basis(model, *modes_per_speed);
+        let wheel = Arc::clone(&reduced.wheel);
+        let read = move || euler_load::from_package(&package, (&basis, &wheel));
+        let read = self.computing.run(monitor.watch(), read).await??;
+        Ok(read.map(|load| reduced.euler_load = Some(Arc::new(load))))
     }
 
     /// Gives `reduced` the stress that is asked for, if any is; makes it if it is not there.

@@ -12,7 +12,7 @@ use crate::store::Followed;
 pub(super) async fn run(engine: &Engine, job: &Live, asked: &ResolvedRunUps) -> Result<(), Interruption> {
     let monitor = PhaseMonitor::whole(job.watch.clone());
     let uncounted = PhaseMonitor::uncounted(job.watch.clone());
-    let reduced = engine.reductions.of_sweep(asked.sweep(), uncounted).await?;
+    let reduced = engine.reductions.of_run_ups(asked, uncounted).await?;
     let (sector, request) = (reduced.clone(), asked.clone());
     let bytes = engine.computing.run(&job.watch, move || run::run_ups_memory(&sector, &request)).await?;
     let _memory = engine.memory.hold(bytes).await.map_err(Interruption::speed_memory)?;

@@ -1,11 +1,13 @@
 //! Run-ups: taken leg by leg, told as they come, found again after a kill; what is planned is what is spent.
 
+use rubmap::impeller::ImpellerParameters;
 use serde_json::{Value, json};
 
 use super::app::{Api, TestApp, sweep_of};
 use super::formats::get;
 use super::model;
 use super::program::Program;
+use super::stress::{impeller, package};
 
 /// The scene of [`sweep_of`], run up at two rates.
 pub(super) fn run_ups_of(model: &str) -> Value {
@@ -239,6 +241,56 @@ async fn what_cannot_be_run_up_is_refused_at_its_field() {
     )
     .await;
     refused(&|request| request["model"] = json!("0".repeat(64)), "/model").await;
+    // A wheel of springs does not say where its mass is.
+    refused(&|request| request["euler_force"] = json!(true), "/euler_force").await;
+    app.stop().await;
+}
+
+/// What is found beside the reduction is not there when a plan is asked for: the growth of tips, and the Euler force. With that an impeller
+/// swings otherwise, by little; what is planned is what is spent.
+#[tokio::test]
+async fn run_ups_have_the_euler_force_of_their_elements() {
+    let app = TestApp::start().await;
+    let api = &app.api;
+    let model = api.model(package(&ImpellerParameters { gyroscopic: true, ..impeller() })).await;
+    let clearance = json!({"leading": 0.5, "trailing": 0.4, "given": "cold"});
+    let of = |euler: bool, coriolis: bool| {
+        json!({
+            "model": model, "modes_per_speed": 2, "euler_force": euler, "max_engine_order": 12,
+            "speed": {"unit": "rad_s", "from": 500.0, "to": 1500.0, "rates": [20_000.0]},
+            "scene": {"centrifugal_stiffening": true, "coriolis": coriolis, "damping": {"modal_ratio": 0.05}, "contact": {},
+                      "casing": {"clearance": clearance, "waves": [{"order": 2, "amplitude": 0.1}]}},
+            "sensors": [{"contact_node": 0, "component": "tangential"}],
+        })
+    };
+    api.finish(
+        &api.sweep(&json!({
+            "model": model, "modes_per_speed": 2, "speeds": {"values": [500.0], "unit": "rad_s"}, "scene": {},
+        }))
+        .await,
+    )
+    .await;
+    for coriolis in [false, true] {
+        let plan = api.post("/v1/run-ups/plan", &of(true, coriolis)).await.body;
+        assert_eq!(plan["runs"][0]["message"], Value::Null, "{plan}");
+        let effects = plan["effects"].as_array().unwrap();
+        assert!(effects.iter().any(|effect| effect["name"] == "euler_force" && effect["on"] == true));
+        let (without, with) =
+            (run_up(api, &of(false, coriolis)).await, run_up(api, &of(true, coriolis)).await);
+        assert_eq!(
+            (&with["settings"]["euler_force"], &without["settings"]["euler_force"]),
+            (&json!(true), &Value::Null)
+        );
+        let end = |found: &Value| found["runs"][0]["end"].clone();
+        assert_eq!(
+            (&end(&with)["status"], &end(&with)["steps"]),
+            (&json!("completed"), &plan["runs"][0]["steps"])
+        );
+        assert!(end(&with)["energy_residual"].as_f64().unwrap() < 1e-9, "{with}");
+        let largest = |found: &Value| end(found)["largest"][0]["displacement"].as_f64().unwrap();
+        assert_eq!(end(&with)["euler_share"], end(&without)["euler_share"]);
+        assert!(largest(&with) != largest(&without), "{}", largest(&with));
+    }
     app.stop().await;
 }
 

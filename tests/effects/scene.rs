@@ -316,6 +316,7 @@ impl Scene {
                 clearance_drift: None,
                 mistuning: self.mistuning.as_deref(),
                 excitation: &self.excitation,
+                euler_force: None,
                 energies: false,
             },
             initial: &self.initial,

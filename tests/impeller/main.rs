@@ -11,6 +11,7 @@ mod disk;
 mod disk_mesh;
 mod eigen;
 mod element;
+mod euler;
 #[path = "../properties/fixed.rs"]
 mod fixed;
 mod gyroscopic;

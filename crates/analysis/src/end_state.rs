@@ -10,7 +10,7 @@
 //! Exact where every mode is integrated; a boundary without mass hands on the modes it keeps. A run ends after a whole number
 //! of revolutions, so the next one begins at the same angle of the casing.
 
-use faer::{Mat, c64};
+use faer::{Mat, MatRef, c64};
 use serde::{Deserialize, Serialize};
 
 use rubmap_wheel::dynamics::error::ModelError;
@@ -40,6 +40,11 @@ impl Shapes {
     /// Those that were found with a wheel.
     pub(super) fn found(shapes: Vec<Mat<c64>>) -> Self {
         Self(shapes)
+    }
+
+    /// Φ of a nodal diameter.
+    pub(super) fn of_harmonic(&self, harmonic: usize) -> MatRef<'_, c64> {
+        self.0[harmonic].as_ref()
     }
 
     /// Memory of those of a wheel.

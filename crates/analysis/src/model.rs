@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
+use crate::euler_load::EulerLoad;
 use crate::result::{PreliminaryStiffening, ReductionReport, Strengths};
 use crate::stiffening::preliminary_stiffening;
 use crate::stress::ReducedStress;
@@ -33,6 +34,9 @@ pub struct ReducedSector {
     /// Growth of its tips, where clearances are given cold; kept apart from it too.
     #[serde(skip)]
     pub growth: Option<Arc<TipGrowth>>,
+    /// The Euler force in its coordinates, where the speed changes and that is asked for; kept apart from it too.
+    #[serde(skip)]
+    pub euler_load: Option<Arc<EulerLoad>>,
     /// Whether the rows of its basis at all nodes are known to lie beside it.
     #[serde(skip)]
     pub has_basis: bool,
@@ -46,6 +50,16 @@ impl ReducedSector {
     pub fn reads(&self, nodes: &[u64]) -> bool {
         let contact = |id| self.wheel.contact.iter().any(|node| node.id == id);
         nodes.iter().all(|&id| self.nodes.find(id).is_some() || contact(id))
+    }
+
+    /// As a plan takes it while the growth of its tips and the Euler force have still to be found: tips do not grow, and nothing pushes.
+    pub(crate) fn for_planning(&self) -> Self {
+        let still = || Arc::new(TipGrowth::none(self.wheel.contact.len()));
+        Self {
+            growth: Some(self.growth.clone().unwrap_or_else(still)),
+            euler_load: Some(self.euler_load.clone().unwrap_or_else(|| Arc::new(EulerLoad::none()))),
+            ..self.clone()
+        }
     }
 
     /// Whether stress can be told outside this radius about the contact nodes.

@@ -21,6 +21,9 @@ pub(crate) enum NotRunnable {
     /// Clearances given cold of a reduction beside which the growth of its tips was not read.
     #[error("the growth of the tips was not read, and this scene has its clearances cold")]
     UnreadGrowth,
+    /// The Euler force of a reduction beside which it was not read.
+    #[error("the Euler force was not read, and this run-up has it")]
+    UnreadEulerForce,
     /// A sensor along the normal of a node that has none.
     #[error("node {id}, where a sensor is, has no normal: only contact nodes have")]
     NoNormal { id: u64 },

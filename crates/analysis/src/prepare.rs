@@ -45,6 +45,7 @@ pub fn prepare(
         nodes: NodeRows::default(),
         stress: None,
         growth: None,
+        euler_load: None,
         has_basis: false,
         tip_thickness: None,
     })

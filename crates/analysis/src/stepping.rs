@@ -21,6 +21,8 @@ pub(super) struct Stepping {
     /// Smallest stable number of steps per revolution.
     pub(super) smallest: u64,
     pub(super) discretisation: Discretisation,
+    /// Whether modes too fast for the step follow statically under `exact_modal`.
+    pub(super) follow: bool,
     pub(super) report: SchemeReport,
 }
 
@@ -90,6 +92,8 @@ struct Scope<'a> {
     request: &'a ResolvedSweep,
     /// Steps per revolution given by the request.
     given: Option<u32>,
+    /// Whether modes too fast for the step follow statically under `exact_modal`.
+    follow: bool,
 }
 
 impl Stepping {
@@ -99,12 +103,24 @@ impl Stepping {
         contact_nodes: &[ContactNode],
         request: &ResolvedSweep,
     ) -> Result<Self, NotRunnable> {
+        Self::choose_for_parts(wheel, contact_nodes, request, false)
+    }
+
+    /// The same for a run that is taken in parts, in which something else than contact acts on the modes or not.
+    pub(super) fn choose_for_parts(
+        wheel: &ModalWheel,
+        contact_nodes: &[ContactNode],
+        request: &ResolvedSweep,
+        acted_on: bool,
+    ) -> Result<Self, NotRunnable> {
         let Integration { scheme, kept_modes, steps_per_revolution, .. } = request.integration;
         let given = match steps_per_revolution {
             AutoOr::Auto => None,
             AutoOr::Fixed(steps) => Some(steps),
         };
-        let scope = Scope { wheel, contact_nodes: touching(contact_nodes, request), request, given };
+        let contact_nodes = touching(contact_nodes, request);
+        let follow = acted_on || !contact_nodes.is_empty();
+        let scope = Scope { wheel, contact_nodes, request, given, follow };
         let proposal = match (scheme, kept_modes) {
             (SchemeChoice::Auto, _) => scope.automatic(),
             (SchemeChoice::CentralDifferences, _) => scope.bounded(Scheme::CentralDifferences),
@@ -260,7 +276,7 @@ impl Scope<'_> {
         };
         let reason = format!("{}; {why_steps}", proposal.why_scheme);
         let report = self.report(proposal.scheme, &discretisation, reason);
-        Ok(Stepping { scheme: proposal.scheme, smallest, discretisation, report })
+        Ok(Stepping { scheme: proposal.scheme, smallest, discretisation, follow: self.follow, report })
     }
 
     fn report(&self, scheme: Scheme, discretisation: &Discretisation, mut reason: String) -> SchemeReport {
@@ -273,7 +289,7 @@ impl Scope<'_> {
         };
         let step_s = TAU / (self.wheel.speed_rad_s * discretisation.per_revolution as f64);
         let follows = match scheme {
-            Scheme::ExactModal if !self.contact_nodes.is_empty() => exact_modal::FOLLOWS / step_s,
+            Scheme::ExactModal if self.follow => exact_modal::FOLLOWS / step_s,
             _ => f64::INFINITY,
         };
         let (mut following, mut reach) = (0, f64::INFINITY);

@@ -26,6 +26,11 @@ impl TipGrowth {
         Self { outward: outward.collect(), span }
     }
 
+    /// None, of so many contact nodes.
+    pub(crate) fn none(contact_nodes: usize) -> Self {
+        Self { outward: vec![0.0; contact_nodes], span: StaticSpan::at_rest() }
+    }
+
     /// Of every contact node at a speed, length; negative where a tip moves away from the casing.
     pub fn at(&self, speed_rad_s: f64, stiffening: bool) -> Vec<f64> {
         let shares = self.span.at(speed_rad_s, stiffening);

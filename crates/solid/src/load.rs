@@ -8,11 +8,21 @@ use crate::mesh::SectorMesh;
 use crate::rule::fine_points;
 use crate::shape::functions;
 
-/// The centrifugal load per unit Ω²: `∫ ρ N_a r e_r dV` in (r, θ, z) components of every node of the sector. What acts on a high node
-/// is added to its low node, whose components it has; its own place is zero.
-///
-/// It is `M x_⊥` of the consistent mass: position is interpolated like displacement.
+/// The centrifugal load per unit Ω²: `∫ ρ N_a r e_r dV`, as of [`inertial`].
 pub fn centrifugal(mesh: &SectorMesh) -> Vec<[f64; 3]> {
+    inertial(mesh, |axis, from_axis| from_axis - axis * from_axis.dot(&axis))
+}
+
+/// The Euler load per unit Ω̇: `−∫ ρ N_a r e_θ dV`, as of [`inertial`].
+pub fn euler(mesh: &SectorMesh) -> Vec<[f64; 3]> {
+    inertial(mesh, |axis, from_axis| from_axis.cross(&axis))
+}
+
+/// `∫ ρ N_a b dV` in (r, θ, z) components of every node of the sector, b being what a unit of mass feels, of the direction of the axis and
+/// the place seen from it. What acts on a high node is added to its low node, whose components it has; its own place is zero.
+///
+/// It is `M b` of the consistent mass: b is interpolated like displacement, which is exact where it is linear in the place.
+fn inertial(mesh: &SectorMesh, felt: impl Fn(Vector3<f64>, Vector3<f64>) -> Vector3<f64>) -> Vec<[f64; 3]> {
     let Some(axis) = AxisFrame::new(mesh.axis.0, mesh.axis.1) else {
         return vec![[0.0; 3]; mesh.nodes.len()];
     };
@@ -26,11 +36,10 @@ pub fn centrifugal(mesh: &SectorMesh) -> Vec<[f64; 3]> {
             let shares = functions(element.kind, point.xi);
             let at: Vector3<f64> =
                 positions.iter().zip(&shares).map(|(&x, share)| Vector3::from(x) * *share).sum();
-            let from_axis = at - origin;
-            let radial = from_axis - direction * from_axis.dot(&direction);
+            let felt = felt(direction, at - origin);
             let mass = density * jacobian(element.kind, &positions, point.xi).determinant() * point.weight;
             for (&node, share) in element.nodes.iter().zip(&shares) {
-                forces[node as usize] += radial * (mass * share);
+                forces[node as usize] += felt * (mass * share);
             }
         }
     }

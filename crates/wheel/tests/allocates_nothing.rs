@@ -10,6 +10,7 @@ use rubmap_wheel::dynamics::contact::disc::disc_directions;
 use rubmap_wheel::dynamics::contact::friction::sliding_directions;
 use rubmap_wheel::dynamics::direction::Direction;
 use rubmap_wheel::dynamics::effects::{Effects, Friction, FrictionLaw};
+use rubmap_wheel::dynamics::euler::{EulerForce, SpeedRate};
 use rubmap_wheel::dynamics::excitation::EngineOrderExcitation;
 use rubmap_wheel::dynamics::flexible_casing::{CasingWave, FlexibleCasing};
 use rubmap_wheel::dynamics::integrate::{Outcome, Revolutions, SensorRow, Simulation};
@@ -148,6 +149,10 @@ fn with_each_effect_and_with_all() {
         first: vec![0.01; NODES],
         last: vec![-0.01; NODES],
     };
+    let euler = EulerForce {
+        rate: SpeedRate { revolutions: [0.0, 4.0], rad_s2: [1e3, -1e3] },
+        load: vec![1e-3; MODES],
+    };
     let all = Effects {
         friction: friction.friction,
         flexible_casing: casing.flexible_casing,
@@ -156,6 +161,7 @@ fn with_each_effect_and_with_all() {
         clearance_drift: Some(&drift),
         mistuning: mistuning.mistuning,
         excitation: excitation.excitation,
+        euler_force: Some(&euler),
         coating: None,
         energies: false,
     };

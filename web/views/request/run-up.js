@@ -37,7 +37,7 @@ function inItsUnit({ from, to, rates, hold_s, points, course }) {
 
 /** The request of a job of this kind, which keeps it as settings of a sweep of its lowest and its highest speed. */
 export function runUpsOf(job) {
-  const { sweep, speed, angle_tolerance_rad, frame_revolutions, limit } = job.request;
+  const { sweep, speed, euler_force, angle_tolerance_rad, frame_revolutions, limit } = job.request;
   const { scheme, kept_modes, steps_per_revolution, ramp_revolutions } = sweep.integration ?? {};
   return {
     model: job.model,
@@ -46,6 +46,7 @@ export function runUpsOf(job) {
     scene: sweep.scene,
     integration: { scheme, kept_modes, steps_per_revolution, ramp_revolutions },
     sensors: sweep.sensors ?? [],
+    euler_force,
     max_engine_order: sweep.max_engine_order,
     angle_tolerance_rad,
     frame_revolutions,

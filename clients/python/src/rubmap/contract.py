@@ -1825,6 +1825,7 @@ class LabelledCaseStudyRequest(TypedDict, closed=True):
 
 class LabelledRunUpRequest(TypedDict, closed=True):
     angle_tolerance_rad: NotRequired[float]
+    euler_force: NotRequired[bool]
     frame_revolutions: NotRequired[AutoOr]
     integration: NotRequired[RunUpIntegration]
     limit: NotRequired[float | None]
@@ -1945,6 +1946,7 @@ class Point(TypedDict):
 
 class RunUpSettings(TypedDict, closed=True):
     angle_tolerance_rad: float
+    euler_force: NotRequired[bool]
     frame_revolutions: AutoOr
     limit: NotRequired[float | None]
     speed: RunUpSpeed

@@ -9,7 +9,7 @@ use crate::calibration::wheel::{Case, StepSeconds, Wheel, measure};
 use crate::effects::effect::{Acts, Effect, Price, SampleOn};
 use crate::effects::physics::Physics;
 use crate::effects::table::{EFFECTS, named};
-use crate::effects::{engine_order_excitation, orbit};
+use crate::effects::{coriolis, engine_order_excitation, orbit};
 use crate::resolved::Scene;
 use rubmap_wheel::dynamics::effects::Effects;
 use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
@@ -50,6 +50,17 @@ impl EffectSizes {
             }
         }
         Self(sizes)
+    }
+
+    /// With the Euler force, too: another force on the modes and, with Coriolis forces, another product as theirs.
+    pub(crate) fn with_euler_force(mut self, wheel: &ModalWheel, scheme: Scheme, nodes: usize) -> Self {
+        let size = EffectSize::of(wheel, scheme, nodes);
+        self.0.insert(ANY, size.gaps() as f64);
+        self.0.insert(DRIVEN, size.step.products());
+        if let Some(coriolis) = self.0.get_mut(coriolis::EFFECT.name) {
+            *coriolis *= 2.0;
+        }
+        self
     }
 }
 
@@ -171,6 +182,16 @@ mod tests {
         assert_eq!(
             of(json!({"coriolis": true, "orbit": {"radius": 0.1}})),
             BTreeMap::from([(ANY, 32.0), (DRIVEN, 32.0 * 4.0), ("coriolis", 4.0 * 64.0)])
+        );
+        let euler = |scene: Value| {
+            let scene = crate::resolved::from_json::scene(scene);
+            let sizes = EffectSizes::of(&scene, wheel.modal(), Scheme::ExactModal, 2);
+            sizes.with_euler_force(wheel.modal(), Scheme::ExactModal, 2).0
+        };
+        assert_eq!(euler(json!({})), BTreeMap::from([(ANY, 32.0), (DRIVEN, 32.0 * 4.0)]));
+        assert_eq!(
+            euler(json!({"coriolis": true})),
+            BTreeMap::from([(ANY, 32.0), (DRIVEN, 32.0 * 4.0), ("coriolis", 2.0 * 4.0 * 64.0)])
         );
         let mode = json!({"nodal_diameter": 2, "frequency_hz": 100.0, "modal_mass": 1.0});
         assert_eq!(

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::request::auto_or::AutoOr;
 use crate::request::integration::{Integration, SchemeChoice};
+use crate::request::omit::is_false;
 use crate::request::scene::Scene;
 use crate::request::sensor::Sensor;
 use crate::request::speeds::SpeedUnit;
@@ -31,6 +32,10 @@ pub struct RunUpRequest {
     #[serde(default)]
     #[cfg_attr(feature = "schema", schema(max_items = 1_000))]
     pub sensors: Vec<Sensor>,
+    /// Whether the Euler force acts, which pushes along the circumference while the speed changes: on the wheel at rest in its frame and,
+    /// with `coriolis`, on the vibration. The package must have elements.
+    #[serde(default)]
+    pub euler_force: bool,
     /// Highest engine order of the spectrogram.
     #[serde(default = "default_max_engine_order")]
     #[cfg_attr(feature = "schema", schema(minimum = 1, maximum = 1000))]
@@ -148,6 +153,9 @@ pub struct RunUpSettings {
     pub sweep: SweepRequest,
     /// How the speed changes, in rad/s.
     pub speed: RunUpSpeed,
+    /// Whether the Euler force acts.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub euler_force: bool,
     /// Angle by which the wheel may be off, rad.
     pub angle_tolerance_rad: f64,
     /// Revolutions of a frame.

@@ -33,6 +33,12 @@ pub fn resolve_run_ups(request: RunUpRequest, facts: &ModelFacts) -> Result<Reso
         "/angle_tolerance_rad",
         format!("an angle {} rad", between(&TOLERANCE)),
     );
+    found.require(
+        !request.euler_force || facts.mesh.is_some(),
+        "/euler_force",
+        "the package of this model has no elements, by which its mass pushes while the speed changes: set this to false, or upload it \
+         with its mesh",
+    );
     check_limit(&mut found, &request);
     let speed = match ResolvedCourse::of(request.speed) {
         Ok(speed) => speed,
@@ -75,9 +81,14 @@ pub fn resolve_run_ups(request: RunUpRequest, facts: &ModelFacts) -> Result<Reso
         }
     };
     check_scene(&mut found, &sweep);
-    let (angle_tolerance_rad, frame_revolutions, limit) =
-        (request.angle_tolerance_rad, request.frame_revolutions, request.limit);
-    let resolved = ResolvedRunUps { sweep, speed, angle_tolerance_rad, frame_revolutions, limit };
+    let resolved = ResolvedRunUps {
+        sweep,
+        speed,
+        euler_force: request.euler_force,
+        angle_tolerance_rad: request.angle_tolerance_rad,
+        frame_revolutions: request.frame_revolutions,
+        limit: request.limit,
+    };
     if found.0.is_empty() {
         check_runs(&mut found, &resolved, facts);
     }

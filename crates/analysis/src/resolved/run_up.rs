@@ -15,6 +15,7 @@ use rubmap_wheel::dynamics::run_up::profile::SpeedProfile;
 pub struct ResolvedRunUps {
     pub(crate) sweep: ResolvedSweep,
     pub(crate) speed: ResolvedCourse,
+    pub(crate) euler_force: bool,
     pub(crate) angle_tolerance_rad: f64,
     pub(crate) frame_revolutions: AutoOr,
     pub(crate) limit: Option<f64>,
@@ -48,14 +49,20 @@ impl ResolvedRunUps {
     /// # Errors
     /// What is wrong with it, if it was not.
     pub fn stored(written: RunUpSettings) -> Result<Self, Vec<Violation>> {
-        let RunUpSettings { sweep, speed, angle_tolerance_rad, frame_revolutions, limit } = written;
+        let RunUpSettings { sweep, speed, euler_force, angle_tolerance_rad, frame_revolutions, limit } =
+            written;
         let (sweep, speed) = (ResolvedSweep::stored(sweep, 0)?, ResolvedCourse::of(speed)?);
-        Ok(Self { sweep, speed, angle_tolerance_rad, frame_revolutions, limit })
+        Ok(Self { sweep, speed, euler_force, angle_tolerance_rad, frame_revolutions, limit })
     }
 
     /// The scene, with the lowest and the highest speed.
     pub fn sweep(&self) -> &ResolvedSweep {
         &self.sweep
+    }
+
+    /// Whether the Euler force acts.
+    pub fn has_euler_force(&self) -> bool {
+        self.euler_force
     }
 
     /// How many runs there are.
@@ -220,7 +227,9 @@ impl From<ResolvedCourse> for RunUpSpeed {
 
 impl From<ResolvedRunUps> for RunUpSettings {
     fn from(run_ups: ResolvedRunUps) -> Self {
-        let ResolvedRunUps { sweep, speed, angle_tolerance_rad, frame_revolutions, limit } = run_ups;
-        Self { sweep: sweep.into(), speed: speed.into(), angle_tolerance_rad, frame_revolutions, limit }
+        let ResolvedRunUps { sweep, speed, euler_force, angle_tolerance_rad, frame_revolutions, limit } =
+            run_ups;
+        let (sweep, speed) = (sweep.into(), speed.into());
+        Self { sweep, speed, euler_force, angle_tolerance_rad, frame_revolutions, limit }
     }
 }

@@ -107,7 +107,7 @@ pub struct RunUpEnd {
     /// Largest penetration that a solution left, length; absent without contact.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub largest_penetration: Option<f64>,
-    /// Euler force over centrifugal force, |Ω̇|/Ω², at most: it is left out, and by so much the static deflection of the wheel is another.
+    /// Euler force over centrifugal force, |Ω̇|/Ω², at most: without `euler_force` the static deflection of the wheel is off by so much.
     pub euler_share: f64,
     /// Computing time, s.
     pub wall_time_s: f64,

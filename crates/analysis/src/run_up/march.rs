@@ -8,6 +8,7 @@ use super::frame::{Frame, order_step};
 use super::{BAND_RATIO, cutting};
 use crate::discretisation::Discretisation;
 use crate::effects::casing::convert::running_clearance;
+use crate::effects::table::is_driven;
 use crate::end_state::{EndState, Shapes};
 use crate::error::{AnalysisError, Violation};
 use crate::model::ReducedSector;
@@ -17,12 +18,13 @@ use crate::record::cut_short;
 use crate::request::{AutoOr, SchemeChoice};
 use crate::resolved::{ResolvedRunUps, ResolvedSweep};
 use crate::result::{LargestOfRun, PointStatus, RunUpEnd, RunUpFrame, RunUpLeg, SchemeReport};
-use crate::speed::{ready, staged};
+use crate::speed::staged;
 use crate::start::initial;
 use crate::stepping::Stepping;
-use crate::wheel::rotation;
+use crate::wheel::{rotation, wheel_of};
 use rubmap_wheel::dynamics::clearance_drift::ClearanceDrift;
 use rubmap_wheel::dynamics::effects::Effects;
+use rubmap_wheel::dynamics::euler::{EulerForce, SpeedRate, modal_load};
 use rubmap_wheel::dynamics::initial::InitialMode;
 use rubmap_wheel::dynamics::integrate::{Part, Simulation, Stretch};
 use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
@@ -146,6 +148,10 @@ impl<'a> March<'a> {
         &self.asked.sweep
     }
 
+    pub(super) fn has_euler_force(&self) -> bool {
+        self.asked.euler_force
+    }
+
     /// Lowest speed of a band, rad/s.
     pub(super) fn lowest_of(&self, band: u32) -> f64 {
         self.profile.range_rad_s().0 * BAND_RATIO.powi(band as i32)
@@ -156,21 +162,32 @@ impl<'a> March<'a> {
     pub(super) fn stepping(&self, sector: &ReducedSector, band: u32) -> Result<Stepping, NotRunnable> {
         let request = self.request();
         let highest = self.segments.iter().map(|segment| segment.band).max().unwrap_or(band);
-        let (_, of_highest) = ready(sector, request, self.lowest_of(highest))?;
+        let of_highest = self.ready(sector, request, self.lowest_of(highest))?;
         let mut stepping = match of_highest.scheme {
             _ if band == highest => of_highest,
             Scheme::MasslessBoundary { kept_modes } => {
                 let mut kept = request.clone();
                 kept.integration.scheme = SchemeChoice::MasslessBoundary;
                 kept.integration.kept_modes = AutoOr::Fixed(kept_modes as u32);
-                ready(sector, &kept, self.lowest_of(band))?.1
+                self.ready(sector, &kept, self.lowest_of(band))?
             }
             Scheme::CentralDifferences | Scheme::ExactModal => {
-                ready(sector, request, self.lowest_of(band))?.1
+                self.ready(sector, request, self.lowest_of(band))?
             }
         };
         stepping.discretisation = stepping.discretisation.sampled(self.samples);
         Ok(stepping)
+    }
+
+    fn ready(
+        &self,
+        sector: &ReducedSector,
+        request: &ResolvedSweep,
+        speed: f64,
+    ) -> Result<Stepping, NotRunnable> {
+        let wheel = wheel_of(&request.scene, &sector.wheel, speed)?;
+        let acted_on = self.asked.euler_force || is_driven(&request.scene);
+        Stepping::choose_for_parts(&wheel, &sector.wheel.contact, request, acted_on)
     }
 
     /// Takes the first sample of all, as `stepping` has it: what setting up a segment takes.
@@ -293,6 +310,7 @@ impl<'a> March<'a> {
         });
         let handed = handed.transpose()?;
         let drift = self.drift(sector, segment)?;
+        let euler = self.euler_force(sector, segment, &wheel)?;
         let ramp = request.integration.ramp_revolutions;
         let stretch = staged(sector, &wheel.modal, request, stepping, ramp, |staged| {
             let modes = match handed {
@@ -313,7 +331,11 @@ impl<'a> March<'a> {
             };
             let simulation = Simulation {
                 initial: &modes,
-                effects: Effects { clearance_drift: drift.as_ref(), ..staged.effects },
+                effects: Effects {
+                    clearance_drift: drift.as_ref(),
+                    euler_force: euler.as_ref(),
+                    ..staged.effects
+                },
                 revolutions: 1,
                 window_revolutions: 0,
                 ..staged
@@ -336,13 +358,37 @@ impl<'a> March<'a> {
         }
         let at = |speed: f64| running_clearance(sector, request, speed).map(Option::unwrap_or_default);
         let [from, to] = segment.times_s;
-        let revolutions = |sample: u64| sample as f64 / self.samples as f64;
         Ok(Some(ClearanceDrift {
-            revolutions: [segment.first_sample, segment.first_sample + segment.samples].map(revolutions),
+            revolutions: self.revolutions(segment),
             without: at(segment.speed_rad_s)?,
             first: at(self.profile.speed_rad_s(from))?,
             last: at(self.profile.speed_rad_s(to))?,
         }))
+    }
+
+    /// The Euler force within a segment, where it is asked for.
+    fn euler_force(
+        &self,
+        sector: &ReducedSector,
+        segment: &Segment,
+        wheel: &Wheel,
+    ) -> Result<Option<EulerForce>, NotRunnable> {
+        if !self.asked.euler_force {
+            return Ok(None);
+        }
+        let load = sector.euler_load.as_ref().ok_or(NotRunnable::UnreadEulerForce)?.unknowns();
+        let rad_s2 = self.profile.straight_rates(segment.times_s);
+        let rate = SpeedRate { revolutions: self.revolutions(segment), rad_s2 };
+        Ok(Some(EulerForce {
+            rate,
+            load: modal_load(load, wheel.shapes.of_harmonic(0), wheel.modal.sectors),
+        }))
+    }
+
+    /// Revolutions after which a segment begins and ends.
+    fn revolutions(&self, segment: &Segment) -> [f64; 2] {
+        [segment.first_sample, segment.first_sample + segment.samples]
+            .map(|sample| sample as f64 / self.samples as f64)
     }
 
     fn end(&self, so_far: &SoFar, segments: usize, status: PointStatus, message: Option<String>) -> RunUpEnd {

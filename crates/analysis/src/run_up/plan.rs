@@ -14,7 +14,7 @@ use crate::model::{ModelFacts, ReducedSector};
 use crate::not_runnable::NotRunnable;
 use crate::plan::{contact_pairs, reduced_bytes, reduced_unknowns, running_bytes, state, touching, warnings};
 use crate::resolved::ResolvedRunUps;
-use crate::result::{CostRange, Estimate, PlannedRunUp, RunUpPlan, SchemeReport};
+use crate::result::{CostRange, Estimate, PlannedEffect, PlannedRunUp, RunUpPlan, SchemeReport};
 use crate::speed::ready;
 use crate::wheel::wheel_of;
 use rubmap_wheel::revision::VERSION;
@@ -48,7 +48,7 @@ pub fn plan_run_ups(
         })
     });
     RunUpPlan {
-        effects: planned(&sweep.scene),
+        effects: planned(&sweep.scene).into_iter().chain([planned_euler_force(asked)]).collect(),
         symmetry: FoundSymmetry::of(&sweep.scene, facts.sectors),
         contact_pairs: contact_pairs(&sweep.scene, facts),
         reduction: state(reduced),
@@ -60,6 +60,13 @@ pub fn plan_run_ups(
         settings: asked.clone().into(),
         version: VERSION.to_owned(),
     }
+}
+
+fn planned_euler_force(asked: &ResolvedRunUps) -> PlannedEffect {
+    let on = asked.has_euler_force();
+    let adds = "a force on the modes of nodal diameter 0 in every step, and with Coriolis forces another product with the gyroscopic matrix \
+                of every nodal diameter";
+    PlannedEffect { name: "euler_force".to_owned(), on, adds: on.then(|| adds.to_owned()) }
 }
 
 fn plan_run(
@@ -118,8 +125,9 @@ fn price(
     bands.sort_unstable();
     let first = march.segments.first().map_or(0, |segment| segment.band);
     let stepping = march.stepping(reduced, first)?;
+    let planning = reduced.for_planning();
     let clock = Instant::now();
-    march.begin(reduced, &stepping)?;
+    march.begin(&planning, &stepping)?;
     let set_up = clock.elapsed().as_secs_f64() * march.segments.len() as f64;
     let (mut all, mut time, mut scheme) = (0, CostRange { free: set_up, contact: set_up }, None);
     for (band, samples) in bands {
@@ -128,6 +136,10 @@ fn price(
         let unknowns = stepping.scheme.integrated_unknowns(&wheel);
         let size = StepSize { sectors: wheel.sectors, nodes, unknowns };
         let effects = EffectSizes::of(&request.scene, &wheel, stepping.scheme, nodes);
+        let effects = match march.has_euler_force() {
+            true => effects.with_euler_force(&wheel, stepping.scheme, nodes),
+            false => effects,
+        };
         let (free, contact) = calibration.step_seconds(size, &effects);
         let steps =
             samples * (stepping.discretisation.per_revolution / stepping.discretisation.samples) as u64;

@@ -5,6 +5,7 @@ use faer::{Mat, Par, Side, c64};
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
 use super::reduced::{HarmonicStress, StaticStress, StaticWheel};
+use crate::own_load::own_load;
 use rubmap_solid::load::centrifugal;
 use rubmap_solid::mesh::SectorMesh;
 use rubmap_solid::stress::NodalStress;
@@ -88,13 +89,7 @@ impl<'a> StressMaker<'a> {
     /// # Errors
     /// Those of [`static_response`].
     pub fn fixed(&self, sector: &SectorModel, watch: Watch<'_>) -> Result<StaticWheel, ReductionError> {
-        let mut load = vec![0.0; sector.own_dofs()];
-        for (node, force) in self.nodes.iter().zip(centrifugal(self.mesh)) {
-            // What acts on a high node is with its low node already.
-            for dof in node.dofs.iter().flatten().filter(|_| !node.on_high_face) {
-                load[dof.dof] += dof.components.iter().zip(force).map(|(c, f)| c * f).sum::<f64>();
-            }
-        }
+        let load = own_load(self.nodes, &centrifugal(self.mesh), sector.own_dofs());
         let response = static_response(sector, &load, watch)?;
         let speeds = response.solutions.ncols();
         let shapes = self.at_nodes(speeds, |dof, speed| c64::new(response.solutions[(dof, speed)], 0.0));

@@ -4,6 +4,7 @@ use super::clearance_change::ClearanceChange;
 use super::clearance_drift::ClearanceDrift;
 use super::contact::coating::Coating;
 use super::direction::Direction;
+use super::euler::EulerForce;
 use super::excitation::EngineOrderExcitation;
 use super::flexible_casing::FlexibleCasing;
 use super::orbit::Orbit;
@@ -27,6 +28,8 @@ pub struct Effects<'a> {
     pub mistuning: Option<&'a [f64]>,
     /// Forces at engine orders.
     pub excitation: &'a [EngineOrderExcitation],
+    /// The Euler force of a speed that changes; on the vibration where the wheel has gyroscopic matrices.
+    pub euler_force: Option<&'a EulerForce>,
     /// Whether the energy of every nodal diameter is recorded, revolution by revolution.
     pub energies: bool,
 }
@@ -53,6 +56,11 @@ pub enum FrictionLaw {
 }
 
 impl Effects<'_> {
+    /// Whether forces act that are known beforehand.
+    pub(crate) fn forces_are_known(&self) -> bool {
+        !self.excitation.is_empty() || self.euler_force.is_some()
+    }
+
     /// Whether any changes what the tips meet.
     pub(crate) fn change_contact(&self) -> bool {
         self.friction.is_some()

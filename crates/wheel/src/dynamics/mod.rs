@@ -13,6 +13,7 @@ pub mod direction;
 pub mod effects;
 pub mod energy;
 pub mod error;
+pub mod euler;
 pub mod excitation;
 pub mod flexible_casing;
 pub mod initial;

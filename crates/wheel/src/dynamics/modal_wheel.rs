@@ -98,6 +98,11 @@ impl ModalWheel {
         self.harmonics.iter().filter_map(|h| h.omega.last()).copied().fold(0.0, f64::max)
     }
 
+    /// Whether Coriolis forces act.
+    pub(crate) fn turns(&self) -> bool {
+        self.harmonics.iter().any(|harmonic| harmonic.gyroscopic.is_some())
+    }
+
     /// Real unknowns of the whole wheel.
     pub fn unknowns(&self) -> usize {
         self.harmonics.iter().map(|h| if h.single { h.omega.len() } else { 2 * h.omega.len() }).sum()

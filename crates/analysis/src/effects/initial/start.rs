@@ -33,7 +33,7 @@ pub(crate) fn initial_mode(
             family: initial.family,
         });
     }
-    check_integrated(initial, modes.omega[family], wheel, casing.is_some(), stepping)?;
+    check_integrated(initial, modes.omega[family], wheel, stepping)?;
     let wave = match initial.wave {
         request::InitialWave::Standing => InitialWave::Standing,
         request::InitialWave::Forward => InitialWave::Forward,
@@ -51,7 +51,6 @@ fn check_integrated(
     initial: &Initial,
     omega: f64,
     wheel: &ModalWheel,
-    touching: bool,
     stepping: &Stepping,
 ) -> Result<(), NotRunnable> {
     let step = TAU / (wheel.speed_rad_s * stepping.discretisation.per_revolution as f64);
@@ -60,7 +59,7 @@ fn check_integrated(
         Scheme::MasslessBoundary { kept_modes } if family as usize > kept_modes => {
             Err(NotRunnable::FamilyNotKept { family, nodal_diameter, kept_modes })
         }
-        Scheme::ExactModal if touching && omega * step > exact_modal::FOLLOWS => {
+        Scheme::ExactModal if stepping.follow && omega * step > exact_modal::FOLLOWS => {
             Err(NotRunnable::FamilyFollows { family, nodal_diameter })
         }
         _ => Ok(()),

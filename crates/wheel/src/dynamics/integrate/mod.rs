@@ -81,7 +81,7 @@ impl Simulation<'_> {
     pub fn stretch(&self, part: Part, watch: &dyn Fn(f64) -> bool) -> Stretch {
         assert!(self.steps_per_revolution.is_multiple_of(self.samples_per_revolution));
         let revolutions = part.first_sample as f64 / self.samples_per_revolution as f64;
-        let mut stepper = Stepper::beginning_at(self, revolutions);
+        let mut stepper = Stepper::beginning_at(self, revolutions, self.fast_modes_follow());
         pulp::Arch::new().dispatch(StretchLoop { simulation: self, stepper: &mut stepper, part, watch })
     }
 

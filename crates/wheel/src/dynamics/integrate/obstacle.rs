@@ -18,7 +18,7 @@ use super::super::statistics::RunStatistics;
 use super::instant::Instant;
 use super::residual::ResidualDisplacement;
 use super::simulation::Simulation;
-use super::step_flexibility::{is_turned, step_flexibility, symmetric_flexibility};
+use super::step_flexibility::{step_flexibility, symmetric_flexibility};
 use super::surroundings::{Law, Solution, Surroundings};
 use super::tally::{ContactInterval, ContactTally};
 use super::trace::Trace;
@@ -472,7 +472,7 @@ fn delassus(
     let ridge = ridge(&symmetric, simulation.wheel.sectors);
     let slides = simulation.effects.friction.filter(|friction| friction.law == FrictionLaw::Sliding);
     let mut delassus = match slides {
-        None if !is_turned(simulation) => Delassus::new(&symmetric, ridge, stride, fourier),
+        None if !simulation.wheel.turns() => Delassus::new(&symmetric, ridge, stride, fourier),
         friction => {
             let from = friction.map_or(normals.as_slice(), |friction| friction.directions);
             let blocks = step_flexibility(simulation, oscillators, &normals, from);

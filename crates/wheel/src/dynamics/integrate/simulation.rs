@@ -9,6 +9,7 @@ use crate::dynamics::effects::Effects;
 use crate::dynamics::initial::InitialMode;
 use crate::dynamics::modal_wheel::ModalWheel;
 use crate::dynamics::oscillators::ModalDamping;
+use crate::dynamics::oscillators::driven::Drive;
 use crate::dynamics::schemes::Scheme;
 use crate::dynamics::sector::ContactNode;
 
@@ -86,6 +87,11 @@ impl Simulation<'_> {
         let ramps = excitations.chain(self.casing.map(|casing| casing.ramp_revolutions));
         let ramps = ramps.chain(self.effects.clearance_change.map(ClearanceChange::ends_after));
         ramps.fold(0.0, f64::max).ceil() as usize
+    }
+
+    /// Whether modes that are too fast for the step follow statically in part of a run: where anything acts on them.
+    pub(super) fn fast_modes_follow(&self) -> bool {
+        self.casing.is_some() || Drive::acts(self.wheel, &self.effects)
     }
 
     pub(super) fn step_s(&self) -> f64 {

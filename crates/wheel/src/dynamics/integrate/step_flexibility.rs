@@ -18,7 +18,7 @@ pub(super) fn step_flexibility(
     from: &[Direction],
 ) -> Vec<Mat<c64>> {
     match simulation.scheme {
-        Scheme::CentralDifferences | Scheme::ExactModal if is_turned(simulation) => {
+        Scheme::CentralDifferences | Scheme::ExactModal if simulation.wheel.turns() => {
             oscillators.turned_flexibility(simulation.wheel, simulation.step_s(), to, from)
         }
         _ => symmetric_flexibility(simulation, oscillators, to, from),
@@ -40,9 +40,4 @@ pub(super) fn symmetric_flexibility(
             residual_flexibility(simulation.wheel, kept_modes, to, from)
         }
     }
-}
-
-/// Whether Coriolis forces turn what a force moves.
-pub(super) fn is_turned(simulation: &Simulation<'_>) -> bool {
-    simulation.wheel.harmonics.iter().any(|harmonic| harmonic.gyroscopic.is_some())
 }

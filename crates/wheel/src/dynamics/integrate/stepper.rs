@@ -78,11 +78,11 @@ pub(super) enum Beginning {
 
 impl Stepper {
     pub(super) fn new(simulation: &Simulation<'_>) -> Self {
-        Self::beginning_at(simulation, 0.0)
+        Self::beginning_at(simulation, 0.0, false)
     }
 
-    /// Of a simulation whose initial state is that after `revolutions`.
-    pub(super) fn beginning_at(simulation: &Simulation<'_>, revolutions: f64) -> Self {
+    /// Of a simulation whose initial state is that after `revolutions`, and whose fast modes `follow` if nothing touches, too.
+    pub(super) fn beginning_at(simulation: &Simulation<'_>, revolutions: f64, follow: bool) -> Self {
         let (wheel, scheme) = (simulation.wheel, simulation.scheme);
         let fourier = SectorFourier::new(wheel.sectors);
         let touching = simulation.casing.is_some();
@@ -91,7 +91,7 @@ impl Stepper {
             scheme,
             simulation.step_s(),
             simulation.damping,
-            touching,
+            (touching, follow),
             simulation.initial,
         );
         let surroundings = Surroundings::new(simulation, &oscillators, &fourier);
@@ -448,11 +448,12 @@ impl Stepper {
 
     /// Keeps the state at the end, as free motion would have it.
     fn end(&mut self, simulation: &Simulation<'_>, revolutions: usize) {
+        let follow = simulation.casing.is_some();
         if let Some(drive) = &mut self.drive {
-            let read = |oscillators: &Oscillators| modal_state(simulation, oscillators);
+            let read = |oscillators: &Oscillators| modal_state(simulation, oscillators, follow);
             drive.end(simulation.wheel, revolutions as f64, &mut self.oscillators, read);
         }
-        let modes = modal_state(simulation, &self.oscillators);
+        let modes = modal_state(simulation, &self.oscillators, follow);
         let casing = self.flexible_casing().map(CasingMotion::stepped).unwrap_or_default();
         let end = (modes, casing, self.statistics.steps);
         self.recorder.end(simulation.wheel, &self.oscillators, &self.fourier, end);
@@ -623,11 +624,12 @@ impl Motion for Affected {
 }
 
 /// z and ż of every mode, its increment being that of free motion.
-fn modal_state(simulation: &Simulation<'_>, oscillators: &Oscillators) -> Vec<InitialMode> {
-    let (step, touching) = (simulation.step_s(), simulation.casing.is_some());
+/// Of a wheel whose fast modes `follow` or not.
+fn modal_state(simulation: &Simulation<'_>, oscillators: &Oscillators, follow: bool) -> Vec<InitialMode> {
+    let step = simulation.step_s();
     oscillators.modal_state(|harmonic, family, z, d| {
         let omega = simulation.wheel.harmonics[harmonic].omega[family];
         let zeta = simulation.damping.map_or(0.0, |damping| damping.ratio(family));
-        simulation.scheme.velocity(omega, zeta, step, z, d, touching)
+        simulation.scheme.velocity(omega, zeta, step, z, d, follow)
     })
 }

@@ -94,7 +94,7 @@ impl Surroundings {
                 })
                 .collect(),
         });
-        let coriolis = wheel.harmonics.iter().any(|harmonic| harmonic.gyroscopic.is_some());
+        let coriolis = wheel.turns();
         if !effects.change_contact() && !coriolis {
             return None;
         }

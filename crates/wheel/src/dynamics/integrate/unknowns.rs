@@ -1,7 +1,6 @@
 //! The numbers that the state over a [`Passage`](super::Passage) is made of.
 
 use super::simulation::Simulation;
-use super::step_flexibility::is_turned;
 use super::stepper::Stepper;
 use crate::dynamics::flexible_casing::CasingMotion;
 
@@ -65,7 +64,7 @@ pub(super) fn casing_unknowns(stepper: &Stepper, step: f64) -> Vec<CasingUnknown
 /// Whether where a mode goes depends on where it was: one that follows statically forgets it within a step, unless it follows itself or others
 /// that remember.
 fn remembers(simulation: &Simulation<'_>, omega: f64, family: usize) -> bool {
-    if simulation.effects.mistuning.is_some() || is_turned(simulation) {
+    if simulation.effects.mistuning.is_some() || simulation.wheel.turns() {
         return true;
     }
     let zeta = simulation.damping.map_or(0.0, |damping| damping.ratio(family));

@@ -84,14 +84,14 @@ struct State {
 }
 
 impl Oscillators {
-    /// In the state `initial` (rest where it has nothing), steps of `step` seconds, of a wheel that may touch the casing or
-    /// not.
+    /// In the state `initial` (rest where it has nothing), steps of `step` seconds, of a wheel that may be touching the casing or not. Of one
+    /// that does, and of others if that is asked for, fast modes follow.
     pub(crate) fn new(
         wheel: &ModalWheel,
         scheme: Scheme,
         step: f64,
         damping: Option<&ModalDamping>,
-        touching: bool,
+        (touching, follow): (bool, bool),
         initial: &[InitialMode],
     ) -> Self {
         let mut segments = Vec::with_capacity(wheel.harmonics.len());
@@ -110,7 +110,11 @@ impl Oscillators {
             for family in 0..segment.length {
                 let omega = if family < segment.integrated { harmonic.omega[family] } else { 0.0 };
                 let zeta = damping.map_or(0.0, |damping| damping.ratio(family));
-                of.set(segment.modes + family, omega, scheme.mode_step(omega, zeta, step, touching));
+                of.set(
+                    segment.modes + family,
+                    omega,
+                    scheme.mode_step(omega, zeta, step, touching || follow),
+                );
             }
         }
         let contact = if touching { state } else { 0 };

@@ -114,6 +114,13 @@ impl SpeedProfile {
         piece.rate((time_s - piece.start_s).clamp(0.0, piece.duration_s))
     }
 
+    /// Ω̇ at two instants, rad/s², such that a straight line between them changes the speed by as much as the profile does.
+    pub fn straight_rates(&self, [from_s, to_s]: [f64; 2]) -> [f64; 2] {
+        let mean = (self.speed_rad_s(to_s) - self.speed_rad_s(from_s)) / (to_s - from_s);
+        let half = 0.5 * (self.rate_rad_s2(to_s) - self.rate_rad_s2(from_s));
+        [mean - half, mean + half]
+    }
+
     /// Lowest and highest Ω, rad/s: at its points, as nothing lies beyond them.
     pub fn range_rad_s(&self) -> (f64, f64) {
         let ends = self.pieces.iter().flat_map(|piece| [piece.speed(0.0), piece.speed(piece.duration_s)]);

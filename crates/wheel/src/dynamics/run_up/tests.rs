@@ -1,5 +1,7 @@
 //! Runs in parts against runs in one; one degree of freedom through resonance against Duhamel's integral, as Lewis has it.
 
+mod euler;
+
 use std::f64::consts::TAU;
 
 use faer::{Mat, c64};
@@ -12,6 +14,7 @@ use crate::dynamics::contact::disc::disc_directions;
 use crate::dynamics::contact::friction::sliding_directions;
 use crate::dynamics::direction::Direction;
 use crate::dynamics::effects::{Effects, Friction, FrictionLaw};
+use crate::dynamics::euler::{EulerForce, SpeedRate};
 use crate::dynamics::excitation::EngineOrderExcitation;
 use crate::dynamics::initial::InitialMode;
 use crate::dynamics::integrate::{Outcome, Part, SensorRow, Simulation, Stretch};
@@ -75,6 +78,7 @@ struct Acting {
     mistuned: bool,
     friction: Option<FrictionLaw>,
     drifting: bool,
+    speeding: bool,
 }
 
 /// The same parts one after the other are the run: free, touching, driven, on turning wheels, under friction, mistuned; parts that begin within
@@ -92,6 +96,8 @@ fn parts_of_a_run_are_the_run() {
         Acting { friction: Some(FrictionLaw::Sliding), ..touching },
         Acting { friction: Some(FrictionLaw::Disc), ..touching },
         Acting { drifting: true, ..touching },
+        Acting { speeding: true, mistuned: true, ..touching },
+        Acting { speeding: true, coriolis: true, ..touching },
     ];
     for scheme in SCHEMES {
         for acting in acting {
@@ -122,6 +128,10 @@ fn check_parts(scheme: Scheme, acting: Acting) {
         let [first, last] = revolutions.map(|at| clearance(at).to_vec());
         ClearanceDrift { revolutions, without: without.to_vec(), first, last }
     };
+    let euler = |revolutions: [f64; 2]| EulerForce {
+        rate: SpeedRate { revolutions, rad_s2: revolutions.map(|at| 4e4 * (1.0 - at)) },
+        load: (0..7).map(|m| 0.3 - 0.07 * f64::from(m)).collect(),
+    };
     let directions = match acting.friction {
         Some(FrictionLaw::Sliding) => sliding_directions(&nodes, 0.05).unwrap(),
         Some(FrictionLaw::Disc) => disc_directions(&nodes).unwrap(),
@@ -142,12 +152,17 @@ fn check_parts(scheme: Scheme, acting: Acting) {
         ..Effects::default()
     };
     let (still, all) = (casing(clearance(0.0)), drift([0.0, 3.0], clearance(0.0)));
+    let speeding = euler([0.0, 3.0]);
     let whole = Simulation {
         wheel: &wheel,
         contact_nodes: &nodes,
         damping: Some(&damping),
         casing: acting.touching.then_some(&still),
-        effects: Effects { clearance_drift: acting.drifting.then_some(&all), ..effects },
+        effects: Effects {
+            clearance_drift: acting.drifting.then_some(&all),
+            euler_force: acting.speeding.then_some(&speeding),
+            ..effects
+        },
         initial: &[push],
         sensors: &sensors,
         scheme,
@@ -167,11 +182,12 @@ fn check_parts(scheme: Scheme, acting: Acting) {
         let part = Part { first_sample: found.len() as u64, samples };
         let ends = [part.first_sample, part.first_sample + samples].map(|sample| sample as f64 / 120.0);
         let middle = clearance(0.5 * (ends[0] + ends[1]));
-        let (about, own) = (casing(middle), drift(ends, middle));
+        let (about, own, speeding) = (casing(middle), drift(ends, middle), euler(ends));
         let mut simulation = Simulation { initial: &state, window_revolutions: 0, ..whole };
         if acting.drifting {
             (simulation.casing, simulation.effects.clearance_drift) = (Some(&about), Some(&own));
         }
+        simulation.effects.euler_force = acting.speeding.then_some(&speeding);
         let stretch = simulation.stretch(part, &|_| true);
         assert_eq!(stretch.ended, None);
         assert!(stretch.energy.residual() < 1e-9, "{acting:?} {}", stretch.energy.residual());

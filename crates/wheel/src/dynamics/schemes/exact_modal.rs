@@ -10,11 +10,12 @@
 //! Step rule: none from free motion, ω²B ≤ 4 whatever h, with equality only undamped at odd multiples of ωh = π. A mode with ωh near π and little damping, however, changes sign
 //! at every step and costs hardly any energy, so contact that opens and closes from step to step drives it without
 //! bound. Where the wheel may touch, modes beyond [`FOLLOWS`] therefore follow statically, z⁺ = f/ω²: the limit of
-//! heavy damping (a = 0), in the same recursion. What they take from the energy is in the identity's loss.
+//! heavy damping (a = 0), in the same recursion. What they take from the energy is in the identity's loss. So they do in part of a run
+//! under forces of any kind: what it hands on are velocities, of which increments say nothing at multiples of ωh = π.
 
 use super::mode_step::ModeStep;
 
-/// ωh beyond which a mode of a wheel in contact follows statically: a sixth below the rhythm of the steps, π.
+/// ωh beyond which a mode follows statically where fast modes do: a sixth below the rhythm of the steps, π.
 pub const FOLLOWS: f64 = 5.0 / 6.0 * std::f64::consts::PI;
 
 pub(super) fn mode_step(omega: f64, zeta: f64, h: f64) -> ModeStep {
@@ -30,8 +31,8 @@ pub(super) fn mode_step(omega: f64, zeta: f64, h: f64) -> ModeStep {
     ModeStep { keep: a * a, receptance }
 }
 
-/// [`mode_step`] of a wheel that may touch the casing.
-pub(super) fn touched_mode_step(omega: f64, zeta: f64, h: f64) -> ModeStep {
+/// [`mode_step`] of a wheel whose fast modes follow.
+pub(super) fn following_mode_step(omega: f64, zeta: f64, h: f64) -> ModeStep {
     if omega * h > FOLLOWS {
         ModeStep { keep: 0.0, receptance: 1.0 / (omega * omega) }
     } else {

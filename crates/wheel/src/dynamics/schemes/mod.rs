@@ -74,11 +74,11 @@ impl Scheme {
         }
     }
 
-    /// The recursion of a mode (ω, ζ) at step h, of a wheel that may touch the casing or not.
-    pub fn mode_step(self, omega: f64, zeta: f64, h: f64, touching: bool) -> ModeStep {
+    /// The recursion of a mode (ω, ζ) at step h, of a wheel whose fast modes follow or not.
+    pub fn mode_step(self, omega: f64, zeta: f64, h: f64, follow: bool) -> ModeStep {
         match self {
             Self::CentralDifferences => central_differences::mode_step(omega, zeta, h),
-            Self::ExactModal if touching => exact_modal::touched_mode_step(omega, zeta, h),
+            Self::ExactModal if follow => exact_modal::following_mode_step(omega, zeta, h),
             Self::ExactModal | Self::MasslessBoundary { .. } => exact_modal::mode_step(omega, zeta, h),
         }
     }
@@ -97,10 +97,10 @@ impl Scheme {
 
     /// ż at the end of a step of a mode with displacement z and increment d = z − z⁻: the inverse of
     /// [`Self::first_increment`]; 0 for a mode that follows statically.
-    pub fn velocity(self, omega: f64, zeta: f64, h: f64, z: f64, d: f64, touching: bool) -> f64 {
+    pub fn velocity(self, omega: f64, zeta: f64, h: f64, z: f64, d: f64, follow: bool) -> f64 {
         match self {
             Self::CentralDifferences => central_differences::velocity(omega, zeta, h, z, d),
-            Self::ExactModal if touching && omega * h > exact_modal::FOLLOWS => 0.0,
+            Self::ExactModal if follow && omega * h > exact_modal::FOLLOWS => 0.0,
             Self::ExactModal | Self::MasslessBoundary { .. } => exact_modal::velocity(omega, zeta, h, z, d),
         }
     }

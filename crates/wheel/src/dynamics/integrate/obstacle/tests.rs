@@ -62,7 +62,7 @@ fn simulation<'a>(wheel: &'a ModalWheel, nodes: &'a [ContactNode], casing: &'a C
 fn obstacle(simulation: &Simulation<'_>, initial: &[InitialMode]) -> (Obstacle, Oscillators, SectorFourier) {
     let fourier = SectorFourier::new(SECTORS);
     let (scheme, step) = (simulation.scheme, simulation.step_s());
-    let oscillators = Oscillators::new(simulation.wheel, scheme, step, None, true, initial);
+    let oscillators = Oscillators::new(simulation.wheel, scheme, step, None, (true, true), initial);
     let casing = simulation.casing.expect("all have one");
     let obstacle = Obstacle::new(simulation, casing, &oscillators, &fourier, None);
     (obstacle, oscillators, fourier)

@@ -23,15 +23,16 @@ impl Stepper {
         let ended = self.take(simd, (simulation, part, largest.as_mut_slice()), watch);
         let revolutions =
             (part.first_sample + part.samples) as f64 / simulation.samples_per_revolution as f64;
+        let follow = simulation.fast_modes_follow();
         if let Some(drive) = &mut self.drive {
-            let read = |oscillators: &Oscillators| modal_state(simulation, oscillators);
+            let read = |oscillators: &Oscillators| modal_state(simulation, oscillators, follow);
             drive.end(simulation.wheel, revolutions, &mut self.oscillators, read);
         }
         Stretch {
             ended: ended.err().map(|outcome| *outcome),
             displacement: self.recorder.take().displacement,
             largest,
-            end: modal_state(simulation, &self.oscillators),
+            end: modal_state(simulation, &self.oscillators, follow),
             statistics: self.statistics,
             energy: self.energy,
         }

@@ -1,36 +1,57 @@
 //! Known modal forces, and what a step exchanges with them.
 
+use faer::c64;
 use pulp::Simd;
 
 use super::super::super::energy::EffectWork;
+use super::super::super::euler::{EulerForce, SpeedRate};
 use super::super::super::excitation::ModalExcitation;
 use super::super::recursion::Exchange;
 use super::super::segment::Segment;
 use rubmap_numerics::aligned::Aligned;
 
-/// A force at an engine order on the modes of its nodal diameter.
+/// A force on the modes of a nodal diameter that is known beforehand.
 #[derive(Debug)]
 pub(super) struct Excitation {
-    force: ModalExcitation,
+    /// Index of the nodal diameter.
+    pub(super) harmonic: usize,
+    course: Course,
     /// Amplitude of every mode, padded.
     re: Aligned,
     im: Aligned,
 }
 
+/// The factor of its amplitudes.
+#[derive(Debug)]
+enum Course {
+    EngineOrder(ModalExcitation),
+    Euler(SpeedRate),
+}
+
 impl Excitation {
-    /// Modal forces on nodal diameters that are where `segments` say.
-    pub(super) fn new(force: ModalExcitation, segments: &[Segment]) -> Self {
+    /// At an engine order, on nodal diameters that are where `segments` say.
+    pub(super) fn engine_order(force: ModalExcitation, segments: &[Segment]) -> Self {
         let Segment { integrated, length, .. } = segments[force.harmonic];
         let (mut re, mut im) = (Aligned::zeros(length), Aligned::zeros(length));
         for (m, amplitude) in force.amplitude[..integrated].iter().enumerate() {
             (re[m], im[m]) = (amplitude.re, amplitude.im);
         }
-        Self { force, re, im }
+        Self { harmonic: force.harmonic, course: Course::EngineOrder(force), re, im }
     }
 
-    /// Index of the nodal diameter that it drives.
-    pub(super) fn harmonic(&self) -> usize {
-        self.force.harmonic
+    /// The Euler force on the wheel at rest in its frame.
+    pub(super) fn euler(force: &EulerForce, segments: &[Segment]) -> Self {
+        let Segment { integrated, length, .. } = segments[0];
+        let mut re = Aligned::zeros(length);
+        re[..integrated].copy_from_slice(&force.load[..integrated]);
+        Self { harmonic: 0, course: Course::Euler(force.rate), re, im: Aligned::zeros(length) }
+    }
+
+    fn factor(&self, revolutions: f64) -> c64 {
+        match &self.course {
+            Course::EngineOrder(force) => force.turn(revolutions),
+            Course::Euler(rate) => c64::from(rate.at(revolutions)),
+        }
     }
 }
 
@@ -39,7 +60,7 @@ impl Excitation {
 pub(super) struct Acting {
     /// φᴴf of contact on the nodal diameter under way.
     pub(super) contact: Aligned,
-    /// Of forces at engine orders on all of them; empty without.
+    /// Of forces at engine orders and the Euler force on all of them; empty without.
     pub(super) excitation: Aligned,
     /// Of which nodal diameters these are more than 0.
     pub(super) excited: Vec<bool>,
@@ -61,9 +82,9 @@ impl Acting {
             return;
         }
         self.excitation[segment.state..segment.state + segment.size()].fill(0.0);
-        for Excitation { force, re, im } in excitations.iter().filter(|e| e.force.harmonic == index) {
-            let turn = force.turn(revolutions);
-            let (re, im) = (S::as_simd_f64s(re).0, S::as_simd_f64s(im).0);
+        for excitation in excitations.iter().filter(|excitation| excitation.harmonic == index) {
+            let turn = excitation.factor(revolutions);
+            let (re, im) = (S::as_simd_f64s(&excitation.re).0, S::as_simd_f64s(&excitation.im).0);
             // Re and Im of amplitude × turn.
             let factors = [(turn.re, -turn.im), (turn.im, turn.re)];
             for (start, (of_re, of_im)) in segment.parts().zip(factors) {

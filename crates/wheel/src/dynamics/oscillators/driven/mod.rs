@@ -1,4 +1,4 @@
-//! Modal oscillators under forces other than contact: engine orders, mistuning and Coriolis forces.
+//! Modal oscillators under forces other than contact: engine orders, mistuning, Coriolis and Euler forces.
 //!
 //! The recursion of [`recursion`](super::recursion), with known modal forces at the middle instant of each step and, for
 //! Coriolis forces, swings turned by S ([`super::super::coriolis`]):
@@ -11,6 +11,7 @@
 //! at what all of them have come to, in two passes over the mode shapes. Contact forces move S R φᴴ f within a step.
 
 mod acting;
+mod trailing;
 mod turning;
 
 use faer::{Mat, c64};
@@ -31,6 +32,7 @@ use super::{Oscillators, Part};
 use acting::{Acting, DrivenSums, Excitation};
 use rubmap_numerics::aligned::Aligned;
 use rubmap_numerics::sector_fourier::SectorFourier;
+use trailing::Trailing;
 use turning::Turning;
 
 /// What drives the oscillators, and the numbers of the step under way.
@@ -40,6 +42,7 @@ pub(crate) struct Drive {
     mistuning: Option<ModalMistuning>,
     places: Vec<Place>,
     turning: Option<Turning>,
+    trailing: Option<Trailing>,
     acting: Acting,
     /// z⁺ − z⁻ of a step that is not counted yet, otherwise 0.
     swing: Aligned,
@@ -59,25 +62,30 @@ impl Drive {
         fourier: &SectorFourier,
         (step, loaded): (f64, Option<&Rows>),
     ) -> Option<Self> {
-        let turning = Turning::new(wheel, oscillators, step, loaded);
-        if turning.is_none() && effects.mistuning.is_none() && effects.excitation.is_empty() {
+        if !Self::acts(wheel, effects) {
             return None;
         }
+        let turning = Turning::new(wheel, oscillators, step, loaded);
         let state = oscillators.state.z.len();
         let of = |wanted: bool| Aligned::zeros(if wanted { state } else { 0 });
         let mistuning = effects.mistuning.map(|deviations| {
             ModalMistuning::new(deviations, wheel, contact_nodes, fourier, oscillators.resolved_families())
         });
         let longest = oscillators.segments.iter().map(|segment| segment.length).max().unwrap_or(0);
-        let excitation = |excitation: &EngineOrderExcitation| {
-            Excitation::new(ModalExcitation::new(excitation, wheel), &oscillators.segments)
+        let segments = &oscillators.segments;
+        let engine_order = |excitation: &EngineOrderExcitation| {
+            Excitation::engine_order(ModalExcitation::new(excitation, wheel), segments)
         };
-        let excitations: Vec<_> = effects.excitation.iter().map(excitation).collect();
-        let excited = |index: usize| excitations.iter().any(|excitation| excitation.harmonic() == index);
+        let euler = effects.euler_force.map(|force| Excitation::euler(force, segments));
+        let excitations: Vec<_> = effects.excitation.iter().map(engine_order).chain(euler).collect();
+        let trailing = effects.euler_force.and_then(|force| Trailing::new(force.rate, wheel, segments));
+        let excited = |index: usize| {
+            trailing.is_some() || excitations.iter().any(|excitation| excitation.harmonic == index)
+        };
         Some(Self {
             acting: Acting {
                 contact: Aligned::zeros(2 * longest),
-                excitation: of(!excitations.is_empty()),
+                excitation: of(effects.forces_are_known()),
                 excited: (0..wheel.harmonics.len()).map(excited).collect(),
                 mistuning: of(mistuning.is_some()),
             },
@@ -85,10 +93,16 @@ impl Drive {
             mistuning,
             places: oscillators.segments.iter().map(Segment::place).collect(),
             turning,
+            trailing,
             swing: of(true),
             moved: Aligned::zeros(2 * longest),
             turned: Aligned::zeros(2 * longest),
         })
+    }
+
+    /// Whether anything but contact acts on the modes.
+    pub(crate) fn acts(wheel: &ModalWheel, effects: &Effects<'_>) -> bool {
+        wheel.turns() || effects.mistuning.is_some() || effects.forces_are_known()
     }
 
     /// Gives the drive's forces after `revolutions` their part in the first increments d = z − z⁻, which are those of free motion:
@@ -172,7 +186,19 @@ impl Drive {
         &self.swing
     }
 
-    /// Forces of the state `z`.
+    /// Known forces on nodal diameter `index`, `revolutions` after the start, and the Euler force on its displacements in `z`.
+    #[inline(always)]
+    fn force<S: Simd>(&mut self, simd: S, of: (usize, Segment), revolutions: f64, z: &[f64]) {
+        let Self { acting, excitations, trailing, .. } = self;
+        acting.excite(simd, excitations, of, revolutions);
+        if let Some(trailing) = trailing {
+            let (_, segment) = of;
+            let range = segment.state..segment.state + segment.size();
+            trailing.push(simd, of, revolutions, &z[range.clone()], &mut acting.excitation[range]);
+        }
+    }
+
+    /// Forces of mistuning in the state `z`.
     #[inline(always)]
     fn pull<S: Simd>(&mut self, simd: S, z: &[f64]) {
         if let Some(mistuning) = &mut self.mistuning {
@@ -192,7 +218,7 @@ impl WithSimd for Prepare<'_> {
         let Self(drive, oscillators, revolutions) = self;
         drive.pull(simd, &oscillators.state.z);
         for of in oscillators.segments.iter().copied().enumerate() {
-            drive.acting.excite(simd, &drive.excitations, of, revolutions);
+            drive.force(simd, of, revolutions, &oscillators.state.z);
         }
     }
 }
@@ -343,8 +369,8 @@ impl Oscillators {
     #[inline(always)]
     fn swing<S: Simd>(&mut self, simd: S, index: usize, drive: &mut Drive, revolutions: f64, loaded: bool) {
         let segment = self.segments[index];
-        let Drive { excitations, turning, acting, swing, moved, turned, .. } = drive;
-        acting.excite(simd, excitations, (index, segment), revolutions);
+        drive.force(simd, (index, segment), revolutions, &self.state.z);
+        let Drive { turning, acting, swing, moved, turned, .. } = drive;
         let of = self.coefficients.of::<S>(segment);
         for start in segment.parts() {
             let Part { z, d, .. } = self.state.part::<S>(segment, start, false, false);

@@ -1,0 +1,43 @@
+//! The Euler force of a wheel whose speed changes (docs/method.md, Run-up and run-down).
+//!
+//! ```text
+//! −Ω̇ ẑ × (r + u)   per unit mass:   φᴴf = −Ω̇ √N φᵀ ∫ρ Υᵀ(ẑ × r) dV   of nodal diameter 0,   −½Ω̇ g z   of every nodal diameter
+//! ```
+//!
+//! On the wheel at rest in its frame it is the same in every sector, so that it drives nodal diameter 0 alone. On the vibration it acts
+//! where Coriolis forces do, by their matrix: G = 2∫ρ Nᵀ[ẑ×]N dV. It pushes across the displacement, and may do work on it.
+
+use faer::{MatRef, c64};
+
+/// Ω̇ in part of a run: straight from one end to the other.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SpeedRate {
+    /// Revolutions after the start of the run at which the part begins and ends.
+    pub revolutions: [f64; 2],
+    /// Ω̇ there, rad/s².
+    pub rad_s2: [f64; 2],
+}
+
+impl SpeedRate {
+    /// After so many revolutions.
+    pub(crate) fn at(&self, revolutions: f64) -> f64 {
+        let ([from, to], [first, last]) = (self.revolutions, self.rad_s2);
+        first + ((revolutions - from) / (to - from)).clamp(0.0, 1.0) * (last - first)
+    }
+}
+
+/// The Euler force in part of a run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct EulerForce {
+    /// How the speed changes.
+    pub rate: SpeedRate,
+    /// Force on every mode of nodal diameter 0 per unit Ω̇, as of [`modal_load`].
+    pub load: Vec<f64>,
+}
+
+/// √N Φᵀf: what `reduced`, a load of every sector in the coordinates of the reduction at nodal diameter 0, is on the modes `shapes` of a
+/// wheel of so many sectors.
+pub fn modal_load(reduced: &[f64], shapes: MatRef<'_, c64>, sectors: usize) -> Vec<f64> {
+    let of = |mode: usize| shapes.col(mode).iter().zip(reduced).map(|(phi, f)| phi.re * f).sum::<f64>();
+    (0..shapes.ncols()).map(|mode| (sectors as f64).sqrt() * of(mode)).collect()
+}
