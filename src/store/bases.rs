@@ -196,6 +196,26 @@ impl BasisFolder {
         })
     }
 
+    /// Υ̂ᴴ f of a nodal diameter of `reduced`: what a load of the own DOF is on the unknowns. Rows are read as by [`Self::product`].
+    ///
+    /// # Errors
+    /// As of [`Self::rows`], and of a load of other DOF.
+    pub fn project(&self, reduced: &ReducedHarmonic, load: &[f64]) -> io::Result<Vec<c64>> {
+        self.objects.reading(&[self.path(reduced.harmonic)], || {
+            let file = self.open_here(reduced)?;
+            if load.len() != file.dofs {
+                return Err(damaged("it has other DOF than the model"));
+            }
+            let mut projected = vec![c64::ZERO; file.unknowns];
+            file.each(|dof, row| {
+                for (sum, value) in projected.iter_mut().zip(row.chunks_exact(2)) {
+                    *sum += c64::new(value[0], -value[1]) * load[dof];
+                }
+            })?;
+            Ok(projected)
+        })
+    }
+
     /// The basis of a nodal diameter.
     ///
     /// # Errors

@@ -289,7 +289,8 @@ async fn run_ups_have_the_euler_force_of_their_elements() {
         assert!(end(&with)["energy_residual"].as_f64().unwrap() < 1e-9, "{with}");
         let largest = |found: &Value| end(found)["largest"][0]["displacement"].as_f64().unwrap();
         assert_eq!(end(&with)["euler_share"], end(&without)["euler_share"]);
-        assert!(largest(&with) != largest(&without), "{}", largest(&with));
+        let other = largest(&with) / largest(&without) - 1.0;
+        assert!(other.abs() > 1e-4 && other.abs() < 0.5, "{other}");
     }
     app.stop().await;
 }

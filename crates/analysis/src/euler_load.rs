@@ -1,5 +1,7 @@
 //! The Euler force on a wheel at rest in its frame, in the coordinates of its reduction (docs/method.md, Run-up and run-down).
 
+use faer::c64;
+
 use crate::own_load::own_load;
 use rubmap_solid::load::euler;
 use rubmap_solid::mesh::SectorMesh;
@@ -10,27 +12,20 @@ use rubmap_wheel::dynamics::nodes::SectorNode;
 pub struct EulerLoad(Vec<f64>);
 
 impl EulerLoad {
-    /// Of a mesh and its nodes in the same order; `row` tells real and imaginary part of every unknown at an own DOF, of which there are so
-    /// many.
+    /// Of a mesh and its nodes in the same order, with so many own DOF; `project` takes a load of them to the unknowns by the basis of nodal
+    /// diameter 0.
     ///
     /// # Errors
-    /// Those of `row`.
+    /// Those of `project`.
     pub fn of<E>(
         mesh: &SectorMesh,
         nodes: &[SectorNode],
         own_dofs: usize,
-        mut row: impl FnMut(usize) -> Result<Vec<f64>, E>,
+        project: impl FnOnce(&[f64]) -> Result<Vec<c64>, E>,
     ) -> Result<Self, E> {
-        let mut load = Vec::new();
-        for (dof, force) in own_load(nodes, &euler(mesh), own_dofs).into_iter().enumerate() {
-            let row = row(dof)?;
-            load.resize(row.len() / 2, 0.0);
-            // Nodal diameter 0 is real.
-            for (load, of_unknown) in load.iter_mut().zip(row.chunks_exact(2)) {
-                *load += of_unknown[0] * force;
-            }
-        }
-        Ok(Self(load))
+        let load = project(&own_load(nodes, &euler(mesh), own_dofs))?;
+        // Nodal diameter 0 is real.
+        Ok(Self(load.iter().map(|load| load.re).collect()))
     }
 
     /// None.
@@ -39,7 +34,7 @@ impl EulerLoad {
     }
 
     /// Of every unknown, in their order.
-    pub fn unknowns(&self) -> &[f64] {
+    pub fn of_unknowns(&self) -> &[f64] {
         &self.0
     }
 }

@@ -92,6 +92,8 @@ struct Scope<'a> {
     request: &'a ResolvedSweep,
     /// Steps per revolution given by the request.
     given: Option<u32>,
+    /// Whether anything but contact acts on the modes.
+    driven: bool,
     /// Whether modes too fast for the step follow statically under `exact_modal`.
     follow: bool,
 }
@@ -103,24 +105,35 @@ impl Stepping {
         contact_nodes: &[ContactNode],
         request: &ResolvedSweep,
     ) -> Result<Self, NotRunnable> {
-        Self::choose_for_parts(wheel, contact_nodes, request, false)
+        let nodes = touching(contact_nodes, request);
+        Self::among(wheel, nodes, request, (is_driven(&request.scene), !nodes.is_empty()))
     }
 
-    /// The same for a run that is taken in parts, in which something else than contact acts on the modes or not.
+    /// The same for a run that is taken in parts, with the Euler force or without.
     pub(super) fn choose_for_parts(
         wheel: &ModalWheel,
         contact_nodes: &[ContactNode],
         request: &ResolvedSweep,
-        acted_on: bool,
+        euler_force: bool,
+    ) -> Result<Self, NotRunnable> {
+        let nodes = touching(contact_nodes, request);
+        let driven = euler_force || is_driven(&request.scene);
+        Self::among(wheel, nodes, request, (driven, driven || !nodes.is_empty()))
+    }
+
+    /// Of a wheel with these nodes that may touch, which is `driven` or not, and whose fast modes `follow` or not.
+    fn among(
+        wheel: &ModalWheel,
+        contact_nodes: &[ContactNode],
+        request: &ResolvedSweep,
+        (driven, follow): (bool, bool),
     ) -> Result<Self, NotRunnable> {
         let Integration { scheme, kept_modes, steps_per_revolution, .. } = request.integration;
         let given = match steps_per_revolution {
             AutoOr::Auto => None,
             AutoOr::Fixed(steps) => Some(steps),
         };
-        let contact_nodes = touching(contact_nodes, request);
-        let follow = acted_on || !contact_nodes.is_empty();
-        let scope = Scope { wheel, contact_nodes, request, given, follow };
+        let scope = Scope { wheel, contact_nodes, request, given, driven, follow };
         let proposal = match (scheme, kept_modes) {
             (SchemeChoice::Auto, _) => scope.automatic(),
             (SchemeChoice::CentralDifferences, _) => scope.bounded(Scheme::CentralDifferences),
@@ -190,14 +203,13 @@ impl Scope<'_> {
 
     /// Every mode by its exact propagator.
     fn exact(&self) -> Proposal {
-        let driven = is_driven(&self.request.scene);
-        let why_scheme = if driven {
+        let why_scheme = if self.driven {
             "every mode is advanced exactly but for the forces on it, which are of second order".to_owned()
         } else {
             "every mode is advanced exactly".to_owned()
         };
         let scheme = Scheme::ExactModal;
-        if self.contact_nodes.is_empty() && !driven {
+        if self.contact_nodes.is_empty() && !self.driven {
             let why_steps = "nothing touches, so that any step is exact".to_owned();
             return Proposal { scheme, least_steps: 1.0, why_scheme, why_steps };
         }

@@ -116,7 +116,7 @@ function tables(read, sensor, context) {
         { name: 'Wall time', number: true, cell: ({ end }) => duration(end.wall_time_s), sort: ({ end }) => end.wall_time_s },
       ],
     }),
-    done.length === 0 ? null : h('p', { class: 'quiet small' }, 'Energies are shares of the largest energy; the Euler force, which is left out, is a share of the centrifugal force.'),
+    done.length === 0 ? null : h('p', { class: 'quiet small' }, `Energies are shares of the largest energy; the Euler force, which ${read.settings.euler_force ? 'acts' : 'is left out'}, is a share of the centrifugal force.`),
   ];
 }
 

@@ -8,7 +8,6 @@ use super::frame::{Frame, order_step};
 use super::{BAND_RATIO, cutting};
 use crate::discretisation::Discretisation;
 use crate::effects::casing::convert::running_clearance;
-use crate::effects::table::is_driven;
 use crate::end_state::{EndState, Shapes};
 use crate::error::{AnalysisError, Violation};
 use crate::model::ReducedSector;
@@ -186,8 +185,7 @@ impl<'a> March<'a> {
         speed: f64,
     ) -> Result<Stepping, NotRunnable> {
         let wheel = wheel_of(&request.scene, &sector.wheel, speed)?;
-        let acted_on = self.asked.euler_force || is_driven(&request.scene);
-        Stepping::choose_for_parts(&wheel, &sector.wheel.contact, request, acted_on)
+        Stepping::choose_for_parts(&wheel, &sector.wheel.contact, request, self.asked.euler_force)
     }
 
     /// Takes the first sample of all, as `stepping` has it: what setting up a segment takes.
@@ -376,7 +374,7 @@ impl<'a> March<'a> {
         if !self.asked.euler_force {
             return Ok(None);
         }
-        let load = sector.euler_load.as_ref().ok_or(NotRunnable::UnreadEulerForce)?.unknowns();
+        let load = sector.euler_load.as_ref().ok_or(NotRunnable::UnreadEulerForce)?.of_unknowns();
         let rad_s2 = self.profile.straight_rates(segment.times_s);
         let rate = SpeedRate { revolutions: self.revolutions(segment), rad_s2 };
         Ok(Some(EulerForce {

@@ -159,7 +159,12 @@ pub fn run_ups_memory(reduced: &ReducedSector, asked: &ResolvedRunUps) -> u64 {
     let (lowest, highest) = asked.speed.range();
     let of = |speed: f64| {
         let (wheel, stepping) = ready(reduced, sweep, speed).ok()?;
-        Some(running_bytes(&wheel, sweep, &stepping, touching(reduced, sweep)) + 2 * Shapes::bytes(&wheel))
+        // With Coriolis forces two wheels' gyroscopic matrices, what they make of a step, and the Euler force by them.
+        let matrices = 2 + if sweep.scene.coriolis { 4 } else { 0 };
+        Some(
+            running_bytes(&wheel, sweep, &stepping, touching(reduced, sweep))
+                + matrices * Shapes::bytes(&wheel),
+        )
     };
     let running = [lowest, highest].into_iter().filter_map(of).max().unwrap_or(0);
     let frame = |run: u32| {

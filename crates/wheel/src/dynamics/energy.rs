@@ -5,7 +5,7 @@ use super::oscillators::Exchange;
 /// Work of the effects of a scene, force·length; 0 for those it does not name.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct EffectWork {
-    /// Of forces at engine orders, on the wheel.
+    /// Of forces at engine orders and the Euler force, on the wheel.
     pub excitation: f64,
     /// Of mistuning: minus the change of the energy that the stiffness deviations store.
     pub mistuning: f64,

@@ -216,12 +216,12 @@ impl<'a> Passage<'a> {
     /// The state of these modes and of these waves of the casing, all others being at rest, as a run that begins with them has it.
     pub fn state(&mut self, modes: &[InitialMode], casing: &[SteppedWave]) -> Vec<f64> {
         let Simulation { wheel, scheme, damping, .. } = self.simulation;
-        let step = self.simulation.step_s();
+        let (step, follow) = (self.simulation.step_s(), self.simulation.casing.is_some());
         let mut stepped: Vec<SteppedMode> = Vec::new();
         for &InitialMode { harmonic, family, displacement, velocity } in modes {
             let omega = wheel.harmonics[harmonic].omega[family];
             let zeta = damping.map_or(0.0, |damping| damping.ratio(family));
-            let increment = |z: f64, v: f64| scheme.first_increment(omega, zeta, step, z, v);
+            let increment = |z: f64, v: f64| scheme.first_increment((omega, zeta), step, (z, v), follow);
             let increment =
                 c64::new(increment(displacement.re, velocity.re), increment(displacement.im, velocity.im));
             stepped.push(SteppedMode { harmonic, family, displacement, increment });

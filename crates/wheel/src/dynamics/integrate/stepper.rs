@@ -54,6 +54,8 @@ pub(super) struct Stepper {
     surroundings: Option<Surroundings>,
     /// Whether contact forces act from the instant at which they close a gap, instead of completing its step.
     massless: bool,
+    /// Whether modes too fast for the step follow statically.
+    follow: bool,
     /// Whether motion may decay to nothing.
     decays: bool,
     /// Of a wheel that may touch something.
@@ -78,10 +80,10 @@ pub(super) enum Beginning {
 
 impl Stepper {
     pub(super) fn new(simulation: &Simulation<'_>) -> Self {
-        Self::beginning_at(simulation, 0.0, false)
+        Self::beginning_at(simulation, 0.0, simulation.casing.is_some())
     }
 
-    /// Of a simulation whose initial state is that after `revolutions`, and whose fast modes `follow` if nothing touches, too.
+    /// Of a simulation whose initial state is that after `revolutions`, and whose fast modes `follow` or not.
     pub(super) fn beginning_at(simulation: &Simulation<'_>, revolutions: f64, follow: bool) -> Self {
         let (wheel, scheme) = (simulation.wheel, simulation.scheme);
         let fourier = SectorFourier::new(wheel.sectors);
@@ -115,6 +117,7 @@ impl Stepper {
         let repetition = simulation.repeats.map(|repeats| Repetition::new(simulation, repeats, &oscillators));
         Self {
             repetition,
+            follow,
             massless: matches!(scheme, Scheme::MasslessBoundary { .. }),
             decays: effects || oscillators.dissipates(),
             recorder: Recorder::new(
@@ -446,14 +449,19 @@ impl Stepper {
         self.recorder.read(simd, &self.oscillators, &self.fourier, force, when);
     }
 
+    /// z and ż of all modes after `revolutions`, the end; increments are left as free motion would have them.
+    fn modes_at_end(&mut self, simulation: &Simulation<'_>, revolutions: f64) -> Vec<InitialMode> {
+        let follow = self.follow;
+        let read = |oscillators: &Oscillators| modal_state(simulation, oscillators, follow);
+        if let Some(drive) = &mut self.drive {
+            drive.end(simulation.wheel, revolutions, &mut self.oscillators, read);
+        }
+        read(&self.oscillators)
+    }
+
     /// Keeps the state at the end, as free motion would have it.
     fn end(&mut self, simulation: &Simulation<'_>, revolutions: usize) {
-        let follow = simulation.casing.is_some();
-        if let Some(drive) = &mut self.drive {
-            let read = |oscillators: &Oscillators| modal_state(simulation, oscillators, follow);
-            drive.end(simulation.wheel, revolutions as f64, &mut self.oscillators, read);
-        }
-        let modes = modal_state(simulation, &self.oscillators, follow);
+        let modes = self.modes_at_end(simulation, revolutions as f64);
         let casing = self.flexible_casing().map(CasingMotion::stepped).unwrap_or_default();
         let end = (modes, casing, self.statistics.steps);
         self.recorder.end(simulation.wheel, &self.oscillators, &self.fourier, end);
@@ -624,7 +632,6 @@ impl Motion for Affected {
 }
 
 /// z and ż of every mode, its increment being that of free motion.
-/// Of a wheel whose fast modes `follow` or not.
 fn modal_state(simulation: &Simulation<'_>, oscillators: &Oscillators, follow: bool) -> Vec<InitialMode> {
     let step = simulation.step_s();
     oscillators.modal_state(|harmonic, family, z, d| {

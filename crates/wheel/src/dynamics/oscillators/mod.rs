@@ -84,8 +84,8 @@ struct State {
 }
 
 impl Oscillators {
-    /// In the state `initial` (rest where it has nothing), steps of `step` seconds, of a wheel that may be touching the casing or not. Of one
-    /// that does, and of others if that is asked for, fast modes follow.
+    /// In the state `initial` (rest where it has nothing), steps of `step` seconds, of a wheel that may touch the casing or not, and whose
+    /// fast modes `follow` or not.
     pub(crate) fn new(
         wheel: &ModalWheel,
         scheme: Scheme,
@@ -110,11 +110,7 @@ impl Oscillators {
             for family in 0..segment.length {
                 let omega = if family < segment.integrated { harmonic.omega[family] } else { 0.0 };
                 let zeta = damping.map_or(0.0, |damping| damping.ratio(family));
-                of.set(
-                    segment.modes + family,
-                    omega,
-                    scheme.mode_step(omega, zeta, step, touching || follow),
-                );
+                of.set(segment.modes + family, omega, scheme.mode_step(omega, zeta, step, follow));
             }
         }
         let contact = if touching { state } else { 0 };
@@ -131,7 +127,7 @@ impl Oscillators {
             let zeta = damping.map_or(0.0, |damping| damping.ratio(mode.family));
             this.start(mode, |z, v| {
                 let omega = wheel.harmonics[mode.harmonic].omega[mode.family];
-                scheme.first_increment(omega, zeta, step, z, v)
+                scheme.first_increment((omega, zeta), step, (z, v), follow)
             });
         }
         this
@@ -409,6 +405,11 @@ impl Coefficients {
         self.loss[mode] = 0.5 * step.dissipation() * step.inertia();
         self.inertia[mode] = step.inertia();
         self.stiffness[mode] = omega * omega;
+    }
+
+    /// Whether a mode is where its forces hold it, wherever it was.
+    fn follows(&self, mode: usize) -> bool {
+        self.keep[mode] == 0.0 && (self.pull[mode] - 1.0).abs() < 1e-12
     }
 
     #[inline(always)]

@@ -114,10 +114,16 @@ impl SpeedProfile {
         piece.rate((time_s - piece.start_s).clamp(0.0, piece.duration_s))
     }
 
-    /// Ω̇ at two instants, rad/s², such that a straight line between them changes the speed by as much as the profile does.
+    /// Ω̇ at two instants, rad/s², such that a straight line between them changes the speed by as much as the profile does; the mean where a
+    /// point lies between.
     pub fn straight_rates(&self, [from_s, to_s]: [f64; 2]) -> [f64; 2] {
         let mean = (self.speed_rad_s(to_s) - self.speed_rad_s(from_s)) / (to_s - from_s);
-        let half = 0.5 * (self.rate_rad_s2(to_s) - self.rate_rad_s2(from_s));
+        let piece = &self.pieces[self.piece(from_s)];
+        let [from, to] = [from_s, to_s].map(|time| time - piece.start_s);
+        if to > piece.duration_s {
+            return [mean; 2];
+        }
+        let half = 0.5 * (piece.rate(to) - piece.rate(from));
         [mean - half, mean + half]
     }
 
@@ -204,6 +210,26 @@ mod tests {
             assert!((profile.speed_rad_s(expected) - (200.0 + 100.0 * expected)).abs() < 1e-11);
         }
         assert_eq!(profile.largest_rate(0.3, 0.9), 100.0);
+    }
+
+    /// At its ends a smooth profile has its own rates, but for the second order; across a corner a straight one has the mean.
+    #[test]
+    fn straight_rates_change_the_speed_by_as_much() {
+        let (smooth, linear) = (SpeedProfile::smooth(&POINTS), SpeedProfile::linear(&POINTS));
+        for [from, to] in [[0.1, 0.2], [0.45, 0.55], [0.5, 1.0], [1.5, 2.0], [3.9, 4.0]] {
+            for profile in [&smooth, &linear] {
+                let [first, last] = profile.straight_rates([from, to]);
+                let change = profile.speed_rad_s(to) - profile.speed_rad_s(from);
+                assert!((0.5 * (first + last) * (to - from) - change).abs() < 1e-10, "{from}");
+            }
+        }
+        assert_eq!(linear.straight_rates([0.5, 2.0]), [600.0; 2]);
+        let [first, last] = linear.straight_rates([0.4, 0.6]);
+        assert!((first - 300.0).abs() < 1e-9 && first == last, "{first} {last}");
+        let [first, last] = smooth.straight_rates([1.0, 1.001]);
+        assert!(
+            (first - smooth.rate_rad_s2(1.0)).abs() < 1e-3 && (last - smooth.rate_rad_s2(1.001)).abs() < 1e-3
+        );
     }
 
     /// The angle against the integral of the speed by a fine sum; speeds go through the points, and not beyond two neighbours.

@@ -97,7 +97,7 @@ fn parts_of_a_run_are_the_run() {
         Acting { friction: Some(FrictionLaw::Disc), ..touching },
         Acting { drifting: true, ..touching },
         Acting { speeding: true, mistuned: true, ..touching },
-        Acting { speeding: true, coriolis: true, ..touching },
+        Acting { speeding: true, coriolis: true, mistuned: true, ..touching },
     ];
     for scheme in SCHEMES {
         for acting in acting {

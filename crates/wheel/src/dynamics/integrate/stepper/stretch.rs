@@ -6,8 +6,7 @@ use super::super::instant::Instant;
 use super::super::run::Outcome;
 use super::super::simulation::Simulation;
 use super::super::stretch::{Part, Stretch};
-use super::{Affected, Motion, Stepper, modal_state};
-use crate::dynamics::oscillators::Oscillators;
+use super::{Affected, Motion, Stepper};
 
 impl Stepper {
     /// Takes the steps of `part`, which the stepper was made for.
@@ -23,16 +22,12 @@ impl Stepper {
         let ended = self.take(simd, (simulation, part, largest.as_mut_slice()), watch);
         let revolutions =
             (part.first_sample + part.samples) as f64 / simulation.samples_per_revolution as f64;
-        let follow = simulation.fast_modes_follow();
-        if let Some(drive) = &mut self.drive {
-            let read = |oscillators: &Oscillators| modal_state(simulation, oscillators, follow);
-            drive.end(simulation.wheel, revolutions, &mut self.oscillators, read);
-        }
+        let end = self.modes_at_end(simulation, revolutions);
         Stretch {
             ended: ended.err().map(|outcome| *outcome),
             displacement: self.recorder.take().displacement,
             largest,
-            end: modal_state(simulation, &self.oscillators, follow),
+            end,
             statistics: self.statistics,
             energy: self.energy,
         }

@@ -11,7 +11,7 @@
 //! at what all of them have come to, in two passes over the mode shapes. Contact forces move S R φᴴ f within a step.
 
 mod acting;
-mod trailing;
+mod circulation;
 mod turning;
 
 use faer::{Mat, c64};
@@ -30,9 +30,9 @@ use super::rows::{Loads, Rows};
 use super::segment::Segment;
 use super::{Oscillators, Part};
 use acting::{Acting, DrivenSums, Excitation};
+use circulation::Circulation;
 use rubmap_numerics::aligned::Aligned;
 use rubmap_numerics::sector_fourier::SectorFourier;
-use trailing::Trailing;
 use turning::Turning;
 
 /// What drives the oscillators, and the numbers of the step under way.
@@ -42,7 +42,7 @@ pub(crate) struct Drive {
     mistuning: Option<ModalMistuning>,
     places: Vec<Place>,
     turning: Option<Turning>,
-    trailing: Option<Trailing>,
+    circulation: Option<Circulation>,
     acting: Acting,
     /// z⁺ − z⁻ of a step that is not counted yet, otherwise 0.
     swing: Aligned,
@@ -78,9 +78,9 @@ impl Drive {
         };
         let euler = effects.euler_force.map(|force| Excitation::euler(force, segments));
         let excitations: Vec<_> = effects.excitation.iter().map(engine_order).chain(euler).collect();
-        let trailing = effects.euler_force.and_then(|force| Trailing::new(force.rate, wheel, segments));
+        let circulation = effects.euler_force.and_then(|force| Circulation::new(force.rate, wheel, segments));
         let excited = |index: usize| {
-            trailing.is_some() || excitations.iter().any(|excitation| excitation.harmonic == index)
+            circulation.is_some() || excitations.iter().any(|excitation| excitation.harmonic == index)
         };
         Some(Self {
             acting: Acting {
@@ -93,7 +93,7 @@ impl Drive {
             mistuning,
             places: oscillators.segments.iter().map(Segment::place).collect(),
             turning,
-            trailing,
+            circulation,
             swing: of(true),
             moved: Aligned::zeros(2 * longest),
             turned: Aligned::zeros(2 * longest),
@@ -173,6 +173,10 @@ impl Drive {
             for start in segment.parts() {
                 for m in 0..segment.integrated {
                     let mode = segment.modes + m;
+                    // One that follows has no past.
+                    if coefficients.follows(mode) {
+                        continue;
+                    }
                     let share = coefficients.receptance[mode] / (1.0 + coefficients.keep[mode]);
                     state.d[start + m] += sign * share * self.swing[start + m];
                 }
@@ -189,12 +193,12 @@ impl Drive {
     /// Known forces on nodal diameter `index`, `revolutions` after the start, and the Euler force on its displacements in `z`.
     #[inline(always)]
     fn force<S: Simd>(&mut self, simd: S, of: (usize, Segment), revolutions: f64, z: &[f64]) {
-        let Self { acting, excitations, trailing, .. } = self;
+        let Self { acting, excitations, circulation, .. } = self;
         acting.excite(simd, excitations, of, revolutions);
-        if let Some(trailing) = trailing {
+        if let Some(circulation) = circulation {
             let (_, segment) = of;
             let range = segment.state..segment.state + segment.size();
-            trailing.push(simd, of, revolutions, &z[range.clone()], &mut acting.excitation[range]);
+            circulation.push(simd, of, revolutions, &z[range.clone()], &mut acting.excitation[range]);
         }
     }
 

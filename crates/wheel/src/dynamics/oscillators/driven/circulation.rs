@@ -1,4 +1,4 @@
-//! The Euler force on the vibration ([`super::super::super::euler`]) in the layout of the oscillators.
+//! The Euler force on the vibration ([`super::super::super::euler`]), a circulatory force, in the layout of the oscillators.
 
 use faer::{Mat, c64};
 use pulp::Simd;
@@ -11,7 +11,7 @@ use rubmap_numerics::aligned::Aligned;
 
 /// −½Ω̇ g z of every nodal diameter.
 #[derive(Debug)]
-pub(super) struct Trailing {
+pub(super) struct Circulation {
     rate: SpeedRate,
     /// ½g = (−½g)ᴴ of every nodal diameter: rows that load its modes with −½ g of a displacement.
     rows: Vec<RowBlock>,
@@ -21,7 +21,7 @@ pub(super) struct Trailing {
     pushed: Aligned,
 }
 
-impl Trailing {
+impl Circulation {
     /// None without gyroscopic matrices.
     pub(super) fn new(rate: SpeedRate, wheel: &ModalWheel, segments: &[Segment]) -> Option<Self> {
         let of = |(harmonic, segment): (&ModalHarmonic, &Segment)| {
