@@ -6,7 +6,7 @@ use rubmap::dynamics::contact::disc::disc_directions;
 use rubmap::dynamics::contact::friction::sliding_directions;
 use rubmap::dynamics::direction::Direction;
 use rubmap::dynamics::effects::{Effects, Friction, FrictionLaw};
-use rubmap::dynamics::euler::{EulerForce, SpeedRate};
+use rubmap::dynamics::euler::{EulerForce, SpeedRate, StraightRate};
 use rubmap::dynamics::excitation::EngineOrderExcitation;
 use rubmap::dynamics::flexible_casing::{FlexibleCasing, Ring};
 use rubmap::dynamics::integrate::{Outcome, Simulation};
@@ -53,7 +53,7 @@ pub(crate) fn measure() {
     let change = ClearanceChange { course: vec![(1.0, 0.01), (2.0, -0.01)], along_chord: None };
     let clearance_change = Some(&change);
     let euler = EulerForce {
-        rate: SpeedRate { revolutions: [0.0, REVOLUTIONS as f64], rad_s2: [100.0; 2] },
+        rate: SpeedRate(vec![StraightRate { revolutions: [0.0, REVOLUTIONS as f64], rad_s2: [100.0; 2] }]),
         load: vec![1.0; scene.modal.harmonics[0].omega.len()],
     };
     let euler_force = Some(&euler);

@@ -10,7 +10,7 @@ use rubmap_wheel::dynamics::contact::disc::disc_directions;
 use rubmap_wheel::dynamics::contact::friction::sliding_directions;
 use rubmap_wheel::dynamics::direction::Direction;
 use rubmap_wheel::dynamics::effects::{Effects, Friction, FrictionLaw};
-use rubmap_wheel::dynamics::euler::{EulerForce, SpeedRate};
+use rubmap_wheel::dynamics::euler::{EulerForce, SpeedRate, StraightRate};
 use rubmap_wheel::dynamics::excitation::EngineOrderExcitation;
 use rubmap_wheel::dynamics::flexible_casing::{CasingWave, FlexibleCasing};
 use rubmap_wheel::dynamics::integrate::{Outcome, Revolutions, SensorRow, Simulation};
@@ -150,7 +150,7 @@ fn with_each_effect_and_with_all() {
         last: vec![-0.01; NODES],
     };
     let euler = EulerForce {
-        rate: SpeedRate { revolutions: [0.0, 4.0], rad_s2: [1e3, -1e3] },
+        rate: SpeedRate(vec![StraightRate { revolutions: [0.0, 4.0], rad_s2: [1e3, -1e3] }]),
         load: vec![1e-3; MODES],
     };
     let all = Effects {

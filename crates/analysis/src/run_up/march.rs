@@ -23,7 +23,7 @@ use crate::stepping::Stepping;
 use crate::wheel::{rotation, wheel_of};
 use rubmap_wheel::dynamics::clearance_drift::ClearanceDrift;
 use rubmap_wheel::dynamics::effects::Effects;
-use rubmap_wheel::dynamics::euler::{EulerForce, SpeedRate, modal_load};
+use rubmap_wheel::dynamics::euler::{EulerForce, modal_load};
 use rubmap_wheel::dynamics::initial::InitialMode;
 use rubmap_wheel::dynamics::integrate::{Part, Simulation, Stretch};
 use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
@@ -375,8 +375,7 @@ impl<'a> March<'a> {
             return Ok(None);
         }
         let load = sector.euler_load.as_ref().ok_or(NotRunnable::UnreadEulerForce)?.of_unknowns();
-        let rad_s2 = self.profile.straight_rates(segment.times_s);
-        let rate = SpeedRate { revolutions: self.revolutions(segment), rad_s2 };
+        let rate = self.profile.rates(segment.times_s);
         Ok(Some(EulerForce {
             rate,
             load: modal_load(load, wheel.shapes.of_harmonic(0), wheel.modal.sectors),

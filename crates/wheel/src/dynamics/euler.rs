@@ -9,18 +9,29 @@
 
 use faer::{MatRef, c64};
 
-/// Ω̇ in part of a run: straight from one end to the other.
+/// Ω̇ in part of a run: straight pieces, one behind the other, between which it may jump.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SpeedRate(pub Vec<StraightRate>);
+
+/// Ω̇ that goes straight from one end to the other.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SpeedRate {
-    /// Revolutions after the start of the run at which the part begins and ends.
+pub struct StraightRate {
+    /// Revolutions after the start of the run at which it begins and ends.
     pub revolutions: [f64; 2],
     /// Ω̇ there, rad/s².
     pub rad_s2: [f64; 2],
 }
 
 impl SpeedRate {
-    /// After so many revolutions.
+    /// After so many revolutions; beyond its ends that of its ends.
     pub(crate) fn at(&self, revolutions: f64) -> f64 {
+        let begun = self.0.partition_point(|piece| piece.revolutions[0] <= revolutions);
+        self.0.get(begun.saturating_sub(1)).map_or(0.0, |piece| piece.at(revolutions))
+    }
+}
+
+impl StraightRate {
+    fn at(&self, revolutions: f64) -> f64 {
         let ([from, to], [first, last]) = (self.revolutions, self.rad_s2);
         first + ((revolutions - from) / (to - from)).clamp(0.0, 1.0) * (last - first)
     }

@@ -2,6 +2,8 @@
 
 use std::f64::consts::TAU;
 
+use crate::dynamics::euler::{SpeedRate, StraightRate};
+
 /// Speed over time, and the angle turned.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SpeedProfile {
@@ -114,17 +116,18 @@ impl SpeedProfile {
         piece.rate((time_s - piece.start_s).clamp(0.0, piece.duration_s))
     }
 
-    /// Ω̇ at two instants, rad/s², such that a straight line between them changes the speed by as much as the profile does; the mean where a
-    /// point lies between.
-    pub fn straight_rates(&self, [from_s, to_s]: [f64; 2]) -> [f64; 2] {
-        let mean = (self.speed_rad_s(to_s) - self.speed_rad_s(from_s)) / (to_s - from_s);
-        let piece = &self.pieces[self.piece(from_s)];
-        let [from, to] = [from_s, to_s].map(|time| time - piece.start_s);
-        if to > piece.duration_s {
-            return [mean; 2];
-        }
-        let half = 0.5 * (piece.rate(to) - piece.rate(from));
-        [mean - half, mean + half]
+    /// Ω̇ between two instants, cut at the points between; a piece changes the speed by as much as the profile does.
+    pub fn rates(&self, [from_s, to_s]: [f64; 2]) -> SpeedRate {
+        let of = |piece: &Piece| {
+            let ends = [from_s, to_s].map(|time| (time - piece.start_s).clamp(0.0, piece.duration_s));
+            let lasts = ends[1] - ends[0];
+            let mean = (piece.speed(ends[1]) - piece.speed(ends[0])) / lasts;
+            let half = 0.5 * (piece.rate(ends[1]) - piece.rate(ends[0]));
+            let revolutions = ends.map(|x| (piece.angle_rad + piece.turned(x)) / TAU);
+            (lasts > 0.0).then_some(StraightRate { revolutions, rad_s2: [mean - half, mean + half] })
+        };
+        let (first, last) = (self.piece(from_s), self.piece(to_s));
+        SpeedRate(self.pieces[first..=last].iter().filter_map(of).collect())
     }
 
     /// Lowest and highest Ω, rad/s: at its points, as nothing lies beyond them.
@@ -212,24 +215,33 @@ mod tests {
         assert_eq!(profile.largest_rate(0.3, 0.9), 100.0);
     }
 
-    /// At its ends a smooth profile has its own rates, but for the second order; across a corner a straight one has the mean.
+    /// The speed is the integral of its rates, which jump where a straight profile has a corner and nowhere else.
     #[test]
-    fn straight_rates_change_the_speed_by_as_much() {
-        let (smooth, linear) = (SpeedProfile::smooth(&POINTS), SpeedProfile::linear(&POINTS));
-        for [from, to] in [[0.1, 0.2], [0.45, 0.55], [0.5, 1.0], [1.5, 2.0], [3.9, 4.0]] {
-            for profile in [&smooth, &linear] {
-                let [first, last] = profile.straight_rates([from, to]);
-                let change = profile.speed_rad_s(to) - profile.speed_rad_s(from);
-                assert!((0.5 * (first + last) * (to - from) - change).abs() < 1e-10, "{from}");
+    fn rates_change_the_speed_by_as_much() {
+        for profile in [SpeedProfile::smooth(&POINTS), SpeedProfile::linear(&POINTS)] {
+            for [from, to] in [[0.1, 0.2], [0.45, 0.55], [0.5, 1.0], [1.5, 2.0], [0.0, 4.0]] {
+                let SpeedRate(pieces) = profile.rates([from, to]);
+                let lasts = |piece: &StraightRate| {
+                    profile.time_at(piece.revolutions[1]) - profile.time_at(piece.revolutions[0])
+                };
+                let change: f64 = pieces.iter().map(|p| 0.5 * (p.rad_s2[0] + p.rad_s2[1]) * lasts(p)).sum();
+                let expected = profile.speed_rad_s(to) - profile.speed_rad_s(from);
+                assert!((change - expected).abs() < 1e-7, "{from}: {change} {expected}");
+                assert!((pieces.iter().map(lasts).sum::<f64>() - (to - from)).abs() < 1e-9, "{from}");
             }
         }
-        assert_eq!(linear.straight_rates([0.5, 2.0]), [600.0; 2]);
-        let [first, last] = linear.straight_rates([0.4, 0.6]);
-        assert!((first - 300.0).abs() < 1e-9 && first == last, "{first} {last}");
-        let [first, last] = smooth.straight_rates([1.0, 1.001]);
-        assert!(
-            (first - smooth.rate_rad_s2(1.0)).abs() < 1e-3 && (last - smooth.rate_rad_s2(1.001)).abs() < 1e-3
-        );
+        let linear = SpeedProfile::linear(&POINTS).rates([0.4, 0.6]);
+        // 300 rad/s for half a second.
+        let corner = 150.0 / TAU;
+        let found = [-1e-9, 1e-9].map(|beside| linear.at(corner + beside));
+        assert!(found[0] == 0.0 && (found[1] - 600.0).abs() < 1e-9, "{found:?}");
+        let smooth = SpeedProfile::smooth(&POINTS);
+        let near = smooth.rates([1.0, 1.001]);
+        for time in [1.0, 1.0005, 1.001] {
+            let StraightRate { revolutions: [from, to], .. } = near.0[0];
+            let at = from + (time - 1.0) / 1e-3 * (to - from);
+            assert!((near.at(at) - smooth.rate_rad_s2(time)).abs() < 1e-2, "{time}");
+        }
     }
 
     /// The angle against the integral of the speed by a fine sum; speeds go through the points, and not beyond two neighbours.

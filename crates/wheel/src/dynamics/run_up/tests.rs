@@ -14,7 +14,7 @@ use crate::dynamics::contact::disc::disc_directions;
 use crate::dynamics::contact::friction::sliding_directions;
 use crate::dynamics::direction::Direction;
 use crate::dynamics::effects::{Effects, Friction, FrictionLaw};
-use crate::dynamics::euler::{EulerForce, SpeedRate};
+use crate::dynamics::euler::{EulerForce, SpeedRate, StraightRate};
 use crate::dynamics::excitation::EngineOrderExcitation;
 use crate::dynamics::initial::InitialMode;
 use crate::dynamics::integrate::{Outcome, Part, SensorRow, Simulation, Stretch};
@@ -129,7 +129,7 @@ fn check_parts(scheme: Scheme, acting: Acting) {
         ClearanceDrift { revolutions, without: without.to_vec(), first, last }
     };
     let euler = |revolutions: [f64; 2]| EulerForce {
-        rate: SpeedRate { revolutions, rad_s2: revolutions.map(|at| 4e4 * (1.0 - at)) },
+        rate: SpeedRate(vec![StraightRate { revolutions, rad_s2: revolutions.map(|at| 4e4 * (1.0 - at)) }]),
         load: (0..7).map(|m| 0.3 - 0.07 * f64::from(m)).collect(),
     };
     let directions = match acting.friction {

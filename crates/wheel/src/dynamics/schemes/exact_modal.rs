@@ -31,9 +31,14 @@ pub(super) fn mode_step(omega: f64, zeta: f64, h: f64) -> ModeStep {
     ModeStep { keep: a * a, receptance }
 }
 
+/// Whether a mode is too fast for the step.
+pub(super) fn follows(omega: f64, h: f64) -> bool {
+    omega * h > FOLLOWS
+}
+
 /// [`mode_step`] of a wheel whose fast modes follow.
 pub(super) fn following_mode_step(omega: f64, zeta: f64, h: f64) -> ModeStep {
-    if omega * h > FOLLOWS {
+    if follows(omega, h) {
         ModeStep { keep: 0.0, receptance: 1.0 / (omega * omega) }
     } else {
         mode_step(omega, zeta, h)

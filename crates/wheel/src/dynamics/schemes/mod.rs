@@ -92,7 +92,7 @@ impl Scheme {
         follow: bool,
     ) -> f64 {
         match self {
-            Self::ExactModal if follow && omega * h > exact_modal::FOLLOWS => 0.0,
+            Self::ExactModal if follow && exact_modal::follows(omega, h) => 0.0,
             Self::CentralDifferences => {
                 central_differences::first_increment(omega, zeta, h, displacement, velocity)
             }
@@ -107,7 +107,7 @@ impl Scheme {
     pub fn velocity(self, omega: f64, zeta: f64, h: f64, z: f64, d: f64, follow: bool) -> f64 {
         match self {
             Self::CentralDifferences => central_differences::velocity(omega, zeta, h, z, d),
-            Self::ExactModal if follow && omega * h > exact_modal::FOLLOWS => 0.0,
+            Self::ExactModal if follow && exact_modal::follows(omega, h) => 0.0,
             Self::ExactModal | Self::MasslessBoundary { .. } => exact_modal::velocity(omega, zeta, h, z, d),
         }
     }

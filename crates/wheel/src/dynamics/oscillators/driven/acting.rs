@@ -44,7 +44,7 @@ impl Excitation {
         let Segment { integrated, length, .. } = segments[0];
         let mut re = Aligned::zeros(length);
         re[..integrated].copy_from_slice(&force.load[..integrated]);
-        Self { harmonic: 0, course: Course::Euler(force.rate), re, im: Aligned::zeros(length) }
+        Self { harmonic: 0, course: Course::Euler(force.rate.clone()), re, im: Aligned::zeros(length) }
     }
 
     fn factor(&self, revolutions: f64) -> c64 {

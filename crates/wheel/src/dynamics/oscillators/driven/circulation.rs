@@ -23,7 +23,7 @@ pub(super) struct Circulation {
 
 impl Circulation {
     /// None without gyroscopic matrices.
-    pub(super) fn new(rate: SpeedRate, wheel: &ModalWheel, segments: &[Segment]) -> Option<Self> {
+    pub(super) fn new(rate: &SpeedRate, wheel: &ModalWheel, segments: &[Segment]) -> Option<Self> {
         let of = |(harmonic, segment): (&ModalHarmonic, &Segment)| {
             let g = harmonic.gyroscopic.as_ref()?;
             let half =
@@ -32,7 +32,12 @@ impl Circulation {
         };
         let rows = wheel.harmonics.iter().zip(segments).map(of).collect::<Option<_>>()?;
         let longest = segments.iter().map(|segment| segment.length).max().unwrap_or(0);
-        Some(Self { rate, rows, all: (0..longest).collect(), pushed: Aligned::zeros(2 * longest) })
+        Some(Self {
+            rate: rate.clone(),
+            rows,
+            all: (0..longest).collect(),
+            pushed: Aligned::zeros(2 * longest),
+        })
     }
 
     /// Adds what acts on the displacements `z` of nodal diameter `index`, `revolutions` after the start, to its `forces`.

@@ -78,7 +78,8 @@ impl Drive {
         };
         let euler = effects.euler_force.map(|force| Excitation::euler(force, segments));
         let excitations: Vec<_> = effects.excitation.iter().map(engine_order).chain(euler).collect();
-        let circulation = effects.euler_force.and_then(|force| Circulation::new(force.rate, wheel, segments));
+        let circulation =
+            effects.euler_force.and_then(|force| Circulation::new(&force.rate, wheel, segments));
         let excited = |index: usize| {
             circulation.is_some() || excitations.iter().any(|excitation| excitation.harmonic == index)
         };

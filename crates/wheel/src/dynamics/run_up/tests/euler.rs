@@ -6,7 +6,7 @@ use super::super::profile::SpeedProfile;
 use super::super::segments::Cutting;
 use super::nodes;
 use crate::dynamics::effects::Effects;
-use crate::dynamics::euler::{EulerForce, SpeedRate};
+use crate::dynamics::euler::{EulerForce, SpeedRate, StraightRate};
 use crate::dynamics::initial::InitialMode;
 use crate::dynamics::integrate::{Part, Simulation};
 use crate::dynamics::modal_wheel::{ModalHarmonic, ModalWheel};
@@ -71,10 +71,7 @@ fn stepped(profile: &SpeedProfile, scheme: Scheme, turning: bool, tolerance_rad:
     let mut end_s = 0.0;
     for segment in cutting.segments(profile).unwrap() {
         let wheel = wheel(segment.speed_rad_s, turning);
-        let revolutions = [segment.first_sample, segment.first_sample + segment.samples]
-            .map(|sample| sample as f64 / SAMPLES as f64);
-        let rate = SpeedRate { revolutions, rad_s2: profile.straight_rates(segment.times_s) };
-        let force = EulerForce { rate, load: LOAD.to_vec() };
+        let force = EulerForce { rate: profile.rates(segment.times_s), load: LOAD.to_vec() };
         let stretch = Simulation {
             wheel: &wheel,
             contact_nodes: &nodes[..1],
@@ -161,7 +158,7 @@ fn off(found: &State, expected: &State) -> f64 {
 #[test]
 fn the_euler_force_is_that_of_the_rotating_frame() {
     let points = [(0.0, 60.0), (0.05, 110.0), (0.1, 200.0), (0.15, 80.0)];
-    let profiles = [SpeedProfile::smooth(&points), SpeedProfile::linear(&[(0.0, 200.0), (0.1, 60.0)])];
+    let profiles = [SpeedProfile::smooth(&points), SpeedProfile::linear(&points)];
     let all = Scheme::MasslessBoundary { kept_modes: MODES };
     for (profile, scheme) in profiles.iter().flat_map(|profile| {
         [Scheme::ExactModal, Scheme::CentralDifferences, all].map(|scheme| (profile, scheme))
@@ -173,7 +170,8 @@ fn the_euler_force_is_that_of_the_rotating_frame() {
             let errors = [off(&coarse, &exact), off(&fine, &exact)];
             assert!(errors[1] < 1e-3, "{scheme:?} {turning}: {errors:?}");
             if turning {
-                assert!(errors[1] < 0.4 * errors[0], "{errors:?}");
+                // A corner lies within a step.
+                assert!(errors[1] < 0.4 * errors[0] || errors[1] < 1e-4, "{errors:?}");
                 let without = off(&integrated(profile, turning, 0.0, end_s), &exact);
                 assert!(without > 20.0 * errors[1], "{without} {errors:?}");
             }
@@ -198,8 +196,8 @@ fn what_follows_is_handed_on_without_a_blow() {
     let nodes = nodes();
     let damping = ModalDamping { modal_ratio: 0.2, family_ratios: Vec::new() };
     // Only the fast mode is loaded, by a rate of 1.
-    let (rate, load) =
-        (SpeedRate { revolutions: [0.0, 10.0], rad_s2: [1.0; 2] }, vec![0.0, omega[1].powi(2)]);
+    let rate = SpeedRate(vec![StraightRate { revolutions: [0.0, 10.0], rad_s2: [1.0; 2] }]);
+    let load = vec![0.0, omega[1].powi(2)];
     let force = EulerForce { rate, load };
     let mut modes = vec![InitialMode { harmonic: 0, family: 1, displacement: c64::ONE, velocity: c64::ZERO }];
     for part in 0..20 {
