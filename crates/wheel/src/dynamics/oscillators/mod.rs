@@ -407,11 +407,6 @@ impl Coefficients {
         self.stiffness[mode] = omega * omega;
     }
 
-    /// Whether a mode is where its forces hold it, wherever it was.
-    fn follows(&self, mode: usize) -> bool {
-        self.keep[mode] == 0.0 && (self.pull[mode] - 1.0).abs() < 1e-12
-    }
-
     #[inline(always)]
     fn of<S: Simd>(&self, segment: Segment) -> Slices<'_, S> {
         let range = segment.modes..segment.modes + segment.length;

@@ -83,7 +83,8 @@ impl Scheme {
         }
     }
 
-    /// d = z(0) − z(−h) of the free motion with z(0) = `displacement` and ż(0) = `velocity`; 0 for a mode that follows statically.
+    /// d = z(0) − z(−h) of the free motion with z(0) = `displacement` and ż(0) = `velocity`; of a mode that follows statically, which has no
+    /// past, from where nothing moves it.
     pub fn first_increment(
         self,
         (omega, zeta): (f64, f64),
@@ -92,7 +93,7 @@ impl Scheme {
         follow: bool,
     ) -> f64 {
         match self {
-            Self::ExactModal if follow && exact_modal::follows(omega, h) => 0.0,
+            Self::ExactModal if follow && exact_modal::follows(omega, h) => displacement,
             Self::CentralDifferences => {
                 central_differences::first_increment(omega, zeta, h, displacement, velocity)
             }

@@ -174,10 +174,6 @@ impl Drive {
             for start in segment.parts() {
                 for m in 0..segment.integrated {
                     let mode = segment.modes + m;
-                    // One that follows has no past.
-                    if coefficients.follows(mode) {
-                        continue;
-                    }
                     let share = coefficients.receptance[mode] / (1.0 + coefficients.keep[mode]);
                     state.d[start + m] += sign * share * self.swing[start + m];
                 }
