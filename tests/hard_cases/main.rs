@@ -37,6 +37,8 @@ mod stability_limit;
 mod stiffness_contrast;
 mod support;
 mod symmetry_breaking;
+#[path = "../physics/to_the_end.rs"]
+mod to_the_end;
 mod unbounded_growth;
 mod units;
 mod zero_clearance;

@@ -4,16 +4,16 @@
 //! energy identity holds in every piece, no scheme loses or gains energy where the state is handed on, tips stay out of the casing; a run that
 //! ends where it swings most says that it does.
 
-use rubmap::analysis::monitor::Unwatched;
 use rubmap::analysis::request::RunUpRequest;
 use rubmap::analysis::result::{RunUpEnd, RunUps};
-use rubmap::analysis::run::{MeshFacts, ModelFacts, ReducedSector, resolve_run_ups, run_up_leg, run_ups};
+use rubmap::analysis::run::{MeshFacts, ModelFacts, ReducedSector, resolve_run_ups};
 use rubmap::dynamics::sector::SectorModel;
 use serde_json::{Value, json};
 
 use crate::closing_clearances::growing;
 use crate::fixtures::{TOP_SPEED, WheelRecipe, wheel};
 use crate::support::{ENERGY_TOLERANCE, SCHEMES, merge, reduced};
+use crate::to_the_end::to_the_end;
 
 fn told(sector: &SectorModel, reduced: &ReducedSector, scheme: &str, changes: Value) -> RunUps {
     let mut request = json!({
@@ -33,16 +33,7 @@ fn told(sector: &SectorModel, reduced: &ReducedSector, scheme: &str, changes: Va
     // As of a model with elements, of which growth is known.
     let mesh = Some(MeshFacts { elements: 1, sets: Vec::new(), tip_thickness: None });
     let facts = ModelFacts { mesh, ..ModelFacts::of(sector) };
-    let asked = resolve_run_ups(request, &facts).unwrap();
-    let (mut legs, mut course) = (Vec::new(), None);
-    loop {
-        let (leg, next) = run_up_leg(reduced, &asked, course, &Unwatched).unwrap();
-        legs.push(leg);
-        course = next;
-        if course.is_none() {
-            return run_ups(&asked, &facts, legs).unwrap();
-        }
-    }
+    to_the_end(reduced, &resolve_run_ups(request, &facts).unwrap(), &facts)
 }
 
 #[track_caller]

@@ -6,13 +6,15 @@ use faer::c64;
 use rubmap::analysis::euler_load::EulerLoad;
 use rubmap::analysis::monitor::Unwatched;
 use rubmap::analysis::result::PointStatus;
-use rubmap::analysis::run::{ModelFacts, ReducedSector, prepare, resolve_run_ups, run_up_leg, run_ups};
+use rubmap::analysis::run::{ModelFacts, ReducedSector, prepare, resolve_run_ups};
 use rubmap::dynamics::euler::modal_load;
 use rubmap::dynamics::modal_wheel::{ModalWheel, RotationEffects};
 use rubmap::dynamics::reduction::{BasisRows, Checkpoints};
 use rubmap::impeller::{AnnulusParameters, annulus};
 use rubmap::package::{self, Limits};
 use serde_json::json;
+
+use crate::to_the_end::to_the_end;
 
 /// Keeps the rows of nodal diameter 0.
 #[derive(Default)]
@@ -122,16 +124,7 @@ fn run_ups_have_the_euler_force_where_it_is_named() {
 /// Largest displacement of the last whole frame of the only run.
 fn last_largest(reduced: &ReducedSector, facts: &ModelFacts, request: serde_json::Value) -> f64 {
     let asked = resolve_run_ups(serde_json::from_value(request).unwrap(), facts).unwrap();
-    let (mut legs, mut course) = (Vec::new(), None);
-    loop {
-        let (leg, next) = run_up_leg(reduced, &asked, course, &Unwatched).unwrap();
-        legs.push(leg);
-        course = next;
-        if course.is_none() {
-            break;
-        }
-    }
-    let told = run_ups(&asked, facts, legs).unwrap();
+    let told = to_the_end(reduced, &asked, facts);
     let run = &told.runs[0];
     let end = run.end.as_ref().unwrap();
     assert!(end.status == PointStatus::Completed && end.energy_residual < 1e-9, "{end:?}");

@@ -22,4 +22,6 @@ mod presets;
 mod random_wheels;
 mod sector;
 mod singular_mass;
+#[path = "../physics/to_the_end.rs"]
+mod to_the_end;
 mod wheel;

@@ -18,3 +18,4 @@ mod plain_agreement;
 mod run_ups;
 mod schemes;
 mod sweep;
+mod to_the_end;

@@ -6,16 +6,15 @@ use std::f64::consts::TAU;
 use faer::{Mat, c64};
 use rubmap::analysis::monitor::Unwatched;
 use rubmap::analysis::request::{RunUpRequest, SweepRequest};
-use rubmap::analysis::result::{PointStatus, RunUpFrame, RunUpLeg, RunUps};
-use rubmap::analysis::run::{
-    ModelFacts, ReducedSector, prepare, resolve_run_ups, resolve_sweep, run_speed, run_up_leg, run_ups,
-};
+use rubmap::analysis::result::{PointStatus, RunUpFrame, RunUps};
+use rubmap::analysis::run::{ModelFacts, ReducedSector, prepare, resolve_run_ups, resolve_sweep, run_speed};
 use rubmap::dynamics::modal_wheel::{ModalWheel, RotationEffects};
 use rubmap::dynamics::reduction::NoCheckpoints;
 use rubmap::dynamics::sector::SectorModel;
 use serde_json::{Value, json};
 
 use crate::fixtures::{TOP_SPEED, WheelRecipe, wheel};
+use crate::to_the_end::to_the_end;
 
 /// A wheel, and the speed at which an engine order meets the lowest mode of its nodal diameter.
 struct Driven {
@@ -64,16 +63,8 @@ impl Driven {
             request[field] = value.clone();
         }
         let request: RunUpRequest = serde_json::from_value(request).unwrap();
-        let asked = resolve_run_ups(request, &ModelFacts::of(&self.sector)).unwrap();
-        let (mut legs, mut course) = (Vec::<RunUpLeg>::new(), None);
-        loop {
-            let (leg, next) = run_up_leg(&self.reduced, &asked, course, &Unwatched).unwrap();
-            legs.push(leg);
-            course = next;
-            if course.is_none() {
-                return run_ups(&asked, &ModelFacts::of(&self.sector), legs).unwrap();
-            }
-        }
+        let facts = ModelFacts::of(&self.sector);
+        to_the_end(&self.reduced, &resolve_run_ups(request, &facts).unwrap(), &facts)
     }
 
     /// Half peak-to-peak at steady speeds, each from where the one before ended.

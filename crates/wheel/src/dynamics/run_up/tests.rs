@@ -229,6 +229,33 @@ fn a_drift_is_linear_between_its_ends() {
     }
 }
 
+/// A wheel that nothing touches, in so many steps and samples of a revolution.
+fn untouched<'a>(
+    (wheel, contact_nodes): (&'a ModalWheel, &'a [ContactNode]),
+    damping: &'a ModalDamping,
+    effects: Effects<'a>,
+    initial: &'a [InitialMode],
+    (steps_per_revolution, samples_per_revolution): (usize, usize),
+) -> Simulation<'a> {
+    Simulation {
+        wheel,
+        contact_nodes,
+        damping: Some(damping),
+        casing: None,
+        effects,
+        initial,
+        sensors: &[],
+        scheme: Scheme::ExactModal,
+        steps_per_revolution,
+        samples_per_revolution,
+        revolutions: 1,
+        window_revolutions: 0,
+        repeats: None,
+        detail: None,
+        states: None,
+    }
+}
+
 /// One degree of freedom of mass 1.
 struct Oscillator {
     omega: f64,
@@ -258,25 +285,14 @@ impl Oscillator {
         let (mut state, mut found) = (Vec::new(), Vec::new());
         for segment in segments {
             let wheel = self.wheel(segment.speed_rad_s);
+            let effects = Effects { excitation: &excitation, ..Effects::default() };
+            let sizes = (16 * samples, samples);
             let stretch: Stretch = Simulation {
-                wheel: &wheel,
-                contact_nodes: nodes,
-                damping: Some(&damping),
-                casing: None,
-                effects: Effects { excitation: &excitation, ..Effects::default() },
-                initial: &state,
                 sensors: &[SensorRow {
                     direction: Direction { node: 0, components: [0.0, 0.0, 1.0] },
                     sector: 0,
                 }],
-                scheme: Scheme::ExactModal,
-                steps_per_revolution: 16 * samples,
-                samples_per_revolution: samples,
-                revolutions: 1,
-                window_revolutions: 0,
-                repeats: None,
-                detail: None,
-                states: None,
+                ..untouched((&wheel, nodes), &damping, effects, &state, sizes)
             }
             .stretch(Part { first_sample: segment.first_sample, samples: segment.samples }, &|_| true);
             assert_eq!(stretch.ended, None);

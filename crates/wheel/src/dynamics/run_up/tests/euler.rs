@@ -4,7 +4,7 @@ use faer::{Mat, c64};
 
 use super::super::profile::SpeedProfile;
 use super::super::segments::Cutting;
-use super::nodes;
+use super::{nodes, untouched};
 use crate::dynamics::effects::Effects;
 use crate::dynamics::euler::{EulerForce, SpeedRate, StraightRate};
 use crate::dynamics::initial::InitialMode;
@@ -72,24 +72,10 @@ fn stepped(profile: &SpeedProfile, scheme: Scheme, turning: bool, tolerance_rad:
     for segment in cutting.segments(profile).unwrap() {
         let wheel = wheel(segment.speed_rad_s, turning);
         let force = EulerForce { rate: profile.rates(segment.times_s), load: LOAD.to_vec() };
-        let stretch = Simulation {
-            wheel: &wheel,
-            contact_nodes: &nodes[..1],
-            damping: Some(&damping),
-            casing: None,
-            effects: Effects { euler_force: Some(&force), ..Effects::default() },
-            initial: &modes,
-            sensors: &[],
-            scheme,
-            steps_per_revolution: 4 * SAMPLES,
-            samples_per_revolution: SAMPLES,
-            revolutions: 1,
-            window_revolutions: 0,
-            repeats: None,
-            detail: None,
-            states: None,
-        }
-        .stretch(Part { first_sample: segment.first_sample, samples: segment.samples }, &|_| true);
+        let effects = Effects { euler_force: Some(&force), ..Effects::default() };
+        let of = untouched((&wheel, &nodes[..1]), &damping, effects, &modes, (4 * SAMPLES, SAMPLES));
+        let stretch = Simulation { scheme, ..of }
+            .stretch(Part { first_sample: segment.first_sample, samples: segment.samples }, &|_| true);
         assert_eq!(stretch.ended, None);
         assert!(stretch.energy.residual() < 1e-9, "{}", stretch.energy.residual());
         (modes, end_s) = (stretch.end, segment.times_s[1]);
@@ -201,25 +187,10 @@ fn what_follows_is_handed_on_without_a_blow() {
     let force = EulerForce { rate, load };
     let mut modes = vec![InitialMode { harmonic: 0, family: 1, displacement: c64::ONE, velocity: c64::ZERO }];
     for part in 0..20 {
-        let stretch = Simulation {
-            wheel: &wheel,
-            contact_nodes: &nodes[..1],
-            damping: Some(&damping),
-            casing: None,
-            effects: Effects { euler_force: Some(&force), ..Effects::default() },
-            initial: &modes,
-            sensors: &[],
-            scheme: Scheme::ExactModal,
-            // ωh = 10.5.
-            steps_per_revolution: 240,
-            samples_per_revolution: 24,
-            revolutions: 1,
-            window_revolutions: 0,
-            repeats: None,
-            detail: None,
-            states: None,
-        }
-        .stretch(Part { first_sample: 12 * part, samples: 12 }, &|_| true);
+        let effects = Effects { euler_force: Some(&force), ..Effects::default() };
+        // ωh = 10.5.
+        let stretch = untouched((&wheel, &nodes[..1]), &damping, effects, &modes, (240, 24))
+            .stretch(Part { first_sample: 12 * part, samples: 12 }, &|_| true);
         modes = stretch.end;
         let still = 0.5 * omega[1].powi(2);
         assert!((stretch.energy.largest_energy() / still - 1.0).abs() < 1e-6, "{:?}", stretch.energy);
