@@ -502,7 +502,7 @@ fn cyclic_faces() {
         ),
         case(
             |f| f.json(|j| j["cyclic"][1] = json!([2, 2])),
-            "sector.json, /cyclic/1: node 2 is paired with itself; the high node is another node, the low one turned by +2π/N",
+            "sector.json, /cyclic/1: node 2 is paired with itself; the high node is another node, the low one turned by +2π/N; a node on the axis must be clamped",
             (JSON, None, Some("/cyclic/1")),
         ),
         case(
@@ -555,6 +555,32 @@ fn cyclic_faces() {
             },
             "sector.json, /cyclic/0: nodes 1 and 5 are free but lie on the axis, a point that all sectors share and no pair can describe; clamp them or give the hub a bore",
             (JSON, None, Some("/cyclic/0")),
+        ),
+        case(
+            |f| f.json(|j| j["cyclic"] = json!([[1, 5]])),
+            "sector.json, /cyclic: node 2 turned by +2π/3 is node 6, both are free, and they are no pair: the wheel would have a slit there; name every pair of nodes on the two faces, those at the middle of edges too, or clamp both nodes",
+            (JSON, None, Some("/cyclic")),
+        ),
+        case(
+            // The nodes of the second pair, moved to the axis and in no pair any more.
+            |f| {
+                f.json(|j| j["cyclic"] = json!([[1, 5]]));
+                f.line("nodes.csv", 2, "2,0,0,5");
+            },
+            "sector.json, /cyclic: node 2 is free but lies on the axis, a point that all sectors share: without a pair every sector would have an axis of its own; clamp it or give the hub a bore",
+            (JSON, None, Some("/cyclic")),
+        ),
+        case(
+            // Low and high swapped, and one node 0.1 off.
+            |f| {
+                f.json(|j| j["cyclic"] = json!([[5, 1], [6, 2]]));
+                let line = f.text("nodes.csv").lines().nth(4).expect("node 6").to_owned();
+                let (rest, z) = line.rsplit_once(',').expect("fields");
+                let off = format!("{rest},{}", z.parse::<f64>().expect("a number") + 0.1);
+                f.line("nodes.csv", 5, &off);
+            },
+            "sector.json, /cyclic/1: high node 2 is 1.000e-1 away from low node 6 turned by −2π/3 about the axis (tolerance 2.153e-4; the worst pair); the pairs fit the turn by −2π/N better than that by +2π/N: swap low and high, or reverse the axis direction, and check the positions of the nodes",
+            (JSON, None, Some("/cyclic/1")),
         ),
     ]);
 }

@@ -12,5 +12,6 @@ mod gyroscopic;
 mod mesh;
 mod npz;
 mod sample;
+mod shared_cases;
 mod shared_models;
 mod wheel;

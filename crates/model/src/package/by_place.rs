@@ -11,7 +11,10 @@ const TOLERANCE: f64 = 1e-5;
 /// Nodes within the tolerance of a place that are compared.
 const MOST_NEAR: usize = 100;
 
-/// Nodes by the cell of a grid they lie in; cells are as wide as the tolerance.
+/// Width of a cell over the tolerance: so wide that most places have all that is near them in one cell.
+const CELL: f64 = 8.0;
+
+/// Nodes by the cell of a grid that they lie in.
 pub(super) struct Places {
     cells: HashMap<[i64; 3], Vec<usize>>,
     nodes: Vec<(u64, [f64; 3])>,
@@ -28,20 +31,18 @@ impl Places {
     pub(super) fn new(nodes: Vec<(u64, [f64; 3])>, tolerance: f64) -> Self {
         let mut cells: HashMap<_, Vec<usize>> = HashMap::new();
         for (k, (_, position)) in nodes.iter().enumerate() {
-            cells.entry(cell(*position, tolerance)).or_default().push(k);
+            cells.entry(cell(*position, CELL * tolerance)).or_default().push(k);
         }
         Self { cells, nodes, tolerance }
     }
 
     /// The node nearest to `position` within the tolerance.
     pub(super) fn near(&self, position: [f64; 3]) -> Option<u64> {
-        let [i, j, k] = cell(position, self.tolerance);
+        let corner = |sign: f64| cell(position.map(|x| x + sign * self.tolerance), CELL * self.tolerance);
+        let (from, to) = (corner(-1.0), corner(1.0));
         // Of a mesh that is finer than the tolerance no more than a few are looked at.
-        let around = (-1..=1).flat_map(|a| {
-            (-1..=1).flat_map(move |b| {
-                (-1..=1).map(move |c| [i.saturating_add(a), j.saturating_add(b), k.saturating_add(c)])
-            })
-        });
+        let around = (from[0]..=to[0])
+            .flat_map(|i| (from[1]..=to[1]).flat_map(move |j| (from[2]..=to[2]).map(move |k| [i, j, k])));
         let close = around.filter_map(|cell| self.cells.get(&cell)).flatten().copied().take(MOST_NEAR);
         let found = self.nearest(close, position).filter(|near| near.distance <= self.tolerance)?;
         Some(found.node)

@@ -191,6 +191,27 @@ pub enum ModelProblem {
     /// A low node without partner.
     #[error("low {0}; mesh the two faces alike (periodic), and check --sectors and --axis")]
     NoPartner(NoCopy),
+    /// Free node on the axis of several sectors.
+    #[error(
+        "node {node} is free but lies on the axis, a point that all sectors share; clamp it with *BOUNDARY or give the hub a bore"
+    )]
+    FreeOnAxis {
+        /// Node.
+        node: u64,
+    },
+    /// Two free nodes one sector apart that the faces do not pair.
+    #[error(
+        "node {low} turned by 2π/{sectors} is node {high}, both are free, but they are not among the nodes of the two faces: the \
+         wheel would have a slit there. Give node sets with all nodes of the faces, those at the middle of edges too"
+    )]
+    PairMissing {
+        /// Node on the low side.
+        low: u64,
+        /// Node on the high side.
+        high: u64,
+        /// N.
+        sectors: usize,
+    },
     /// Face nodes that were eliminated by a tie.
     #[error(
         "node {node} of the {face} face has no DOF in {}, its partner {partner} has: the cyclic tie was active when the \

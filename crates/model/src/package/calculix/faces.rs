@@ -9,6 +9,8 @@ use super::matrices::DofList;
 use super::model::CalculixModel;
 use super::sets::set;
 use crate::package::by_place::Places;
+use crate::package::check::slits::{self, Unpaired};
+use crate::package::raw::RawDof;
 use rubmap_solid::frame::AxisFrame;
 
 /// Nodes of the low and of the high face; the latter empty for a whole wheel, both for a single blade whose faces
@@ -32,7 +34,8 @@ pub(super) fn faces(
     Ok((low, if model.whole_wheel { Vec::new() } else { high()? }))
 }
 
-/// Pairs of low and high nodes, and whether the faces were given the other way round.
+/// Pairs of low and high nodes, and whether the faces were given the other way round. Of faces that fit neither way, the
+/// problem of the way they fit better.
 pub(super) fn pair(
     low: &[u64],
     high: &[u64],
@@ -45,20 +48,46 @@ pub(super) fn pair(
         return Err(ModelProblem::FaceSizes { low: low.len(), high: high.len() });
     }
     let alpha = TAU / sectors as f64;
-    let turned = |low: &[u64], high: &[u64]| -> Result<Vec<[u64; 2]>, ModelProblem> {
+    let turned = |low: &[u64], high: &[u64]| -> Result<Vec<[u64; 2]>, NoCopy> {
         let places = Places::new(high.iter().map(|node| (*node, positions[node])).collect(), tolerance);
         let partner = |&node: &u64| match places.at(frame.turn_point(positions[&node], alpha)) {
             Ok(high) => Ok([node, high]),
             Err(near) => {
                 let (nearest, distance) = (near.node, near.distance);
-                Err(ModelProblem::NoPartner(NoCopy { node, sectors, tolerance, nearest, distance }))
+                Err(NoCopy { node, sectors, tolerance, nearest, distance })
             }
         };
         low.iter().map(partner).collect()
     };
     match turned(low, high) {
         Ok(pairs) => Ok((pairs, false)),
-        Err(problem) => turned(high, low).map(|pairs| (pairs, true)).map_err(|_| problem),
+        Err(forward) => match turned(high, low) {
+            Ok(pairs) => Ok((pairs, true)),
+            Err(backward) => {
+                let nearer = if backward.distance < forward.distance { backward } else { forward };
+                Err(ModelProblem::NoPartner(nearer))
+            }
+        },
+    }
+}
+
+/// Refuses free nodes of `dofs` that need a pair and are in none of `pairs`: faces without their mid-edge nodes, or with holes.
+pub(super) fn check_all_paired(
+    dofs: &[RawDof],
+    pairs: &[[u64; 2]],
+    positions: &HashMap<u64, [f64; 3]>,
+    frame: &AxisFrame,
+    sectors: usize,
+    tolerance: f64,
+) -> Result<(), ModelProblem> {
+    let paired: HashSet<u64> = pairs.iter().flatten().copied().collect();
+    let mut seen = HashSet::new();
+    let free = dofs.iter().map(|dof| dof.node).filter(|node| seen.insert(*node));
+    let free = free.map(|node| (node, positions[&node])).collect();
+    match slits::find(free, |node| paired.contains(&node), frame, sectors, tolerance) {
+        None => Ok(()),
+        Some(Unpaired::OnAxis { node }) => Err(ModelProblem::FreeOnAxis { node }),
+        Some(Unpaired::Slit { low, high }) => Err(ModelProblem::PairMissing { low, high, sectors }),
     }
 }
 
@@ -78,4 +107,57 @@ pub(super) fn check_ties(pairs: &[[u64; 2]], dofs: &DofList) -> Result<(), Model
         }
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Three nodes on each of two radial planes 2π/7 apart, as high as `top` on the second.
+    fn planes(top: f64) -> HashMap<u64, [f64; 3]> {
+        let at = |r: f64, theta: f64, z: f64| [r * theta.cos(), r * theta.sin(), z];
+        let alpha = TAU / 7.0;
+        HashMap::from([
+            (1, at(40.0, 0.2, 0.0)),
+            (2, at(50.0, 0.2, 0.0)),
+            (3, at(50.0, 0.2, 5.0)),
+            (11, at(40.0, 0.2 + alpha, 0.0)),
+            (12, at(50.0, 0.2 + alpha, 0.0)),
+            (13, at(50.0, 0.2 + alpha, top)),
+        ])
+    }
+
+    fn paired(low: &[u64], high: &[u64], top: f64) -> Result<(Vec<[u64; 2]>, bool), ModelProblem> {
+        let frame = AxisFrame::new([0.0; 3], [0.0, 0.0, 1.0]).unwrap();
+        pair(low, high, &planes(top), &frame, 7, 1e-3)
+    }
+
+    #[test]
+    fn faces_pair_in_either_order() {
+        let (low, high) = ([1, 2, 3], [12, 13, 11]);
+        assert_eq!(paired(&low, &high, 5.0).unwrap(), (vec![[1, 11], [2, 12], [3, 13]], false));
+        assert_eq!(paired(&high, &low, 5.0).unwrap(), (vec![[1, 11], [2, 12], [3, 13]], true));
+    }
+
+    #[test]
+    fn a_node_without_partner_is_reported_for_the_turn_that_fits_better() {
+        let (low, high) = ([1, 2, 3], [12, 13, 11]);
+        for (first, second) in [(low, high), (high, low)] {
+            let Err(ModelProblem::NoPartner(problem)) = paired(&first, &second, 5.1) else {
+                panic!("node 3 has no partner");
+            };
+            assert_eq!((problem.node, problem.nearest), (3, 13));
+            assert!((problem.distance - 0.1).abs() < 1e-9, "{}", problem.distance);
+        }
+    }
+
+    #[test]
+    fn faces_without_some_of_their_nodes_leave_a_slit() {
+        let frame = AxisFrame::new([0.0; 3], [0.0, 0.0, 1.0]).unwrap();
+        let dofs: Vec<RawDof> = planes(5.0).into_keys().map(|node| RawDof { node, component: 1 }).collect();
+        let check = |pairs: &[[u64; 2]]| check_all_paired(&dofs, pairs, &planes(5.0), &frame, 7, 1e-3);
+        assert!(check(&[[1, 11], [2, 12], [3, 13]]).is_ok());
+        let slit = check(&[[1, 11], [2, 12]]).unwrap_err();
+        assert!(matches!(slit, ModelProblem::PairMissing { low: 3, high: 13, sectors: 7 }), "{slit}");
+    }
 }

@@ -41,7 +41,7 @@ use super::raw::{
     Axis, Frame, Manifest, ManifestContact, ManifestMesh, RawElement, RawMatrix, RawNode, RawPackage,
 };
 use deck::Deck;
-use faces::{check_ties, faces, pair};
+use faces::{check_all_paired, check_ties, faces, pair};
 use matrices::DofList;
 use rubmap_solid::frame::AxisFrame;
 use sets::set;
@@ -125,6 +125,7 @@ pub fn import(model: &CalculixModel) -> Result<(RawPackage, ImportSummary), Calc
         check_ties(&pairs, &rest)?;
         (pairs, rest.dofs, contact_set.to_vec())
     };
+    check_all_paired(&dofs, &pairs, &positions, &frame, sectors, tolerance)?;
     let of_elements = kept.iter().flat_map(|(_, elements)| elements).flat_map(|element| &element.nodes);
     let in_sector: HashSet<u64> = (dofs.iter().map(|dof| dof.node))
         .chain(pairs.iter().flatten().copied())

@@ -3,14 +3,12 @@
 use std::f64::consts::TAU;
 
 use super::layout::{NONE, components};
+use super::slits::{self, Unpaired};
 use super::tables::NodeIndex;
-use crate::package::error::{ManifestProblem, PackageError};
+use crate::package::by_place;
+use crate::package::error::{ManifestProblem, PackageError, TurnFit};
 use crate::package::raw::{Frame, Manifest, RawPackage};
 use rubmap_solid::frame::{AxisFrame, Basis, distance};
-
-/// Distance between a high node and its turned low node, relative to the diagonal of the sector's bounding box.
-/// Six printed digits stay below it; neighbouring nodes of any usable mesh are far above.
-const PLACE_TOLERANCE: f64 = 1e-5;
 
 /// A clamped direction may be this far (rad) from the one it should be: an axis direction of few digits.
 const DIRECTION_TOLERANCE: f64 = 1e-6;
@@ -23,8 +21,13 @@ pub(super) fn check(
     rows_of_node: &[[u32; 3]],
 ) -> Result<(Vec<u32>, Vec<u32>), PackageError> {
     let (high_of, low_of) = partners(&package.manifest, package.nodes.len(), index)?;
-    check_places(package, frame, &high_of, index)?;
-    check_dofs(package, frame, rows_of_node, index)?;
+    let tolerance = by_place::tolerance(package.nodes.iter().map(|node| node.position));
+    check_places(package, frame, tolerance, index)?;
+    check_dofs(package, frame, tolerance, rows_of_node, index)?;
+    check_all_paired(package, frame, tolerance, rows_of_node, |node| {
+        let node = index[&node] as usize;
+        high_of[node] != NONE || low_of[node] != NONE
+    })?;
     Ok((high_of, low_of))
 }
 
@@ -61,41 +64,62 @@ pub(crate) fn partners(
     Ok((high_of, low_of))
 }
 
+/// Holds every high node against its low node turned by +2π/N. Of pairs that fit neither turn, the turn that they fit better
+/// is the one whose worst pair is reported.
 fn check_places(
     package: &RawPackage,
     frame: &AxisFrame,
-    high_of: &[u32],
+    tolerance: f64,
     index: &NodeIndex,
 ) -> Result<(), PackageError> {
     let sectors = package.manifest.sectors;
     let alpha = TAU / sectors as f64;
-    let tolerance = PLACE_TOLERANCE * diagonal(package);
-    let pairs = || {
-        package.manifest.cyclic.iter().enumerate().map(|(k, &[low, high])| {
+    let worst = |turn: f64| {
+        let pairs = package.manifest.cyclic.iter().enumerate().map(|(k, &[low, high])| {
             let place = |id| package.nodes[index[&id] as usize].position;
-            (k, low, high, place(low), place(high))
-        })
+            (distance(frame.turn_point(place(low), turn), place(high)), k, low, high)
+        });
+        pairs.max_by(|a, b| a.0.total_cmp(&b.0))
     };
-    let off = |turn: f64, low, high| distance(frame.turn_point(low, turn), high);
-    let worst = pairs()
-        .map(|(k, low, high, from, to)| (off(alpha, from, to), k, low, high))
-        .max_by(|a, b| a.0.total_cmp(&b.0));
-    let Some((distance, k, low, high)) = worst.filter(|(distance, ..)| *distance > tolerance) else {
+    let Some(forward) = worst(alpha).filter(|(distance, ..)| *distance > tolerance) else {
         return Ok(());
     };
-    debug_assert!(high_of.iter().any(|high| *high != NONE));
-    let reversed = pairs().all(|(.., from, to)| off(-alpha, from, to) <= tolerance);
-    let problem = ManifestProblem::PairNotTurned { low, high, distance, tolerance, sectors, reversed };
+    let backward = worst(-alpha).filter(|backward| backward.0 < forward.0);
+    let (fit, (distance, k, low, high)) = match backward {
+        Some((distance, ..)) if distance <= tolerance => (TurnFit::Reversed, forward),
+        Some(backward) => (TurnFit::NearerReversed, backward),
+        None => (TurnFit::Forward, forward),
+    };
+    let problem = ManifestProblem::PairNotTurned { low, high, distance, tolerance, sectors, fit };
     Err(PackageError::manifest(format!("/cyclic/{k}"), problem))
+}
+
+/// Refuses free nodes that need a pair and have none.
+fn check_all_paired(
+    package: &RawPackage,
+    frame: &AxisFrame,
+    tolerance: f64,
+    rows_of_node: &[[u32; 3]],
+    paired: impl Fn(u64) -> bool,
+) -> Result<(), PackageError> {
+    let free = package.nodes.iter().zip(rows_of_node).filter(|(_, rows)| **rows != [NONE; 3]);
+    let free = free.map(|(node, _)| (node.id, node.position)).collect();
+    let sectors = package.manifest.sectors;
+    let problem = match slits::find(free, paired, frame, sectors, tolerance) {
+        None => return Ok(()),
+        Some(Unpaired::OnAxis { node }) => ManifestProblem::FreeOnAxis { node },
+        Some(Unpaired::Slit { low, high }) => ManifestProblem::PairMissing { low, high, sectors },
+    };
+    Err(PackageError::manifest("/cyclic", problem))
 }
 
 fn check_dofs(
     package: &RawPackage,
     frame: &AxisFrame,
+    tolerance: f64,
     rows_of_node: &[[u32; 3]],
     index: &NodeIndex,
 ) -> Result<(), PackageError> {
-    let on_axis = PLACE_TOLERANCE * diagonal(package);
     let turned = frame.turned_global(TAU / package.manifest.sectors as f64);
     for (k, &[low, high]) in package.manifest.cyclic.iter().enumerate() {
         let rows = |id| &rows_of_node[index[&id] as usize];
@@ -114,7 +138,7 @@ fn check_dofs(
         }
         // With one sector the high face is the low face, on the axis as elsewhere.
         let [r, ..] = frame.coordinates(package.nodes[index[&low] as usize].position);
-        if r <= on_axis && present(rows(low)).contains(&true) && package.manifest.sectors > 1 {
+        if r <= tolerance && present(rows(low)).contains(&true) && package.manifest.sectors > 1 {
             return wrong(ManifestProblem::PairOnAxis { low, high });
         }
     }
@@ -124,17 +148,4 @@ fn check_dofs(
 /// Whether the turn maps the free global directions onto each other: no part of it couples free with clamped ones.
 fn maps_onto_itself(turned: &Basis, free: [bool; 3]) -> bool {
     (0..3).all(|i| (0..3).all(|j| !free[i] || free[j] || turned[(i, j)].abs() <= DIRECTION_TOLERANCE))
-}
-
-/// Diagonal of the bounding box of all nodes.
-fn diagonal(package: &RawPackage) -> f64 {
-    let mut low = [f64::INFINITY; 3];
-    let mut high = [f64::NEG_INFINITY; 3];
-    for node in &package.nodes {
-        for k in 0..3 {
-            low[k] = low[k].min(node.position[k]);
-            high[k] = high[k].max(node.position[k]);
-        }
-    }
-    distance(low, high)
 }

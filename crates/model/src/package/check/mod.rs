@@ -13,6 +13,7 @@ mod materials;
 mod matrices;
 pub(super) mod mesh;
 mod overlap;
+pub(super) mod slits;
 pub(super) mod statement;
 pub(super) mod tables;
 

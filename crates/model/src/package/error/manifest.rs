@@ -153,19 +153,25 @@ pub enum ManifestProblem {
         role: &'static str,
     },
     /// Node paired with itself.
-    #[error("node {node} is paired with itself; the high node is another node, the low one turned by +2π/N")]
+    #[error(
+        "node {node} is paired with itself; the high node is another node, the low one turned by +2π/N; a node on the axis \
+         must be clamped"
+    )]
     PairedWithItself {
         /// Its id.
         node: u64,
     },
     /// Geometry of a pair.
     #[error(
-        "high node {high} is {distance:.3e} away from low node {low} turned by +2π/{sectors} about the axis (tolerance \
+        "high node {high} is {distance:.3e} away from low node {low} turned by {}2π/{sectors} about the axis (tolerance \
          {tolerance:.3e}; the worst pair); {}",
-        if *.reversed {
-            "every pair fits the turn by −2π/N: swap low and high, or reverse the axis direction"
-        } else {
-            "check sectors, axis and the pairing of the nodes"
+        if *.fit == TurnFit::NearerReversed { "−" } else { "+" },
+        match .fit {
+            TurnFit::Forward => "check sectors, axis and the pairing of the nodes",
+            TurnFit::Reversed => "every pair fits the turn by −2π/N: swap low and high, or reverse the axis direction",
+            TurnFit::NearerReversed =>
+                "the pairs fit the turn by −2π/N better than that by +2π/N: swap low and high, or reverse the axis direction, \
+                 and check the positions of the nodes",
         }
     )]
     PairNotTurned {
@@ -179,8 +185,8 @@ pub enum ManifestProblem {
         tolerance: f64,
         /// N.
         sectors: usize,
-        /// Whether every pair fits the turn the other way round.
-        reversed: bool,
+        /// Turn that the pairs fit.
+        fit: TurnFit,
     },
     /// DOF sets of a pair.
     #[error(
@@ -220,6 +226,28 @@ pub enum ManifestProblem {
         low: u64,
         /// High node id.
         high: u64,
+    },
+    /// Free node on the axis of several sectors, in no pair.
+    #[error(
+        "node {node} is free but lies on the axis, a point that all sectors share: without a pair every sector would have an \
+         axis of its own; clamp it or give the hub a bore"
+    )]
+    FreeOnAxis {
+        /// Node id.
+        node: u64,
+    },
+    /// Two free nodes one sector apart that are not a pair.
+    #[error(
+        "node {low} turned by +2π/{sectors} is node {high}, both are free, and they are no pair: the wheel would have a slit \
+         there; name every pair of nodes on the two faces, those at the middle of edges too, or clamp both nodes"
+    )]
+    PairMissing {
+        /// Node on the low face.
+        low: u64,
+        /// Node on the high face.
+        high: u64,
+        /// N.
+        sectors: usize,
     },
     /// A constant or strength that must be positive.
     #[error("the value is {value}; it must be positive")]
@@ -349,6 +377,17 @@ pub enum ManifestProblem {
         /// What would have been accepted.
         tolerance: f64,
     },
+}
+
+/// Turn about the axis that takes low nodes to high nodes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum TurnFit {
+    /// By +2π/N, or no turn at all.
+    Forward,
+    /// By −2π/N, within the tolerance.
+    Reversed,
+    /// By −2π/N more nearly than by +2π/N, but not within the tolerance.
+    NearerReversed,
 }
 
 fn mass_hint(fitting: Option<&str>, length: &str, force: &str, time: &str) -> String {

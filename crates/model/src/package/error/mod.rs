@@ -7,7 +7,7 @@ mod npz;
 mod table;
 
 pub use archive::ArchiveProblem;
-pub use manifest::{Components, ManifestProblem};
+pub use manifest::{Components, ManifestProblem, TurnFit};
 pub use matrix::MatrixProblem;
 pub use npz::{ExpectedShape, NpzProblem};
 pub use table::TableProblem;
