@@ -2,10 +2,10 @@
 
 /// Revision of the numerics: raised with every change after which the same request gives other numbers. What is stored
 /// under another one is computed again.
-pub const REVISION: u32 = 4;
+pub const REVISION: u32 = 5;
 
 /// Version of the code with the revision of its numerics, stamped on every result.
-pub const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), "+numerics.4");
+pub const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), "+numerics.5");
 
 #[cfg(test)]
 mod tests {

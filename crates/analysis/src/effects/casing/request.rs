@@ -149,12 +149,12 @@ pub struct Measured {
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Tilt {
-    /// By how much the wheel's axis leans in the casing, rad.
+    /// Angle by which the casing's axis leans from the wheel's, rad.
     pub angle_rad: f64,
-    /// Towards which angle from the package's x axis its end at larger z leans, rad.
+    /// Angle from the package's x axis towards which the end of the casing's axis at larger z leans, rad.
     #[serde(default)]
     pub towards_rad: f64,
-    /// z of the point about which it leans, in the model's unit of length.
+    /// z of the point about which the casing's axis leans, in the model's unit of length.
     #[serde(default)]
     pub about_z: f64,
 }

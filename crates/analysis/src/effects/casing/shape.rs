@@ -136,11 +136,11 @@ fn is_there(amplitude: f64, along_chord: &Option<Vec<f64>>) -> bool {
 }
 
 impl Tilt {
-    /// With the axis leaning by τ towards ψ about z₀, what is at (r, φ, z) of the casing comes nearer to a tip with the normal n by
-    /// τ ((z − z₀) n_r − r n_z) cos(φ − ψ).
+    /// Heights of a casing whose axis leans by τ towards ψ about z₀, to first order: its surface at (r, φ, z) moves away from a tip
+    /// with the normal n by τ ((z − z₀) n_r − r n_z) cos(φ − ψ), and a height is its move towards the tip.
     fn part(&self, positions: &[[f64; 3]], normals: &[[f64; 3]]) -> Part {
         let near =
-            |([r, _, z], normal): (&[f64; 3], &[f64; 3])| (z - self.about_z) * normal[0] - r * normal[2];
+            |([r, _, z], normal): (&[f64; 3], &[f64; 3])| r * normal[2] - (z - self.about_z) * normal[0];
         let along_chord = Some(positions.iter().zip(normals).map(near).collect());
         let wave = Profile::Wave { order: 1, amplitude: self.angle_rad, phase_rad: self.towards_rad };
         Part { profile: wave, along_chord }
@@ -150,6 +150,7 @@ impl Tilt {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use nalgebra::{Rotation3, Unit, Vector3};
     use rubmap_wheel::dynamics::casing::arc_lengths;
     use rubmap_wheel::dynamics::sector::ContactNode;
     use std::f64::consts::PI;
@@ -288,28 +289,29 @@ mod tests {
         }
     }
 
-    /// The gap between a tip and a leaning cone, by rotating the cone.
+    /// A casing that touches the tips when it is upright, turned as a rigid body: how far its tangent plane at every tip has
+    /// come inward along the tip's normal, without the small-angle formula.
     #[test]
-    fn a_tilt_is_a_small_rotation() {
-        let tilt = Tilt { angle_rad: 1e-6, towards_rad: 0.7, about_z: -3.0 };
+    fn a_tilt_turns_the_casing() {
+        let tilt = Tilt { angle_rad: 1e-5, towards_rad: 0.7, about_z: -3.0 };
         let nodes = nodes();
         let restriction = Shape { tilt: Some(tilt.clone()), ..Shape::default() }.of_nodes(&nodes).unwrap();
+        let axis = Vector3::new(-tilt.towards_rad.sin(), tilt.towards_rad.cos(), 0.0);
+        let lean = Rotation3::from_axis_angle(&Unit::new_normalize(axis), tilt.angle_rad);
+        let (top, centre) = (lean * Vector3::z(), Vector3::new(0.0, 0.0, tilt.about_z));
+        assert!(top.x > 0.0 && top.y > 0.0, "the end at larger z leans towards 0.7 rad");
         for (k, node) in nodes.iter().enumerate() {
             for i in 0..12 {
                 let angle = f64::from(i) * TAU / 12.0;
                 let [r, _, z] = node.position;
-                // The tip, moved as the wheel leans: about the axis across `towards`, by τ, to first order ω × x.
-                let axis = [-tilt.towards_rad.sin(), tilt.towards_rad.cos(), 0.0];
-                let arm = [r * angle.cos(), r * angle.sin(), z - tilt.about_z];
-                let cross = [
-                    axis[1] * arm[2] - axis[2] * arm[1],
-                    axis[2] * arm[0] - axis[0] * arm[2],
-                    axis[0] * arm[1] - axis[1] * arm[0],
-                ];
-                let normal = [node.normal[0] * angle.cos(), node.normal[0] * angle.sin(), node.normal[2]];
-                let outward: f64 = cross.iter().zip(normal).map(|(x, n)| tilt.angle_rad * x * n).sum();
+                let at = Vector3::new(r * angle.cos(), r * angle.sin(), z);
+                let normal =
+                    Vector3::new(node.normal[0] * angle.cos(), node.normal[0] * angle.sin(), node.normal[2]);
+                let (moved, turned) = (lean * (at - centre) + centre, lean * normal);
+                let inward = -(moved - at).dot(&turned) / normal.dot(&turned);
                 let found = restriction.height(angle, k);
-                assert!((found - outward).abs() < 1e-15, "{k} {angle}: {found:e} {outward:e}");
+                // The formula leaves out the square of the angle.
+                assert!((found - inward).abs() < 1e-10 * r, "{k} {angle}: {found:e} {inward:e}");
             }
         }
     }
