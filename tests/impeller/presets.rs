@@ -1,12 +1,17 @@
 //! Presets and requests: sizes, the paper's numbers, and what a user may write.
 
+use std::f64::consts::{PI, TAU};
+
 use rubmap::analysis::run::MeshFacts;
+use rubmap::dynamics::sector::SectorModel;
 use rubmap::impeller::mesh::ElementOrder;
 use rubmap::impeller::{
     ImpellerError, ImpellerParameters, ImpellerRequest, PaperCasing, Preset, SectorDofs, generate,
     impeller_sector,
 };
 use rubmap::package::{Limits, read, read_mesh, write};
+use rubmap::solid::frame::AxisFrame;
+use rubmap::solid::mesh::SectorMesh;
 use serde_json::{Value, json};
 use utoipa::PartialSchema;
 
@@ -55,7 +60,37 @@ fn thickness_at_the_tip_is_found_in_the_mesh() {
         let found = MeshFacts::of(&mesh, &sector).tip_thickness.unwrap();
         println!("{tip}: {found}");
         assert!((0.95 * tip..1.1 * tip).contains(&found), "{tip}: {found}");
+        for side in [1.0, -1.0] {
+            let mut package = generate(&parameters).unwrap();
+            for contact in &mut package.manifest.contact {
+                contact.node = edge_node(&mesh, &sector, contact.node, side * tip);
+            }
+            let file = tempfile::NamedTempFile::new().unwrap();
+            write(&package, &file).unwrap();
+            let on_edge = read(file.path(), &limits).unwrap().sector;
+            let found = MeshFacts::of(&mesh, &on_edge).tip_thickness.expect("a thickness from an edge");
+            println!("{tip} from the edge {side}: {found}");
+            assert!((0.9 * tip..1.15 * tip).contains(&found), "{tip} from the edge {side}: {found}");
+        }
     }
+}
+
+/// Id of the node half a thickness beside contact node `id`: on the tip's edge towards larger θ where `thickness` is positive, else on the
+/// other one.
+fn edge_node(mesh: &SectorMesh, sector: &SectorModel, id: u64, thickness: f64) -> u64 {
+    let frame = AxisFrame::new(mesh.axis.0, mesh.axis.1).unwrap();
+    let contact = sector.contact.iter().find(|contact| contact.id == id).unwrap();
+    let [r, theta, z] = contact.position;
+    let beside = |position: [f64; 3]| {
+        let [its_r, its_theta, its_z] = frame.coordinates(position);
+        // Edges of the tip are as far from the axis as its middle, within what the blade leans.
+        let turn = (its_theta - theta + PI).rem_euclid(TAU) - PI;
+        let away = r * turn * thickness.signum();
+        let off = (its_r - r).hypot(its_z - z);
+        (away > 0.3 * thickness.abs()).then_some(off + (away - 0.5 * thickness.abs()).abs())
+    };
+    let found = mesh.nodes.iter().zip(&mesh.node_ids).filter_map(|(node, id)| Some((beside(*node)?, *id)));
+    found.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap().1
 }
 
 /// 3 %, 2.2 % and 4.25 % of the height at the trailing edge, so that 1.25 % and 2.1 % (2.05) are pushed in.
