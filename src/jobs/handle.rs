@@ -3,6 +3,7 @@
 use std::io::ErrorKind;
 use std::path::PathBuf;
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 use super::choice;
 use super::engine::Engine;
@@ -30,6 +31,9 @@ use crate::tokens::Principal;
 
 /// Memory that reading a package takes, over the size of its zip.
 const EXPANSION: u64 = 12;
+
+/// Time for which the designs of one campaign are checked before other plans have their turn.
+const TURN: Duration = Duration::from_millis(25);
 
 /// A handle on the job runner.
 #[derive(Debug, Clone)]
@@ -97,39 +101,41 @@ impl Jobs {
             Submission::Sweep(mut request) => {
                 let facts = self.facts(whose, &request.model).await?;
                 let placed = self.place(&request.model, &mut request.sensors).await?;
-                let (_, request) = both(placed, run::resolve_sweep(*request, &facts))?;
+                let (_, request) = both(placed, self.resolve(*request, &facts, run::resolve_sweep).await?)?;
                 self.check(&request).await?;
                 (JobRequest::Sweep(Box::new(request)), Some(facts))
             }
             Submission::ModalAnalysis(request) => {
                 let facts = self.facts(whose, &request.model).await?;
-                let request = run::resolve_modal_analysis(*request, &facts).map_err(refused)?;
+                let request =
+                    self.resolve(*request, &facts, run::resolve_modal_analysis).await?.map_err(refused)?;
                 (JobRequest::ModalAnalysis(Box::new(request)), Some(facts))
             }
             Submission::Study(mut request) => {
                 let facts = self.facts(whose, &request.model).await?;
                 let placed = self.place(&request.model, &mut request.sensors).await?;
-                let (_, request) = both(placed, run::resolve_study(*request, &facts))?;
+                let (_, request) = both(placed, self.resolve(*request, &facts, run::resolve_study).await?)?;
                 (JobRequest::Study(Box::new(request)), Some(facts))
             }
             Submission::CaseStudy(mut request) => {
                 let facts = self.facts(whose, &request.model).await?;
                 let placed = self.place(&request.model, &mut request.sensors).await?;
-                let (_, case) = both(placed, run::resolve_case_study(*request, &facts))?;
+                let (_, case) = both(placed, self.resolve(*request, &facts, run::resolve_case_study).await?)?;
                 self.check(case.sweep()).await?;
                 (JobRequest::CaseStudy(Box::new(case)), Some(facts))
             }
             Submission::Branches(mut request) => {
                 let facts = self.facts(whose, &request.model).await?;
                 let placed = self.place(&request.model, &mut request.sensors).await?;
-                let (_, branches) = both(placed, run::resolve_branches(*request, &facts))?;
+                let (_, branches) =
+                    both(placed, self.resolve(*request, &facts, run::resolve_branches).await?)?;
                 self.check(branches.sweep()).await?;
                 (JobRequest::Branches(Box::new(branches)), Some(facts))
             }
             Submission::RunUps(mut request) => {
                 let facts = self.facts(whose, &request.model).await?;
                 let placed = self.place(&request.model, &mut request.sensors).await?;
-                let (_, run_ups) = both(placed, run::resolve_run_ups(*request, &facts))?;
+                let (_, run_ups) = both(placed, self.resolve(*request, &facts, run::resolve_run_ups).await?)?;
                 self.check(run_ups.sweep()).await?;
                 (JobRequest::RunUps(Box::new(run_ups)), Some(facts))
             }
@@ -143,7 +149,9 @@ impl Jobs {
             Submission::Histories(of) => {
                 let (sweep, critical, request) = *of;
                 let facts = self.facts(whose, sweep.model()).await?;
-                let case = run::histories_of(&sweep, &request, &critical, &facts).map_err(refused)?;
+                let held = facts.clone();
+                let resolve = move || run::histories_of(&sweep, &request, &critical, &held);
+                let case = engine.planner.run_while_awaited(resolve).await?.map_err(refused)?;
                 (JobRequest::CaseStudy(Box::new(case)), Some(facts))
             }
             Submission::ModelGeneration(parameters) => (JobRequest::ModelGeneration(parameters), None),
@@ -180,7 +188,8 @@ impl Jobs {
     ) -> Result<SweepPlan, SubmitError> {
         let facts = self.facts(whose, &request.model).await?;
         let placed = self.place(&request.model, &mut request.sensors).await?;
-        let (placed_sensors, mut request) = both(placed, run::resolve_sweep(request, &facts))?;
+        let (placed_sensors, mut request) =
+            both(placed, self.resolve(request, &facts, run::resolve_sweep).await?)?;
         let mut choice = None;
         if request.is_sought() {
             let stored = choice::stored(&self.engine, &request, facts.sectors).await?;
@@ -200,7 +209,7 @@ impl Jobs {
     ) -> Result<BranchesPlan, SubmitError> {
         let facts = self.facts(whose, &request.model).await?;
         let placed = self.place(&request.model, &mut request.sensors).await?;
-        let (_, request) = both(placed, run::resolve_branches(request, &facts))?;
+        let (_, request) = both(placed, self.resolve(request, &facts, run::resolve_branches).await?)?;
         let reduced = self.check(request.sweep()).await?;
         plans::branches(&self.engine, request, facts, reduced).await
     }
@@ -213,7 +222,7 @@ impl Jobs {
     ) -> Result<RunUpPlan, SubmitError> {
         let facts = self.facts(whose, &request.model).await?;
         let placed = self.place(&request.model, &mut request.sensors).await?;
-        let (_, request) = both(placed, run::resolve_run_ups(request, &facts))?;
+        let (_, request) = both(placed, self.resolve(request, &facts, run::resolve_run_ups).await?)?;
         let reduced = self.check(request.sweep()).await?;
         plans::run_ups(&self.engine, request, facts, reduced).await
     }
@@ -233,7 +242,20 @@ impl Jobs {
         plans::campaign(&self.engine, campaign, own, compared).await
     }
 
-    /// Resolves a campaign against its models, all of its designs; gives their facts, too.
+    /// Resolves `request` against its model on the planning thread: tables, cuts and designs take longer than a thread that
+    /// serves requests may be away.
+    async fn resolve<Q: Send + 'static, T: Send + 'static>(
+        &self,
+        request: Q,
+        facts: &run::ModelFacts,
+        resolve: fn(Q, &run::ModelFacts) -> Result<T, Vec<Violation>>,
+    ) -> Result<Result<T, Vec<Violation>>, SubmitError> {
+        let facts = facts.clone();
+        Ok(self.engine.planner.run_while_awaited(move || resolve(request, &facts)).await?)
+    }
+
+    /// Resolves a campaign against its models, and gives their facts, too. Designs are checked a [`TURN`] at a time, between which other
+    /// requests have theirs; once the client has gone no other turn begins.
     async fn campaign(
         &self,
         whose: &Principal,
@@ -251,9 +273,26 @@ impl Jobs {
         };
         let placed = self.place(&request.model, &mut request.sensors).await?;
         let held = (facts.clone(), compared.clone());
-        // Ten thousand designs take a second.
-        let resolve = move || run::resolve_campaign(request, &held.0, held.1.as_ref());
-        let (_, campaign) = both(placed, self.engine.planner.run(resolve).await?)?;
+        let planner = &self.engine.planner;
+        let resolved =
+            planner.run_while_awaited(move || run::resolve_campaign(request, held.0, held.1)).await?;
+        let (_, mut designs) = both(placed, resolved)?;
+        loop {
+            let check = move || {
+                let begin = Instant::now();
+                let mut left = true;
+                while left && begin.elapsed() < TURN {
+                    left = designs.check_next();
+                }
+                (designs, left)
+            };
+            let (checked, left) = planner.run_while_awaited(check).await?;
+            designs = checked;
+            if !left {
+                break;
+            }
+        }
+        let campaign = designs.finish().map_err(SubmitError::Refused)?;
         Ok((campaign, facts, compared.map(|compared| compared.facts)))
     }
 
@@ -264,7 +303,10 @@ impl Jobs {
         request: ModalAnalysisRequest,
     ) -> Result<ModalAnalysisPlan, SubmitError> {
         let facts = self.facts(whose, &request.model).await?;
-        let mut request = run::resolve_modal_analysis(request, &facts).map_err(SubmitError::Refused)?;
+        let mut request = self
+            .resolve(request, &facts, run::resolve_modal_analysis)
+            .await?
+            .map_err(SubmitError::Refused)?;
         let mut choice = None;
         if request.is_sought() {
             let stored = choice::stored_modes(&self.engine, &request).await?;
@@ -306,7 +348,9 @@ impl Jobs {
         if let Some(reduced) = reduced.clone() {
             let request = request.clone();
             let check = move || run::check(&reduced, &request, &Unwatched);
-            if let Err(AnalysisError::Refused(violations)) = self.engine.planner.run(check).await? {
+            if let Err(AnalysisError::Refused(violations)) =
+                self.engine.planner.run_while_awaited(check).await?
+            {
                 return Err(SubmitError::Refused(violations));
             }
         }
@@ -322,7 +366,7 @@ impl Jobs {
     /// The same for the generation of a model.
     pub async fn plan_generation(&self, request: &ImpellerRequest) -> Result<GenerationPlan, SubmitError> {
         let parameters = parameters_of(request)?;
-        let planned = self.engine.planner.run(move || plan_generation(&parameters)).await?;
+        let planned = self.engine.planner.run_while_awaited(move || plan_generation(&parameters)).await?;
         planned.map_err(|error| SubmitError::Refused(vec![violation(&error)]))
     }
 

@@ -27,7 +27,7 @@ pub(super) async fn sweep<E: From<StoreError> + From<Panicked>>(
 ) -> Result<SweepPlan, E> {
     let Capacity { machine, costs, threads } = capacity::<E>(engine).await?;
     let plan = move || run::plan_sweep(&request, &facts, reduced.as_deref(), &costs, threads);
-    Ok(SweepPlan { machine: Some(machine), ..engine.planner.run(plan).await? })
+    Ok(SweepPlan { machine: Some(machine), ..engine.planner.run_while_awaited(plan).await? })
 }
 
 /// Plans resolved branches.
@@ -39,7 +39,7 @@ pub(super) async fn branches<E: From<StoreError> + From<Panicked>>(
 ) -> Result<BranchesPlan, E> {
     let Capacity { machine, costs, .. } = capacity::<E>(engine).await?;
     let plan = move || run::plan_branches(&request, &facts, reduced.as_deref(), &costs);
-    Ok(BranchesPlan { machine: Some(machine), ..engine.planner.run(plan).await? })
+    Ok(BranchesPlan { machine: Some(machine), ..engine.planner.run_while_awaited(plan).await? })
 }
 
 /// Plans resolved run-ups.
@@ -51,7 +51,7 @@ pub(super) async fn run_ups<E: From<StoreError> + From<Panicked>>(
 ) -> Result<RunUpPlan, E> {
     let Capacity { machine, costs, .. } = capacity::<E>(engine).await?;
     let plan = move || run::plan_run_ups(&request, &facts, reduced.as_deref(), &costs);
-    Ok(RunUpPlan { machine: Some(machine), ..engine.planner.run(plan).await? })
+    Ok(RunUpPlan { machine: Some(machine), ..engine.planner.run_while_awaited(plan).await? })
 }
 
 /// A model, and its reduction if that is there.
@@ -73,7 +73,7 @@ pub(super) async fn campaign<E: From<StoreError> + From<Panicked>>(
         let compared = compared.as_ref().map(borrowed);
         run::plan_campaign(&request, borrowed(&own), compared, &costs, threads)
     };
-    let mut plan = engine.planner.run(plan).await?;
+    let mut plan = engine.planner.run_while_awaited(plan).await?;
     plan.scene.machine = Some(machine);
     Ok(plan)
 }
@@ -109,7 +109,10 @@ pub(super) async fn modal_analysis(
     facts: ModelFacts,
     reduced: Option<Arc<ReducedSector>>,
 ) -> Result<ModalAnalysisPlan, Panicked> {
-    engine.planner.run(move || run::plan_modal_analysis(&request, &facts, reduced.as_deref())).await
+    engine
+        .planner
+        .run_while_awaited(move || run::plan_modal_analysis(&request, &facts, reduced.as_deref()))
+        .await
 }
 
 /// Keeps the estimate of a job of speeds whose reductions are there, that of a model which is compared last, unless one was kept before.

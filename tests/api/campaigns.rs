@@ -380,3 +380,33 @@ async fn what_makes_no_campaign_is_refused_at_its_field() {
     refused(&|request| request["sweep"] = json!("up"), "/sweep").await;
     app.stop().await;
 }
+
+/// Plans of sweeps have their turns while the designs of a large campaign are checked, and the check ends with its client.
+#[tokio::test]
+async fn a_large_campaign_leaves_other_plans_their_turns() {
+    let app = TestApp::start().await;
+    let api = &app.api;
+    let model = api.model(model::package(1.0)).await;
+    let mut large = campaign_of(&model);
+    for parameter in large["parameters"].as_array_mut().unwrap() {
+        parameter.as_object_mut().unwrap().remove("levels");
+    }
+    large["design"] = json!({"kind": "sobol", "size": 8192, "seed": 1});
+    let heights: Vec<f64> = (0..2000).map(|k| 0.01 * f64::from(k % 7)).collect();
+    let angles: Vec<f64> = (0..2000).map(|k| f64::from(k) * std::f64::consts::TAU / 2000.0).collect();
+    large["scene"]["casing"].as_object_mut().unwrap().remove("lobes");
+    large["scene"]["casing"]["measured"] =
+        json!({"angles_rad": angles, "heights": [heights.clone(), heights], "chord": [0.0, 1.0]});
+    let plans = async {
+        for _ in 0..10 {
+            let plan = api.post("/v1/sweeps/plan", &sweep_of(&model)).await;
+            assert_eq!(plan.status, 200, "{}", plan.body);
+        }
+    };
+    tokio::select! {
+        biased;
+        answer = api.post("/v1/campaigns/plan", &large) => panic!("ahead of ten small plans: {}", answer.body),
+        () = plans => {}
+    }
+    app.stop().await;
+}

@@ -321,3 +321,24 @@ async fn killed_run_ups_go_on_where_they_were() {
     assert_eq!(app.api.model(model::package(1.0)).await, model);
     assert_eq!(timeless(run_up(&app.api, &request).await), timeless(resumed));
 }
+
+/// Every plan cuts all runs, so that there is a bound on the pieces of all of them together.
+#[tokio::test]
+async fn runs_of_too_many_pieces_together_are_refused() {
+    let app = TestApp::start().await;
+    let api = &app.api;
+    let model = api.model(model::package(1.0)).await;
+    let mut request = run_ups_of(&model);
+    let rates: Vec<f64> = (0..100).map(|k| 4.0 + 0.01 * f64::from(k)).collect();
+    request["speed"] = json!({"unit": "rad_s", "from": 300.0, "to": 500.0, "rates": rates});
+    request["angle_tolerance_rad"] = json!(1e-7);
+    for path in ["/v1/run-ups/plan", "/v1/run-ups"] {
+        let refused = api.post(path, &request).await;
+        assert_eq!(refused.status, 422, "{}", refused.body);
+        let errors = refused.body["errors"].as_array().unwrap();
+        assert_eq!(errors.len(), 1, "{}", refused.body);
+        assert!(errors[0]["pointer"].as_str().unwrap().starts_with("/speed/rates/"), "{}", refused.body);
+        assert!(errors[0]["detail"].as_str().unwrap().contains("all runs together"), "{}", refused.body);
+    }
+    app.stop().await;
+}

@@ -25,7 +25,7 @@ pub use crate::prepare::prepare;
 pub use crate::refine::refine;
 pub use crate::request::Setting;
 pub use crate::resolve::branches::resolve_branches;
-pub use crate::resolve::campaign::{ComparedModel, resolve_campaign};
+pub use crate::resolve::campaign::{CampaignDesigns, ComparedModel, resolve_campaign};
 pub use crate::resolve::case_study::{histories_of, resolve_case_study};
 pub use crate::resolve::run_up::resolve_run_ups;
 pub use crate::resolve::sensors::{name_nodes, place_sensors};

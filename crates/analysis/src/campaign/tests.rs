@@ -33,7 +33,17 @@ fn resolve(changes: Value) -> Result<ResolvedCampaign, Vec<Violation>> {
     let request: CampaignRequest = serde_json::from_value(request(changes)).unwrap();
     let facts = ModelFacts::of_ten_sectors(4);
     let compared = request.compared_model.as_ref().map(|_| other_model("mm"));
-    resolve_campaign(request, &facts, compared.as_ref())
+    resolve_all(request, facts, compared)
+}
+
+fn resolve_all(
+    request: CampaignRequest,
+    facts: ModelFacts,
+    compared: Option<ComparedModel>,
+) -> Result<ResolvedCampaign, Vec<Violation>> {
+    let mut designs = resolve_campaign(request, facts, compared)?;
+    while designs.check_next() {}
+    designs.finish()
 }
 
 /// Of seven sectors and fewer contact nodes.
@@ -484,7 +494,7 @@ fn what_cannot_be_compared_is_refused() {
     };
     let facts = ModelFacts::of_ten_sectors(4);
     let refused = |request: CampaignRequest, compared: &ComparedModel| {
-        let found = resolve_campaign(request, &facts, Some(compared)).unwrap_err();
+        let found = resolve_all(request, facts.clone(), Some(compared.clone())).unwrap_err();
         found.into_iter().map(|violation| (violation.pointer, violation.message)).collect::<Vec<_>>()
     };
     let units = refused(request(json!({})), &other_model("m"));

@@ -10,7 +10,7 @@ use crate::request::{
 };
 use crate::resolve::findings::Findings;
 use crate::resolve::resolve_sweep;
-use crate::resolved::campaign::{changed, written};
+use crate::resolved::campaign::{changed, written as written_out};
 use crate::resolved::{Distribution, ResolvedCampaign, ResolvedSweep};
 use crate::result::severity_column;
 use rubmap_wheel::dynamics::sector::Units;
@@ -34,13 +34,13 @@ pub struct ComparedModel {
     pub sensors: Vec<Sensor>,
 }
 
-/// Parses a campaign and checks it against its models: the scene as it is, and that of every design. `compared` is the model of
-/// `compared_model`, if there is one.
+/// Parses a campaign and checks its scene, as it is, against its models; its designs are still to be checked. `compared` is the model
+/// of `compared_model`, if there is one.
 pub fn resolve_campaign(
     request: CampaignRequest,
-    facts: &ModelFacts,
-    compared: Option<&ComparedModel>,
-) -> Result<ResolvedCampaign, Vec<Violation>> {
+    facts: ModelFacts,
+    compared: Option<ComparedModel>,
+) -> Result<CampaignDesigns, Vec<Violation>> {
     let CampaignRequest { parameters, design, severity, limit, threshold, stress, scene, .. } = request;
     let asked = SweepRequest {
         model: request.model,
@@ -61,7 +61,7 @@ pub fn resolve_campaign(
         fields: request.fields,
     };
     let mut found = Findings::default();
-    let other = request.compared_model.zip(compared).map(|(model, compared)| {
+    let other = request.compared_model.zip(compared.as_ref()).map(|(model, compared)| {
         let sweep = SweepRequest { model, sensors: compared.sensors.clone(), ..asked.clone() };
         (sweep, &compared.facts)
     });
@@ -70,9 +70,9 @@ pub fn resolve_campaign(
         "/compared_model",
         "the id of another model than `model`",
     );
-    let resolved = resolve_sweep(asked, facts)
+    let resolved = resolve_sweep(asked, &facts)
         .map_err(|violations| found.0.extend(violations.into_iter().map(at_its_field)));
-    let other = other.map(|(sweep, others)| check_compared(&mut found, sweep, (facts, others))).transpose();
+    let other = other.map(|(sweep, others)| check_compared(&mut found, sweep, (&facts, others))).transpose();
     let distributions = check_parameters(&mut found, &parameters, &design);
     check_names(&mut found, &parameters, severity, &facts.units);
     check_design(&mut found, &design, &parameters, &distributions);
@@ -103,13 +103,58 @@ pub fn resolve_campaign(
         added: 0,
     };
     check_simulations(&mut found, &settings, sweep.speeds.count());
-    if found.0.is_empty() {
-        check_designs(&mut found, &settings, &settings.sweep, (facts, &distributions));
-        if let (Some(sweep), Some(compared)) = (&settings.compared, compared) {
-            check_designs(&mut found, &settings, sweep, (&compared.facts, &distributions));
-        }
+    if !found.0.is_empty() {
+        return Err(found.0);
     }
-    found.finish(ResolvedCampaign { sweep, compared: other, distributions, settings })
+    let mut models = vec![(written_out(&settings.sweep)?, facts)];
+    if let (Some(sweep), Some(compared)) = (&settings.compared, compared) {
+        models.push((written_out(sweep)?, compared.facts));
+    }
+    let laid_out = settings.designs.iter().cloned().enumerate();
+    let designs: Vec<_> = laid_out.chain(that_may_be_added(&settings, &distributions)).collect();
+    let campaign = ResolvedCampaign { sweep, compared: other, distributions, settings };
+    Ok(CampaignDesigns { campaign, models, designs, checked: 0, found })
+}
+
+/// Campaign whose designs are checked one at a time, so that whoever resolves it can do other work between two of them, or give up.
+#[derive(Debug)]
+pub struct CampaignDesigns {
+    campaign: ResolvedCampaign,
+    /// Sweep of every model, written out, and facts of the model.
+    models: Vec<(serde_json::Value, ModelFacts)>,
+    /// Index and values of every design: those laid out, then those that may be added, at both ends of the threshold's parameter.
+    designs: Vec<(usize, Vec<f64>)>,
+    /// Designs checked so far, counted once for every model.
+    checked: usize,
+    found: Findings,
+}
+
+impl CampaignDesigns {
+    /// Checks the next design of a model; `false` if none was left. A violation is reported at the parameter that moves the field,
+    /// if one does.
+    pub fn check_next(&mut self) -> bool {
+        let (model, design) =
+            (self.checked / self.designs.len().max(1), self.checked % self.designs.len().max(1));
+        let (Some((sweep, facts)), Some((index, values))) =
+            (self.models.get(model), self.designs.get(design))
+        else {
+            return false;
+        };
+        if self.found.0.len() >= TOLD {
+            return false;
+        }
+        check_design_of(&mut self.found, &self.campaign.settings.parameters, (sweep, facts), *index, values);
+        self.checked += 1;
+        true
+    }
+
+    /// Campaign all of whose designs were checked.
+    ///
+    /// # Errors
+    /// Violations of the designs.
+    pub fn finish(self) -> Result<ResolvedCampaign, Vec<Violation>> {
+        self.found.finish(self.campaign)
+    }
 }
 
 /// Neither the designs nor those that may be added are more simulations than are kept.
@@ -403,47 +448,36 @@ fn check_severity(found: &mut Findings, severity: Severity, sweep: &ResolvedSwee
     found.require(there, "/severity", format!("there is none without {needs}"));
 }
 
-/// Every design of a `sweep` must be sound, those that may be added as well, at both ends of the threshold's parameter. What is wrong with one
-/// is said at the parameter that moves the field, if one does.
-fn check_designs(
+/// Checks design `index` of a model's sweep.
+fn check_design_of(
     found: &mut Findings,
-    settings: &CampaignSettings,
-    sweep: &SweepRequest,
-    (facts, distributions): (&ModelFacts, &[Option<Distribution>]),
+    parameters: &[Parameter],
+    (sweep, facts): (&serde_json::Value, &ModelFacts),
+    index: usize,
+    values: &[f64],
 ) {
-    let sweep = match written(sweep) {
-        Ok(sweep) => sweep,
-        Err(violations) => return found.0.extend(violations),
-    };
-    let laid_out = settings.designs.iter().cloned().enumerate();
-    for (index, values) in laid_out.chain(that_may_be_added(settings, distributions)) {
-        if found.0.len() >= TOLD {
-            break;
-        }
-        let checked = changed(sweep.clone(), &settings.parameters, &values)
-            .and_then(|sweep| resolve_sweep(sweep, facts).map(drop));
-        for violation in checked.err().unwrap_or_default() {
-            let moves = |parameter: &Parameter| {
-                let within = |at: &String| at.starts_with(&violation.pointer);
-                !violation.pointer.is_empty() && parameter.at.iter().any(within)
-            };
-            let pointer = match settings.parameters.iter().position(moves) {
-                _ if violation.pointer.starts_with("/parameters") => violation.pointer.clone(),
-                Some(parameter) => format!("/parameters/{parameter}"),
-                None => "/design".to_owned(),
-            };
-            if !found.refused(&pointer) {
-                let said = settings
-                    .parameters
-                    .iter()
-                    .zip(&values)
-                    .map(|(parameter, value)| format!("{} = {value}", parameter.name));
-                let said = said.collect::<Vec<_>>().join(", ");
-                found.0.push(Violation::new(
-                    pointer,
-                    format!("design {index} ({said}), {}: {}", violation.pointer, violation.message),
-                ));
-            }
+    let checked =
+        changed(sweep.clone(), parameters, values).and_then(|sweep| resolve_sweep(sweep, facts).map(drop));
+    for violation in checked.err().unwrap_or_default() {
+        let moves = |parameter: &Parameter| {
+            let within = |at: &String| at.starts_with(&violation.pointer);
+            !violation.pointer.is_empty() && parameter.at.iter().any(within)
+        };
+        let pointer = match parameters.iter().position(moves) {
+            _ if violation.pointer.starts_with("/parameters") => violation.pointer.clone(),
+            Some(parameter) => format!("/parameters/{parameter}"),
+            None => "/design".to_owned(),
+        };
+        if !found.refused(&pointer) {
+            let said = parameters
+                .iter()
+                .zip(values)
+                .map(|(parameter, value)| format!("{} = {value}", parameter.name));
+            let said = said.collect::<Vec<_>>().join(", ");
+            found.0.push(Violation::new(
+                pointer,
+                format!("design {index} ({said}), {}: {}", violation.pointer, violation.message),
+            ));
         }
     }
 }

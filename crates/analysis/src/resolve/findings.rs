@@ -11,7 +11,7 @@ pub(crate) fn between(range: &std::ops::RangeInclusive<f64>) -> String {
 }
 
 /// Collects violations.
-#[derive(Default)]
+#[derive(Debug, Default)]
 pub(crate) struct Findings(pub(crate) Vec<Violation>);
 
 impl Findings {
