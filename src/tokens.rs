@@ -127,6 +127,8 @@ impl Tokens {
                     Err(TokensError::File { source, .. }) if source.kind() == ErrorKind::NotFound => {
                         tracing::error!("the file of tokens is gone: nobody has access");
                         state.known.clear();
+                        // It may come back as it was, with the time that it had.
+                        state.changed = SystemTime::UNIX_EPOCH;
                     }
                     // Half-written, perhaps.
                     Err(error) => tracing::error!(%error, "the tokens stay those that were read before"),
@@ -264,6 +266,21 @@ mod tests {
         std::fs::remove_file(&path).unwrap();
         look_again();
         assert!(tokens.principal(&token).is_none(), "without the file nobody has access");
+    }
+
+    #[test]
+    fn a_file_that_was_away_and_comes_back_as_it_was_is_read_again() {
+        let folder = tempfile::tempdir().unwrap();
+        let [path, away] = ["tokens", "away"].map(|name| folder.path().join(name));
+        let token = new_token(&path, "alice", Scope::Read).unwrap();
+        let tokens = Tokens::read(&path).unwrap();
+        let look_again = || tokens.state.lock().unwrap().looked = Instant::now() - 2 * BETWEEN_LOOKS;
+        std::fs::rename(&path, &away).unwrap();
+        look_again();
+        assert!(tokens.principal(&token).is_none());
+        std::fs::rename(&away, &path).unwrap();
+        look_again();
+        assert!(tokens.principal(&token).is_some());
     }
 
     #[test]

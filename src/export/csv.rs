@@ -56,8 +56,12 @@ pub(super) fn end_line(out: &mut dyn Write) -> io::Result<()> {
     out.write_all(b"\r\n")
 }
 
+/// Text as a field. Behind an apostrophe where it begins with a character by which spreadsheets know formulas, so that a name
+/// from elsewhere is shown and never run.
 fn quoted(text: &str) -> Cow<'_, str> {
-    if text.contains([',', '"', '\r', '\n']) {
+    if text.starts_with(['=', '+', '-', '@', '\t', '\r']) {
+        Cow::Owned(format!("\"'{}\"", text.replace('"', "\"\"")))
+    } else if text.contains([',', '"', '\r', '\n']) {
         Cow::Owned(format!("\"{}\"", text.replace('"', "\"\"")))
     } else {
         Cow::Borrowed(text)
@@ -80,6 +84,20 @@ mod tests {
         write(&columns, &mut text).unwrap();
         let expected = "\"length_in, \"\"\",order,message,resolved\r\n0.1,3,\"a,b\",true\r\n,,,false\r\n\
             1e-12,0,\"two\nlines\",true\r\n";
+        assert_eq!(String::from_utf8(text).unwrap(), expected);
+    }
+
+    /// Rule of OWASP's page on CSV injection; numbers are numbers, negative ones too.
+    #[test]
+    fn text_that_looks_like_a_formula_is_not_run() {
+        let columns = [
+            Array::texts("=name", ["=1+1", "+1", "-1", "@a", "\tx", "\rx", "a=1", "=\"x\""]),
+            Array::reals("value", [-1.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]),
+        ];
+        let mut text = Vec::new();
+        write(&columns, &mut text).unwrap();
+        let expected = "\"'=name\",value\r\n\"'=1+1\",-1.0\r\n\"'+1\",1.0\r\n\"'-1\",2.0\r\n\"'@a\",3.0\r\n\"'\tx\",4.0\r\n\
+            \"'\rx\",5.0\r\na=1,6.0\r\n\"'=\"\"x\"\"\",7.0\r\n";
         assert_eq!(String::from_utf8(text).unwrap(), expected);
     }
 }

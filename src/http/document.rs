@@ -94,7 +94,10 @@ fn add_common_answers(responses: &mut BTreeMap<String, RefOr<Response>>) {
     for (status, description) in [
         ("400", "A parameter is not valid."),
         ("401", "The service wants a token, and the request has none that it knows."),
-        ("403", "The token may only read."),
+        (
+            "403",
+            "The token may only read, or a page of another site asks a service without tokens for a change.",
+        ),
         ("421", "The service does not go by the name in the Host header."),
         (
             "429",

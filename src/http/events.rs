@@ -7,6 +7,7 @@ use std::time::Duration;
 
 use axum::Extension;
 use axum::extract::State;
+use axum::http::HeaderMap;
 use axum::response::sse::{Event, KeepAlive, Sse};
 use axum::response::{IntoResponse, Response};
 use futures::{Stream, StreamExt, stream};
@@ -17,19 +18,23 @@ use utoipa::ToSchema;
 use super::extract::JobPath;
 use super::followed::Teller;
 use super::jobs;
+use super::principal::bearer;
 use super::problem::Problem;
 use super::results::find;
 use super::server::Lasting;
 use super::state::AppState;
 use crate::store::StoreError;
 use crate::store::jobs::JobId;
-use crate::tokens::Principal;
+use crate::tokens::{Principal, Tokens};
 
 /// Least time between two events of a job: nobody reads faster.
 const BETWEEN_EVENTS: Duration = Duration::from_millis(334);
 
 /// Time between two attempts to read a job.
 const BETWEEN_ATTEMPTS: Duration = Duration::from_secs(1);
+
+/// Time between two looks whether the token of a stream still stands: with the second that the file's changes take, less than 5 s.
+const BETWEEN_TOKEN_LOOKS: Duration = Duration::from_secs(3);
 
 /// Time without a word after which a comment is sent, so that nobody between the two takes the connection for dead.
 const SILENCE: Duration = Duration::from_secs(15);
@@ -48,7 +53,7 @@ struct JobEvent {
 ///
 /// Server-sent events: an event `job` at once, and after every change, but no more than three a second. Its data are what
 /// `GET /v1/jobs/{id}` says of the job then, in one line. After the event of a job that has ended, or once it is deleted, the stream
-/// ends; it may end before, when the service stops or has too many connections, and is asked for again. Lines that begin with a colon
+/// ends; it may end before, when the service stops, has too many connections or does not know the token any more, and is asked for again. Lines that begin with a colon
 /// keep the connection alive.
 #[utoipa::path(get, path = "/v1/jobs/{id}/events", operation_id = "follow_job", tag = "jobs",
     params(("id" = String, Path, description = "Id of the job.")),
@@ -62,18 +67,28 @@ pub(super) async fn follow_job(
     state: State<AppState>,
     whose: Principal,
     JobPath(id): JobPath,
+    headers: HeaderMap,
 ) -> Result<Response, Problem> {
     find(&state, &whose, id).await?;
     let stopped = state.stop.clone().cancelled_owned();
+    let withdrawn = withdrawn(state.tokens.clone(), bearer(&headers).map(str::to_owned), whose);
     let (news, teller) = state.followed.follow(id);
     if let Some(teller) = teller {
         tokio::spawn(tell(state.0.clone(), teller));
     }
-    let events = told(news).take_until(stopped);
+    let events = told(news).take_until(stopped).take_until(withdrawn);
     let events = Sse::new(events).keep_alive(KeepAlive::new().interval(SILENCE));
     // nginx would keep events until it has a buffer full.
     let unbuffered = [("x-accel-buffering", "no")];
     Ok((Extension(Lasting), unbuffered, events).into_response())
+}
+
+/// Ends once `token` does not stand for `whose` any more; never on a service without tokens.
+async fn withdrawn(tokens: Option<Tokens>, token: Option<String>, whose: Principal) {
+    let (Some(tokens), Some(token)) = (tokens, token) else { return std::future::pending().await };
+    while tokens.principal(&token).as_ref() == Some(&whose) {
+        sleep(BETWEEN_TOKEN_LOOKS).await;
+    }
 }
 
 /// What is told from here on, beginning with the latest.

@@ -8,6 +8,7 @@ mod campaigns;
 mod case_studies;
 mod casings;
 mod contract;
+mod cross_site;
 mod document;
 mod download;
 mod events;

@@ -104,6 +104,8 @@ kinds! {
     Unauthorized = UNAUTHORIZED, "unauthorized", "The service wants a token";
     /// The token does not allow it.
     Forbidden = FORBIDDEN, "forbidden", "The token does not allow this";
+    /// A page of another site asks for a change.
+    CrossSite = FORBIDDEN, "cross-site", "A page of another site may not change anything here";
     /// No such route.
     NotFound = NOT_FOUND, "not-found", "There is nothing here";
     /// No such model.

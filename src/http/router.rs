@@ -19,10 +19,10 @@ use utoipa_axum::routes;
 
 use super::state::AppState;
 use super::{
-    access, archive, body, branches, campaigns, case_studies, casings, contract, events, extract, fields,
-    forces, health, histories, host, jobs, maps, mesh, metrics, modal_analyses, models, modes, openapi,
-    principal, problem, report, results, run_ups, section, spectra, stream, stress, studies, sweeps, version,
-    web, wheel,
+    access, archive, body, branches, campaigns, case_studies, casings, contract, cross_site, events, extract,
+    fields, forces, health, histories, host, jobs, maps, mesh, metrics, modal_analyses, models, modes,
+    openapi, principal, problem, report, results, run_ups, section, spectra, stream, stress, studies, sweeps,
+    version, web, wheel,
 };
 
 /// The routes with their descriptions.
@@ -108,6 +108,7 @@ pub fn router(state: AppState) -> Router {
         .layer(middleware::from_fn_with_state(state.clone(), host::check))
         // Answers what browsers ask in advance, which carries no credentials.
         .option_layer(cors(&state.transport.cors_origins))
+        .layer(middleware::from_fn_with_state(state.clone(), cross_site::refuse))
         .layer(middleware::from_fn_with_state(state.tokens.clone(), principal::authenticate))
         .layer(middleware::from_fn_with_state(state.clone(), body::keep_coming))
         .layer(DefaultBodyLimit::max(extract::WHOLE_BYTES))

@@ -4,8 +4,9 @@ use reqwest::Method;
 use rubmap::app::{App, StartError};
 use rubmap::tokens::{Scope, new_token};
 use serde_json::{Value, json};
+use tokio::time::timeout;
 
-use super::app::{Answer, Api, TestApp, config, long_sweep_of, modal_analysis_of, sweep_of};
+use super::app::{Answer, Api, PATIENCE, TestApp, config, long_sweep_of, modal_analysis_of, sweep_of};
 use super::generation::coarse;
 use super::model;
 
@@ -109,6 +110,8 @@ async fn what_belongs_to_one_owner_is_not_there_for_another() {
     assert_eq!(reader.finish(&id).await["status"], "successful");
     assert_eq!(reader.get(&format!("/v1/jobs/{id}/campbell")).await.status, 200);
     reader.post("/v1/modal-analyses", &modal_analysis_of(&model)).await.problem(403, "forbidden");
+    let planned = reader.post("/v1/modal-analyses/plan", &modal_analysis_of(&model)).await;
+    assert_eq!(planned.status, 200, "plans store nothing: {}", planned.body);
     reader.delete(&format!("/v1/jobs/{id}")).await.problem(403, "forbidden");
     assert_eq!(admin.get("/v1/jobs").await.body["jobs"].as_array().unwrap().len(), 1);
 
@@ -218,4 +221,22 @@ async fn nobody_serves_the_world_by_accident() {
     assert!(refused.to_string().contains("--tokens") && refused.to_string().contains("--open"));
     config.open = true;
     drop(App::build(config).await.unwrap());
+}
+
+/// Who follows a job by a token that is taken out of the file hears no more of it.
+#[tokio::test]
+async fn a_withdrawn_token_ends_its_streams() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("tokens");
+    let token = new_token(&file, "alice", Scope::Write).unwrap();
+    let app = TestApp::start_with(|config| config.tokens = Some(file.clone())).await;
+    let alice = Holder { api: &app.api, token };
+    let model = alice.upload(model::package(1.0)).await.text("/id");
+    let id = alice.post("/v1/sweeps", &long_sweep_of(&model, 500)).await.text("/id");
+    let request = app.api.request("GET", &format!("/v1/jobs/{id}/events")).bearer_auth(&alice.token);
+    let mut stream = request.send().await.unwrap();
+    assert!(stream.chunk().await.unwrap().is_some());
+    std::fs::write(&file, "# nobody\n").unwrap();
+    while timeout(PATIENCE, stream.chunk()).await.expect("the stream goes on").unwrap().is_some() {}
+    app.stop().await;
 }

@@ -264,3 +264,36 @@ async fn by_default_no_page_of_others_reads_an_answer() {
     Answer::of(preflight.send().await.unwrap()).await.problem(405, "method-not-allowed");
     app.stop().await;
 }
+
+/// A page of another site may not pause, continue or delete jobs of a service without tokens, by requests that need no preflight.
+#[tokio::test]
+async fn pages_of_other_sites_change_nothing() {
+    let app = app(|transport| transport.cors_origins = vec!["https://tools.example".parse().unwrap()]).await;
+    let ask = async |method: &str, path: &str, headers: &[(&str, &str)]| {
+        let mut request = app.api.request(method, path);
+        for (name, value) in headers {
+            request = request.header(*name, *value);
+        }
+        Answer::of(request.send().await.unwrap()).await
+    };
+    let evil = [("origin", "https://evil.example"), ("sec-fetch-site", "cross-site")];
+    for (method, path) in [
+        ("POST", "/v1/jobs/none/pause"),
+        ("POST", "/v1/jobs/none/continue"),
+        ("DELETE", "/v1/jobs/none"),
+        ("POST", "/v1/sweeps"),
+        ("PATCH", "/v1/models/none"),
+    ] {
+        ask(method, path, &evil).await.problem(403, "cross-site");
+        ask(method, path, &evil[..1]).await.problem(403, "cross-site");
+    }
+    for headers in [
+        &[][..],
+        &[("sec-fetch-site", "same-origin"), ("origin", "https://behind-a-proxy.example")],
+        &[("sec-fetch-site", "cross-site"), ("origin", "https://tools.example")],
+    ] {
+        ask("POST", "/v1/jobs/none/pause", headers).await.problem(404, "job-not-found");
+    }
+    ask("GET", "/v1/jobs/none", &evil).await.problem(404, "job-not-found");
+    app.stop().await;
+}
