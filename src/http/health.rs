@@ -21,7 +21,8 @@ pub(super) struct Health {
     status: &'static str,
     /// Version of the program.
     version: &'static str,
-    /// Memory that reductions may take together, in bytes; absent where nothing is known about it.
+    /// Memory that reductions may take together, in bytes; absent where nothing is known about it, and on a service with tokens, which
+    /// tells it in its metrics.
     #[serde(skip_serializing_if = "Option::is_none")]
     memory_bytes: Option<u64>,
 }
@@ -53,7 +54,11 @@ pub(super) struct Check {
 
 impl Health {
     fn of(state: &AppState) -> Self {
-        Self { status: "ok", version: crate::version::VERSION, memory_bytes: state.memory_bytes }
+        Self {
+            status: "ok",
+            version: crate::version::VERSION,
+            memory_bytes: if state.tokens.is_none() { state.memory_bytes } else { None },
+        }
     }
 }
 

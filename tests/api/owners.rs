@@ -66,7 +66,9 @@ async fn what_belongs_to_one_owner_is_not_there_for_another() {
         token("bob", Scope::Write),
         token("ops", Scope::Admin),
     ];
-    let app = TestApp::start_with(|config| config.tokens = Some(file)).await;
+    let app =
+        TestApp::start_with(|config| (config.tokens, config.memory_bytes) = (Some(file), Some(8 << 30)))
+            .await;
     let api = &app.api;
     let holder = |token| Holder { api, token };
     let [alice, reader, bob, admin] = [alice, reader, bob, admin].map(holder);
@@ -76,7 +78,9 @@ async fn what_belongs_to_one_owner_is_not_there_for_another() {
     holder("rubmap_nobody".to_owned()).get("/v1/models").await.problem(401, "unauthorized");
     let two = api.request("GET", "/v1/models").bearer_auth(&alice.token).bearer_auth(&bob.token);
     Answer::of(two.send().await.unwrap()).await.problem(401, "unauthorized");
-    assert_eq!(api.get("/healthz").await.status, 200);
+    let health = api.get("/healthz").await;
+    assert_eq!(health.status, 200);
+    assert_eq!(health.body["memory_bytes"], Value::Null, "nothing for strangers");
     for path in ["/metrics", "/openapi.json", "/v1/version"] {
         assert_eq!(api.request("GET", path).send().await.unwrap().status(), 401, "{path}");
     }

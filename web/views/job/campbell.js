@@ -20,6 +20,7 @@ export async function show(place, context, signal) {
   replace(place,
     h('div', { class: 'row' }, select('Frame', [['rotating', 'rotating, as the blades feel it'], ['fixed', 'fixed, as the casing feels it']], frame, (chosen) => context.go({ frame: chosen }))),
     figure,
+    h('p', { class: 'quiet small' }, 'A family is the rank of a frequency at its speed: modes that cross swap their families.'),
     analysis === job ? null : h('p', { class: 'quiet small' }, 'Of the ', h('a', { href: `#/jobs/${analysis.id}` }, 'modal analysis'), ' of the same model with the same modes, lobes and Coriolis forces.'));
   const read = await api.figure(`/v1/jobs/${analysis.id}/campbell`, { frame }, { signal });
   await plot(figure, read, { signal, label: 'Campbell diagram' });

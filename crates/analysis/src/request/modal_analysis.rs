@@ -20,7 +20,7 @@ pub struct ModalAnalysisRequest {
     /// them 20.
     #[serde(default)]
     pub modes_per_speed: AutoOr,
-    /// Modal families (frequencies per nodal diameter) to report.
+    /// Modal families to report: frequencies per nodal diameter, by their rank at each speed.
     #[serde(default = "default_families")]
     #[cfg_attr(feature = "schema", schema(minimum = 1, maximum = 100))]
     pub families: u32,

@@ -12,7 +12,8 @@ use rubmap_wheel::response::waves::{Table, Wave};
 pub struct Campbell {
     /// Speeds, rad/s.
     pub speeds_rad_s: Vec<f64>,
-    /// `[speed][nodal diameter][family]`: natural frequencies in the rotating frame without Coriolis forces, Hz.
+    /// `[speed][nodal diameter][family]`: natural frequencies in the rotating frame without Coriolis forces, Hz. A family is the rank of
+    /// a frequency at its speed, in ascending order: modes that cross swap their families there.
     pub frequencies_hz: Vec<Vec<Vec<f64>>>,
     /// Those with Coriolis forces, if asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
