@@ -579,7 +579,7 @@ fn cyclic_faces() {
                 let off = format!("{rest},{}", z.parse::<f64>().expect("a number") + 0.1);
                 f.line("nodes.csv", 5, &off);
             },
-            "sector.json, /cyclic/1: high node 2 is 1.000e-1 away from low node 6 turned by −2π/3 about the axis (tolerance 2.153e-4; the worst pair); the pairs fit the turn by −2π/N better than that by +2π/N: swap low and high, or reverse the axis direction, and check the positions of the nodes",
+            "sector.json, /cyclic/1: high node 2 is 1.000e-1 away from low node 6 turned by −2π/3 about the axis (tolerance 2.156e-4; the worst pair); the pairs fit the turn by −2π/N better than that by +2π/N: swap low and high, or reverse the axis direction, and check the positions of the nodes",
             (JSON, None, Some("/cyclic/1")),
         ),
     ]);
