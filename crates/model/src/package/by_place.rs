@@ -53,9 +53,12 @@ impl Places {
         if let Some(node) = self.near(position) {
             return Ok(node);
         }
-        Err(self
-            .nearest(0..self.nodes.len(), position)
-            .unwrap_or(Nearest { node: 0, distance: f64::INFINITY }))
+        Err(self.nearest_of_all(position))
+    }
+
+    /// The node nearest to `position`, in time that grows with the number of nodes.
+    pub(super) fn nearest_of_all(&self, position: [f64; 3]) -> Nearest {
+        self.nearest(0..self.nodes.len(), position).unwrap_or(Nearest { node: 0, distance: f64::INFINITY })
     }
 
     fn nearest(&self, among: impl Iterator<Item = usize>, position: [f64; 3]) -> Option<Nearest> {

@@ -189,8 +189,16 @@ pub enum ModelProblem {
         high: usize,
     },
     /// A low node without partner.
-    #[error("low {0}; mesh the two faces alike (periodic), and check --sectors and --axis")]
-    NoPartner(NoCopy),
+    #[error(
+        "low {copy}; {}mesh the two faces alike (periodic), and check --sectors and --axis",
+        if *.swapped { "the face named high was taken as the low one, which fits better; " } else { "" }
+    )]
+    NoPartner {
+        /// Node, and what is nearest to where it should be.
+        copy: NoCopy,
+        /// Whether the node is one of the face that was named high.
+        swapped: bool,
+    },
     /// Free node on the axis of several sectors.
     #[error(
         "node {node} is free but lies on the axis, a point that all sectors share; clamp it with *BOUNDARY or give the hub a bore"

@@ -8,7 +8,7 @@ use super::error::{ModelProblem, NoCopy};
 use super::matrices::DofList;
 use super::model::CalculixModel;
 use super::sets::set;
-use crate::package::by_place::Places;
+use crate::package::by_place::{Nearest, Places};
 use crate::package::check::slits::{self, Unpaired};
 use crate::package::raw::RawDof;
 use rubmap_solid::frame::AxisFrame;
@@ -48,27 +48,38 @@ pub(super) fn pair(
         return Err(ModelProblem::FaceSizes { low: low.len(), high: high.len() });
     }
     let alpha = TAU / sectors as f64;
-    let turned = |low: &[u64], high: &[u64]| -> Result<Vec<[u64; 2]>, NoCopy> {
+    let turned = |low: &[u64], high: &[u64]| -> Result<Vec<[u64; 2]>, Unfit> {
         let places = Places::new(high.iter().map(|node| (*node, positions[node])).collect(), tolerance);
-        let partner = |&node: &u64| match places.at(frame.turn_point(positions[&node], alpha)) {
-            Ok(high) => Ok([node, high]),
-            Err(near) => {
-                let (nearest, distance) = (near.node, near.distance);
-                Err(NoCopy { node, sectors, tolerance, nearest, distance })
-            }
+        let to = |node: &u64| frame.turn_point(positions[node], alpha);
+        let found: Vec<Option<u64>> = low.iter().map(|node| places.near(to(node))).collect();
+        let Some(first) = found.iter().position(Option::is_none) else {
+            return Ok(low.iter().copied().zip(found.into_iter().flatten()).map(<[u64; 2]>::from).collect());
         };
-        low.iter().map(partner).collect()
+        let without = found.iter().filter(|high| high.is_none()).count();
+        let node = low[first];
+        let Nearest { node: nearest, distance } = places.nearest_of_all(to(&node));
+        Err(Unfit { without, first: NoCopy { node, sectors, tolerance, nearest, distance } })
     };
-    match turned(low, high) {
-        Ok(pairs) => Ok((pairs, false)),
-        Err(forward) => match turned(high, low) {
-            Ok(pairs) => Ok((pairs, true)),
-            Err(backward) => {
-                let nearer = if backward.distance < forward.distance { backward } else { forward };
-                Err(ModelProblem::NoPartner(nearer))
-            }
-        },
-    }
+    let forward = match turned(low, high) {
+        Ok(pairs) => return Ok((pairs, false)),
+        Err(forward) => forward,
+    };
+    let backward = match turned(high, low) {
+        Ok(pairs) => return Ok((pairs, true)),
+        Err(backward) => backward,
+    };
+    let order = backward.without.cmp(&forward.without);
+    let swapped = order.then(backward.first.distance.total_cmp(&forward.first.distance)).is_lt();
+    let copy = if swapped { backward.first } else { forward.first };
+    Err(ModelProblem::NoPartner { copy, swapped })
+}
+
+/// Faces that do not fit one way.
+struct Unfit {
+    /// Number of nodes without a partner.
+    without: usize,
+    /// First of them.
+    first: NoCopy,
 }
 
 /// Refuses free nodes of `dofs` that need a pair and are in none of `pairs`: faces without their mid-edge nodes, or with holes.
@@ -142,13 +153,27 @@ mod tests {
     #[test]
     fn a_node_without_partner_is_reported_for_the_turn_that_fits_better() {
         let (low, high) = ([1, 2, 3], [12, 13, 11]);
-        for (first, second) in [(low, high), (high, low)] {
-            let Err(ModelProblem::NoPartner(problem)) = paired(&first, &second, 5.1) else {
+        for (first, second, exchanged) in [(low, high, false), (high, low, true)] {
+            let Err(ModelProblem::NoPartner { copy, swapped }) = paired(&first, &second, 5.1) else {
                 panic!("node 3 has no partner");
             };
-            assert_eq!((problem.node, problem.nearest), (3, 13));
-            assert!((problem.distance - 0.1).abs() < 1e-9, "{}", problem.distance);
+            assert_eq!((copy.node, copy.nearest, swapped), (3, 13, exchanged));
+            assert!((copy.distance - 0.1).abs() < 1e-9, "{}", copy.distance);
         }
+    }
+
+    /// Near the axis, a turn the wrong way round misses by little.
+    #[test]
+    fn a_node_near_the_axis_does_not_decide_which_turn_fits_better() {
+        let mut places = planes(5.1);
+        places.insert(4, [0.01, 0.0, 0.0]);
+        places.insert(14, [0.01 * (TAU / 7.0).cos(), 0.01 * (TAU / 7.0).sin(), 0.0]);
+        let frame = AxisFrame::new([0.0; 3], [0.0, 0.0, 1.0]).unwrap();
+        let found = pair(&[4, 1, 2, 3], &[14, 11, 12, 13], &places, &frame, 7, 1e-3);
+        let Err(ModelProblem::NoPartner { copy, swapped: false }) = found else {
+            panic!("three of the four nodes fit the turn from low to high");
+        };
+        assert_eq!((copy.node, copy.nearest), (3, 13));
     }
 
     #[test]

@@ -19,6 +19,7 @@ use super::error::{ModelProblem, NoCopy};
 use super::matrices::DofList;
 use super::no_mesh::NoMesh;
 use crate::package::by_place::Places;
+use crate::package::check::slits::on_axis;
 use crate::package::raw::{RawDof, RawMatrix};
 use rubmap_solid::frame::AxisFrame;
 
@@ -62,6 +63,9 @@ pub(super) fn cut<'a>(
     let mut nodes: Vec<u64> = dofs.dofs.iter().map(|dof| dof.node).collect();
     let mut seen = HashSet::new();
     nodes.retain(|node| seen.insert(*node));
+    if let Some(&node) = nodes.iter().find(|node| on_axis(positions[node], frame, sectors, tolerance)) {
+        return Err(ModelProblem::FreeOnAxis { node });
+    }
     let places = Places::new(nodes.iter().map(|node| (*node, positions[node])).collect(), tolerance);
     let alpha = TAU / sectors as f64;
     let mut next = HashMap::new();
@@ -253,5 +257,23 @@ impl Parts {
         let (a, b) = (self.of(a), self.of(b));
         // The smaller number stands for the part, in whatever order pairs come.
         self.parent.insert(a.max(b), a.min(b));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_free_node_on_the_axis_is_told_as_such() {
+        let alpha = TAU / 5.0;
+        let ring = (0..5).map(|k| (k + 1, [(k as f64 * alpha).cos(), (k as f64 * alpha).sin(), 0.0]));
+        let positions: HashMap<u64, [f64; 3]> = ring.chain([(9, [0.0, 0.0, 0.2])]).collect();
+        let dofs = [1, 2, 3, 4, 5, 9].map(|node| RawDof { node, component: 1 }).to_vec();
+        let stiffness = RawMatrix { size: 6, entries: (0..6).map(|row| (5, row, 1.0)).collect() };
+        let frame = AxisFrame::new([0.0; 3], [0.0, 0.0, 1.0]).unwrap();
+        let wheel = DofList { path: "rest.dof".into(), dofs };
+        let refused = cut(&wheel, &stiffness, &positions, &[1], 5, &frame, 1e-5).map(drop).unwrap_err();
+        assert!(matches!(refused, ModelProblem::FreeOnAxis { node: 9 }), "{refused}");
     }
 }

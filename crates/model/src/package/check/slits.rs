@@ -1,7 +1,7 @@
 //! Free nodes that miss their cyclic pair: a slit between sectors, or a hub whose sectors each have an axis of their own.
 
 use super::super::by_place::Places;
-use rubmap_solid::frame::AxisFrame;
+use rubmap_solid::frame::{AxisFrame, distance};
 use std::f64::consts::TAU;
 
 /// Free node of a sector that no cyclic pair holds, where one must.
@@ -37,8 +37,8 @@ pub(crate) fn find(
         return None;
     }
     let alone: Vec<(u64, [f64; 3])> = free.iter().copied().filter(|&(node, _)| !paired(node)).collect();
-    let on_axis = |&&(_, position): &&(u64, [f64; 3])| frame.coordinates(position)[0] <= tolerance;
-    if let Some(&(node, _)) = alone.iter().find(on_axis) {
+    let on_axis = alone.iter().find(|(_, position)| on_axis(*position, frame, sectors, tolerance));
+    if let Some(&(node, _)) = on_axis {
         return Some(Unpaired::OnAxis { node });
     }
     let places = Places::new(free, tolerance);
@@ -48,6 +48,12 @@ pub(crate) fn find(
         let above = other(alpha).map(|high| Unpaired::Slit { low: node, high });
         above.or_else(|| other(-alpha).map(|low| Unpaired::Slit { low, high: node }))
     })
+}
+
+/// Whether a place is one with the axis, or with its own copy in the next sector.
+pub(crate) fn on_axis(position: [f64; 3], frame: &AxisFrame, sectors: usize, tolerance: f64) -> bool {
+    let own_copy = frame.turn_point(position, TAU / sectors as f64);
+    frame.coordinates(position)[0].min(distance(position, own_copy)) <= tolerance
 }
 
 #[cfg(test)]
@@ -103,5 +109,14 @@ mod tests {
     #[test]
     fn a_free_node_on_the_axis_belongs_to_all_sectors() {
         assert_eq!(found(corners(7), 7, &[[1, 3], [2, 4]]), Some(Unpaired::OnAxis { node: 6 }));
+    }
+
+    #[test]
+    fn a_free_node_so_near_the_axis_that_it_is_its_own_copy_belongs_to_all_sectors() {
+        let mut nodes = corners(23);
+        nodes[5].1 = [2e-5, 0.0, 0.3];
+        assert_eq!(found(nodes.clone(), 23, &[[1, 3], [2, 4]]), Some(Unpaired::OnAxis { node: 6 }));
+        nodes[5].1 = [5e-5, 0.0, 0.3];
+        assert_eq!(found(nodes, 23, &[[1, 3], [2, 4]]), None);
     }
 }
