@@ -12,6 +12,7 @@ COPY crates/plot/Cargo.toml crates/plot/
 COPY crates/script/Cargo.toml crates/script/build.rs crates/script/
 COPY crates/solid/Cargo.toml crates/solid/
 COPY crates/wheel/Cargo.toml crates/wheel/
+COPY fuzz/Cargo.toml fuzz/
 RUN mkdir src && echo 'fn main() {}' > src/main.rs && touch src/lib.rs \
     && for crate in crates/*; do mkdir "$crate/src" && touch "$crate/src/lib.rs"; done \
     && sed -i '/^\[\[bench\]\]/,$d' Cargo.toml \
