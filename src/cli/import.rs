@@ -12,8 +12,9 @@ use super::speed::speed;
 use super::stdout;
 use crate::analysis::result::MeasuredCasing;
 use crate::casing_table;
+use crate::dynamics::findings::{Findings, MaterialInSi};
 use crate::dynamics::sector::Units;
-use crate::package::calculix::{self, CalculixModel, ImportSummary, Normals, SpinFinding};
+use crate::package::calculix::{self, CalculixModel, ImportSummary, Normals};
 use crate::package::raw::{Axis, ManifestMesh, MatrixFormat, RawPackage};
 use crate::solid::material::Material;
 
@@ -224,18 +225,22 @@ fn import_calculix(args: CalculixArgs) -> anyhow::Result<()> {
     }
     let (mut package, summary) = calculix::import(&model)?;
     package.manifest.store_matrices_as(args.matrices);
-    crate::package::to_sector(package.clone())
+    let findings = crate::package::look_at(package.clone())
         .context("the imported model does not pass the checks of a package")?;
     let file = File::create(&args.out).with_context(|| format!("cannot create {}", args.out.display()))?;
     crate::package::write(&package, BufWriter::new(file))
         .with_context(|| format!("cannot write {}", args.out.display()))?;
-    print!("{}", describe(&package, &summary)?);
+    print!("{}", describe(&package, &summary, &findings)?);
     println!("Written: {}", args.out.display());
     Ok(())
 }
 
 /// What was imported, in words that can be compared with what one knows.
-fn describe(package: &RawPackage, summary: &ImportSummary) -> Result<String, fmt::Error> {
+fn describe(
+    package: &RawPackage,
+    summary: &ImportSummary,
+    findings: &Findings,
+) -> Result<String, fmt::Error> {
     let manifest = &package.manifest;
     let mut text = String::new();
     let [x, y, z] = manifest.axis.direction;
@@ -271,8 +276,24 @@ fn describe(package: &RawPackage, summary: &ImportSummary) -> Result<String, fmt
         (None, Some(reason)) => writeln!(text, "WITHOUT mesh, and so without stress: {reason}")?,
         (None, None) => {}
     }
-    for (speed, finding) in &summary.spin {
-        writeln!(text, "Stiffness at {speed} rad/s: {}", spin(*finding))?;
+    if let Some(in_si) = &findings.in_si {
+        writeln!(
+            text,
+            "In SI units: {:.4} kg in all, contact nodes up to {:.4} m from the axis",
+            in_si.mass_kg, in_si.contact_radius_m
+        )?;
+        for MaterialInSi { set, youngs_modulus_pa, density_kg_m3, wave_speed_m_s } in &in_si.materials {
+            writeln!(
+                text,
+                "{set}: E {youngs_modulus_pa:.3e} Pa, ρ {density_kg_m3:.4} kg/m³, √(E/ρ) {wave_speed_m_s:.0} m/s"
+            )?;
+        }
+    }
+    for (speed, finding) in &findings.spin {
+        writeln!(text, "Stiffness at {speed} rad/s: {finding}")?;
+    }
+    for warning in findings.warnings() {
+        writeln!(text, "WARNING: {warning}")?;
     }
     writeln!(text, "Contact nodes from leading to trailing edge (check order and normals):")?;
     writeln!(text, "      node          r      theta          z      n_r  n_theta      n_z")?;
@@ -300,26 +321,6 @@ fn materials(mesh: &ManifestMesh) -> String {
         }
     };
     mesh.sets.iter().map(of_set).collect::<Vec<_>>().join("; ")
-}
-
-fn spin(finding: SpinFinding) -> String {
-    match finding {
-        SpinFinding::Undeformed { residual } => {
-            format!(
-                "geometric stiffness and spin softening on the undeformed geometry (residual {residual:.1e})"
-            )
-        }
-        SpinFinding::WithoutSoftening { .. } => {
-            "WITHOUT spin softening: repeat *DLOAD, CENTRIF in the exporting step (see \
-             docs/calculix.md)"
-                .to_owned()
-        }
-        SpinFinding::Other { residual } => format!(
-            "NOT that of the undeformed geometry under this speed (residual {residual:.1e}); between the speeds it will be \
-             wrong (see docs/calculix.md)"
-        ),
-        SpinFinding::NotChecked => "not checked, no node is free of clamps and faces".to_owned(),
-    }
 }
 
 fn speed_and_job(text: &str) -> Result<(f64, PathBuf), String> {

@@ -3,6 +3,8 @@
 use super::memory::TooLarge;
 use super::pool::Panicked;
 use crate::analysis::error::AnalysisError;
+use crate::dynamics::error::ModelError;
+use crate::dynamics::findings::DigitNoise;
 use crate::impeller::ImpellerError;
 use crate::package::PackageError;
 use crate::store::StoreError;
@@ -34,6 +36,12 @@ impl Interruption {
                 Self::Failed(Failure { cause: FailureCause::Package, message, violations: Vec::new() })
             }
         }
+    }
+
+    /// A model cannot be reduced whose matrices were written with few digits, which is the likelier cause.
+    pub(super) fn few_digits(error: &ModelError, digits: &DigitNoise) -> Self {
+        let message = format!("{}; probably that is why: {error}", digits.warning());
+        Self::Failed(Failure { cause: FailureCause::Model, message, violations: Vec::new() })
     }
 
     /// One speed of the job needs more memory than there is for all.

@@ -63,8 +63,9 @@ pub(super) async fn run(
     wanted(0.8, "checking the package")?;
     let path = upload.to_path_buf();
     let read = move || {
-        package::read(&path, &Limits::default())
-            .map(|read| (ModelFacts::with_mesh(&read.sector, read.mesh.as_ref()), read.digest))
+        package::read(&path, &Limits::default()).map(|read| {
+            (ModelFacts::of_package(&read.sector, read.mesh.as_ref(), &read.findings), read.digest)
+        })
     };
     let (facts, id) =
         engine.computing.run_parallel(&job.watch, read).await?.map_err(Interruption::generated_package)?;

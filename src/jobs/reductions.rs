@@ -490,7 +490,13 @@ impl Reductions {
             // From where they are, not from the disk, which may be full.
             let kept = KeptRows::new(&checkpoints, &nodes);
             let reduced = run::prepare(&package.sector, modes_per_speed, memory_bytes, &kept, &monitor);
-            Ok(reduced.map(|reduced| ReducedSector { nodes: kept.of(&reduced.wheel), ..reduced }))
+            if let (Err(AnalysisError::Model(error)), Some(digits)) = (&reduced, &package.findings.digits) {
+                return Err(Interruption::few_digits(error, digits));
+            }
+            Ok(reduced.map(|reduced| {
+                let reduced = reduced.with_findings(&package.findings);
+                ReducedSector { nodes: kept.of(&reduced.wheel), ..reduced }
+            }))
         };
         self.computing.run_parallel(&watch, compute).await?
     }

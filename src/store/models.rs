@@ -405,6 +405,9 @@ mod tests {
             stiffening: None,
             contact_spacing: None,
             mesh: None,
+            in_si: None,
+            digits: None,
+            warnings: Vec::new(),
         };
         let upload = store.new_upload().await.unwrap().into_temp_path();
         std::fs::write(&upload, "package").unwrap();

@@ -6,7 +6,7 @@ use faer::c64;
 use rubmap::analysis::euler_load::EulerLoad;
 use rubmap::analysis::monitor::Unwatched;
 use rubmap::analysis::result::PointStatus;
-use rubmap::analysis::run::{ModelFacts, ReducedSector, prepare, resolve_run_ups};
+use rubmap::analysis::run::{MeshFacts, ModelFacts, ReducedSector, prepare, resolve_run_ups};
 use rubmap::dynamics::euler::modal_load;
 use rubmap::dynamics::modal_wheel::{ModalWheel, RotationEffects};
 use rubmap::dynamics::reduction::{BasisRows, Checkpoints};
@@ -69,7 +69,12 @@ fn disk(elements: [usize; 3]) -> Disk {
         Ok::<_, std::convert::Infallible>(projected)
     };
     let Ok(load) = EulerLoad::of(&mesh, &nodes, rows.len(), project);
-    Disk { p, facts: ModelFacts::with_mesh(&sector, Some(&mesh)), reduced, load }
+    Disk {
+        p,
+        facts: ModelFacts { mesh: Some(MeshFacts::of(&mesh, &sector)), ..ModelFacts::of(&sector) },
+        reduced,
+        load,
+    }
 }
 
 /// The static sum over all modes, which has the sign: of fourth order in the mesh.

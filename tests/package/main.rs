@@ -6,6 +6,7 @@ mod calculix;
 mod calculix_deck;
 mod damaged;
 mod equivalent;
+mod findings;
 #[path = "../properties/fixed.rs"]
 mod fixed;
 mod gyroscopic;

@@ -16,6 +16,12 @@ const TABS = [
   ['downloads', 'Downloads', () => import('./model/downloads.js')],
 ];
 
+/** Mass, radius and materials, to be compared with what one knows. */
+function sizes({ mass_kg, contact_radius_m, materials = [] }) {
+  const of = ({ set, youngs_modulus_pa, density_kg_m3 }) => `${set}: E ${number(youngs_modulus_pa / 1e9, 4)} GPa, ρ ${number(density_kg_m3, 4)} kg/m³`;
+  return [`${number(mass_kg, 4)} kg`, `contact nodes up to ${number(contact_radius_m, 4)} m`, ...materials.map(of)].join('; ');
+}
+
 export async function show(main, { id, query }, signal) {
   const model = await api.get(`/v1/models/${id}`, { signal });
   const tab = TABS.find(([name]) => name === query.get('view')) ?? TABS[0];
@@ -33,12 +39,14 @@ export async function show(main, { id, query }, signal) {
       ['Contact nodes', `${model.contact_nodes}, up to radius ${number(model.contact_radius, 5)} ${model.units.length}`],
       ['Stiffness at', `${model.speeds_rad_s.map((speed) => number(Math.round(rpm(speed)), 6)).join(', ')} rpm`],
       ['Units', [model.units.length, model.units.mass, model.units.time, model.units.force].join(', ')],
+      ['In SI units', model.in_si ? sizes(model.in_si) : null],
       ['Coriolis forces', model.gyroscopic ? 'can be taken into account' : 'cannot: the package has no gyroscopic matrix'],
       ['Elements', model.mesh ? number(model.mesh.elements, 7) : 'none: nothing is known of stress'],
       ['Package', `${bytes(model.size_bytes)}, ${moment(model.created_at)}, digest ${short(model.id)}…`],
       ['Notes', model.notes],
       ['Tags', model.tags.join(', ')],
     ]),
+    (model.warnings ?? []).map((warning) => h('p', { class: 'note warning' }, warning)),
     stiffening ? h('p', { class: `note ${stiffening.verdict === 'sound' ? '' : 'warning'}` }, stiffening.message) : null,
     h('div', { class: 'row' },
       h('a', { class: 'button main', href: `#/sweep?model=${id}` }, 'New sweep'),

@@ -1,17 +1,20 @@
 //! A sector on its way in: the facts requests are checked against, and its reduction with a report in words.
 
+use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
 use crate::euler_load::EulerLoad;
 use crate::result::{PreliminaryStiffening, ReductionReport, Strengths};
-use crate::stiffening::preliminary_stiffening;
+use crate::stiffening::{preliminary_stiffening, report_with_spin, with_spin};
 use crate::stress::ReducedStress;
 use crate::tip_growth::TipGrowth;
 use crate::tip_thickness::tip_thickness;
 use rubmap_solid::mesh::SectorMesh;
 use rubmap_wheel::dynamics::casing::arc_lengths;
+use rubmap_wheel::dynamics::findings::{DigitNoise, Findings, InSi};
+use rubmap_wheel::dynamics::modal_wheel::natural_frequencies;
 use rubmap_wheel::dynamics::node_rows::NodeRows;
 use rubmap_wheel::dynamics::reduction::ReducedWheel;
 use rubmap_wheel::dynamics::sector::{ContactNode, SectorModel, Units};
@@ -50,6 +53,25 @@ impl ReducedSector {
     pub fn reads(&self, nodes: &[u64]) -> bool {
         let contact = |id| self.wheel.contact.iter().any(|node| node.id == id);
         nodes.iter().all(|&id| self.nodes.find(id).is_some() || contact(id))
+    }
+
+    /// With what the package says of K(Ω) and of its digits.
+    pub fn with_findings(mut self, findings: &Findings) -> Self {
+        self.report.stiffening = report_with_spin(self.report.stiffening, &findings.spin);
+        if let Some(sentence) = findings.digits.and_then(|digits| self.cost_of(digits)) {
+            self.report.stiffening.message += &format!(" {sentence}");
+        }
+        self
+    }
+
+    /// A sentence about what few digits of the stiffness matrix may change of the lowest frequency at rest, if that can be told.
+    pub(crate) fn cost_of(&self, digits: DigitNoise) -> Option<String> {
+        let lowest = |harmonic| natural_frequencies(harmonic, 0.0, false).ok()?.first().copied();
+        let lowest_hz = self.wheel.harmonics.iter().filter_map(lowest).reduce(f64::min)? / TAU;
+        let percent = 100.0 * digits.change_of(lowest_hz);
+        Some(format!(
+            "The few digits of the stiffness matrix may change the lowest frequency, {lowest_hz:.1} Hz, by {percent:.2} %."
+        ))
     }
 
     /// As a plan takes it while the growth of its tips and the Euler force have still to be found: tips do not grow, and nothing pushes.
@@ -102,6 +124,15 @@ pub struct ModelFacts {
     /// The elements, if the package has them; without them there are no fields of elements and no stress.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mesh: Option<MeshFacts>,
+    /// Size and materials in SI units; absent where a unit is not known, and of models that an earlier version has kept.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub in_si: Option<InSi>,
+    /// Noise of a stiffness matrix that was written with few digits; absent where it has all.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub digits: Option<DigitNoise>,
+    /// Sentences about what looks wrong and was accepted.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub warnings: Vec<String>,
 }
 
 /// What a package says of its elements.
@@ -144,12 +175,22 @@ impl ModelFacts {
             stiffening: Some(preliminary_stiffening(sector)),
             contact_spacing: contact_spacing(&sector.contact),
             mesh: None,
+            in_si: None,
+            digits: None,
+            warnings: Vec::new(),
         }
     }
 
-    /// The facts of a `sector` whose package has these elements.
-    pub fn with_mesh(sector: &SectorModel, mesh: Option<&SectorMesh>) -> Self {
-        Self { mesh: mesh.map(|mesh| MeshFacts::of(mesh, sector)), ..Self::of(sector) }
+    /// The facts of a `sector` whose package has these elements, and of which this was found.
+    pub fn of_package(sector: &SectorModel, mesh: Option<&SectorMesh>, findings: &Findings) -> Self {
+        Self {
+            mesh: mesh.map(|mesh| MeshFacts::of(mesh, sector)),
+            stiffening: Some(with_spin(preliminary_stiffening(sector), &findings.spin)),
+            in_si: findings.in_si.clone(),
+            digits: findings.digits,
+            warnings: findings.warnings(),
+            ..Self::of(sector)
+        }
     }
 
     /// Whether K(Ω) is known at a speed, rad/s. A speed given in rpm may differ from the model's rad/s in the last digits.
@@ -200,6 +241,9 @@ impl ModelFacts {
             stiffening: None,
             contact_spacing: None,
             mesh: None,
+            in_si: None,
+            digits: None,
+            warnings: Vec::new(),
         }
     }
 }

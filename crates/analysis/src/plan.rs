@@ -145,17 +145,16 @@ pub fn plan_modal_analysis(
     }
 }
 
-/// About K(Ω), if `scene` uses it: what the reduction found, or, while there is none, what the matrices tell.
+/// About the package, and about K(Ω), if `scene` uses it: what the reduction found, or, while there is none, what the matrices tell.
 pub(crate) fn warnings(scene: &Scene, facts: &ModelFacts, reduced: Option<&ReducedSector>) -> Vec<String> {
     let found = reduced.map(|reduced| &reduced.report.stiffening);
     let found = found.map(|found| (found.verdict, &found.message));
     let preliminary = facts.stiffening.as_ref().map(|found| (found.verdict, &found.message));
     let known = found.or(preliminary).filter(|_| scene.centrifugal_stiffening);
-    known
-        .filter(|(verdict, _)| verdict.warning().is_some())
-        .map(|(_, message)| message.clone())
-        .into_iter()
-        .collect()
+    let stiffening =
+        known.filter(|(verdict, _)| verdict.warning().is_some()).map(|(_, message)| message.clone());
+    let digits = reduced.zip(facts.digits).and_then(|(reduced, digits)| reduced.cost_of(digits));
+    facts.warnings.iter().cloned().chain(digits).chain(stiffening).collect()
 }
 
 /// Whether a reduction is there.

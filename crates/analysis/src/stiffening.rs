@@ -1,6 +1,7 @@
 //! How far K(Ω) can be trusted between the speeds at which it is given, in words.
 
 use crate::result::{PreliminaryStiffening, StiffeningReport, StiffeningVerdict};
+use rubmap_wheel::dynamics::findings::SpinFinding;
 use rubmap_wheel::dynamics::reduction::{InterpolationCheck, InterpolationVerdict, MatrixRatios};
 use rubmap_wheel::dynamics::sector::SectorModel;
 
@@ -81,4 +82,50 @@ pub(super) fn stiffening_report(check: &InterpolationCheck, sector: &SectorModel
     // JSON has no infinity; an indefinite K is an error of at least 100 %.
     let frequency_error = frequency_error.min(1.0);
     StiffeningReport { verdict, linear_ratio, quadratic_ratio, frequency_error, message }
+}
+
+/// What is found of the stiffness at each speed above 0, held against mass and positions.
+type Spin = [(f64, SpinFinding)];
+
+/// With what mass and positions say of K(Ω).
+pub(super) fn with_spin(mut found: PreliminaryStiffening, spin: &Spin) -> PreliminaryStiffening {
+    (found.verdict, found.message) = judged(found.verdict, found.message, spin);
+    found
+}
+
+/// With what mass and positions say of K(Ω).
+pub(super) fn report_with_spin(mut found: StiffeningReport, spin: &Spin) -> StiffeningReport {
+    (found.verdict, found.message) = judged(found.verdict, found.message, spin);
+    found
+}
+
+fn judged(verdict: StiffeningVerdict, message: String, spin: &Spin) -> (StiffeningVerdict, String) {
+    let said = |wanted: &dyn Fn(SpinFinding) -> bool| -> Vec<String> {
+        let at = spin.iter().filter(|(_, finding)| wanted(*finding));
+        at.map(|(speed, finding)| format!("The stiffness at {speed} rad/s is {finding}.")).collect()
+    };
+    let wrong = said(&SpinFinding::is_wrong_at_speed);
+    if !wrong.is_empty() {
+        return (StiffeningVerdict::Unsound, wrong.join(" "));
+    }
+    let other = said(&SpinFinding::is_other);
+    if !other.is_empty() {
+        return (verdict.max(StiffeningVerdict::Suspect), format!("{} {message}", other.join(" ")));
+    }
+    let unknown =
+        spin.iter().find(|(_, finding)| matches!(finding, SpinFinding::NotChecked | SpinFinding::Hidden));
+    match unknown {
+        Some((_, finding)) => {
+            (verdict, format!("{message} Whether it is that of the given speeds was {finding}."))
+        }
+        None => match spin.iter().rev().find_map(|(_, finding)| finding.residual()) {
+            Some(residual) => {
+                let held = format!(
+                    "By mass and positions it is that of the given speeds (residual {residual:.1e})."
+                );
+                (verdict, format!("{message} {held}"))
+            }
+            None => (verdict, message),
+        },
+    }
 }

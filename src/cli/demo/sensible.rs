@@ -166,6 +166,9 @@ mod tests {
             stiffening: None,
             contact_spacing: None,
             mesh: None,
+            in_si: None,
+            digits: None,
+            warnings: Vec::new(),
         }
     }
 

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use serde_json::Value;
 
 use crate::cli::client::{Client, ServerArgs, UploadLabels};
 use crate::cli::stdout::{print, print_json};
@@ -40,6 +41,13 @@ impl Verb for UploadArgs {
             model.contact_nodes,
             if new { "" } else { "; the service had it already, and keeps what it is called" }
         ));
+        for warning in model.body["warnings"].as_array().into_iter().flatten().filter_map(Value::as_str) {
+            client.terminal.say(&format!("WARNING: {warning}"));
+        }
+        let stiffening = &model.body["stiffening"];
+        if matches!(stiffening["verdict"].as_str(), Some("suspect" | "unsound")) {
+            client.terminal.say(&format!("WARNING: {}", stiffening["message"].as_str().unwrap_or_default()));
+        }
         if self.json { print_json(&model.body) } else { print(&model.id) }
     }
 }

@@ -13,7 +13,8 @@ pub enum StiffeningVerdict {
     Sound,
     /// Shows signs of stiffness taken on the deformed geometry; usable with the stated error.
     Suspect,
-    /// Interpolates badly: frequencies between the given speeds are not smooth or K(Ω) is indefinite.
+    /// Not to be relied on: frequencies between the given speeds are not smooth, K(Ω) is indefinite there, or K(Ω) is not that of the
+    /// given speeds by mass and positions.
     Unsound,
 }
 
@@ -27,8 +28,8 @@ impl StiffeningVerdict {
                  reduction estimates by how much",
             ),
             Self::Unsound => Some(
-                "K(Ω) is unsound: between the speeds at which the stiffness is given, frequencies, critical speeds and amplitudes \
-                 are not to be relied on",
+                "K(Ω) is unsound: between the speeds at which the stiffness is given, or at all of them, frequencies, critical speeds \
+                 and amplitudes are not to be relied on; `stiffening` of the model says why",
             ),
         }
     }
@@ -39,7 +40,7 @@ impl StiffeningVerdict {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct PreliminaryStiffening {
-    /// `absent`, `sound` or `suspect`; what is suspect may prove to be unsound.
+    /// What is suspect may prove to be unsound.
     pub verdict: StiffeningVerdict,
     /// ‖Ω1²K1‖/‖K0‖.
     pub linear_ratio: f64,

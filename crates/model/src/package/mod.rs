@@ -16,6 +16,7 @@ mod check;
 mod content;
 mod digest;
 pub mod error;
+mod findings;
 mod limits;
 mod lines;
 mod manifest;
@@ -47,6 +48,7 @@ pub use writer::write;
 use content::{Content, SourceLines};
 use raw::RawPackage;
 use rubmap_solid::mesh::SectorMesh;
+use rubmap_wheel::dynamics::findings::Findings;
 use rubmap_wheel::dynamics::sector::{SectorModel, SectorParts};
 
 /// A package that passed every check.
@@ -62,6 +64,8 @@ pub struct Imported {
     pub digest: String,
     /// The elements, if the package has them.
     pub mesh: Option<SectorMesh>,
+    /// Size of the model, and what in it looks wrong.
+    pub findings: Findings,
 }
 
 /// Reads, checks and converts the package at `path`.
@@ -87,8 +91,8 @@ pub struct Imported {
 /// The first problem found, in the order: archive, `sector.json`, tables, matrices, what they say together.
 pub fn read(path: &Path, limits: &Limits) -> Result<Imported, PackageError> {
     let Content { package, lines, digest } = zip_package::load(path, limits)?;
-    let (sector, mesh) = convert(package, &lines)?;
-    Ok(Imported { sector, digest, mesh })
+    let (sector, mesh, findings) = convert(package, &lines)?;
+    Ok(Imported { sector, digest, mesh, findings })
 }
 
 /// [`Imported::digest`] of the package at `path`, without its matrices in memory where they are text.
@@ -116,15 +120,25 @@ pub fn read_raw(path: &Path, limits: &Limits) -> Result<RawPackage, PackageError
 ///
 /// The first problem found; table lines in it are those that [`write()`] would give.
 pub fn to_sector(package: RawPackage) -> Result<SectorModel, PackageError> {
-    convert(package, &SourceLines::default()).map(|(sector, _)| sector)
+    convert(package, &SourceLines::default()).map(|(sector, ..)| sector)
+}
+
+/// Checks a package that was made in memory, by the same rules as [`read`], and tells what it is like.
+///
+/// # Errors
+///
+/// Those of [`to_sector`].
+pub fn look_at(package: RawPackage) -> Result<Findings, PackageError> {
+    convert(package, &SourceLines::default()).map(|(.., findings)| findings)
 }
 
 fn convert(
     mut package: RawPackage,
     lines: &SourceLines,
-) -> Result<(SectorModel, Option<SectorMesh>), PackageError> {
+) -> Result<(SectorModel, Option<SectorMesh>, Findings), PackageError> {
     let mut layout = check::check(&mut package, lines)?;
     let mesh = layout.mesh.take();
+    let of_matrices = findings::of_matrices(&package, &layout)?;
     let names = package.manifest.clone();
     let row_names: Vec<u64> = layout.own_rows.iter().map(|&row| package.dofs[row as usize].node).collect();
     let sector = sound(partition::build(package, &layout));
@@ -132,9 +146,11 @@ fn convert(
     if let Some(mesh) = &mesh {
         check::agreement::check(&sector, mesh, &layout, &names)?;
     }
+    check::materials::check_solids(&names)?;
+    let findings = of_matrices.with_size(findings::in_si::of(&sector, mesh.as_ref(), &layout));
     let mut parts = sector.into_parts();
     units::count_time_in_seconds(&mut parts);
-    Ok((sound(parts), mesh))
+    Ok((sound(parts), mesh, findings))
 }
 
 /// A sector of parts that were checked.

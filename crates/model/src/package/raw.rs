@@ -142,6 +142,16 @@ pub enum Frame {
     Cylindrical,
 }
 
+impl Frame {
+    /// Name in `sector.json`.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Cartesian => "cartesian",
+            Self::Cylindrical => "cylindrical",
+        }
+    }
+}
+
 /// One contact node of `sector.json`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -76,7 +76,7 @@ const QUANTITIES: [(&str, Names); 4] = [("length", LENGTH), ("force", FORCE), ("
 /// Brings a sector whose matrices count time in another unit than seconds to seconds, in which speeds are given:
 /// mass and the gyroscopic matrix, which is measured in mass, become force·s²/length; stiffness stays.
 pub(super) fn count_time_in_seconds(sector: &mut SectorParts) {
-    let seconds = size(TIME, &sector.units.time).unwrap_or(1.0);
+    let seconds = seconds(&sector.units);
     if seconds == 1.0 {
         return;
     }
@@ -88,6 +88,19 @@ pub(super) fn count_time_in_seconds(sector: &mut SectorParts) {
     let Units { length, force, .. } = &sector.units;
     sector.units.mass = format!("{force}·s²/{length}");
     sector.units.time = "s".to_owned();
+}
+
+/// Seconds that the unit of time has.
+pub(super) fn seconds(units: &Units) -> f64 {
+    size(TIME, &units.time).unwrap_or(1.0)
+}
+
+/// Sizes of the units of length, force and mass in m, N and kg, the mass as force, time and length make it; none where a name is not
+/// known.
+pub(super) fn si_sizes(units: &Units) -> Option<[f64; 3]> {
+    let (length, force) = (size(LENGTH, &units.length)?, size(FORCE, &units.force)?);
+    let seconds = size(TIME, &units.time)?;
+    Some([length, force, force * seconds * seconds / length])
 }
 
 /// Checks that force = mass·length/time² among the names this module knows.

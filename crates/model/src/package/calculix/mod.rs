@@ -19,7 +19,6 @@ mod model;
 mod no_mesh;
 mod sets;
 mod solids;
-mod spin;
 mod strengths;
 mod text;
 mod wheel;
@@ -33,7 +32,6 @@ pub use contact::ContactPoint;
 pub use error::{CalculixError, LineProblem, ModelProblem, NoCopy, NoOrder};
 pub use model::{CalculixModel, Normals};
 pub use no_mesh::NoMesh;
-pub use spin::SpinFinding;
 
 use super::by_place;
 use super::check;
@@ -57,8 +55,6 @@ pub struct ImportSummary {
     pub contact: Vec<ContactPoint>,
     /// Of a whole wheel: how much its sectors differ, relative to the largest force, at worst over all matrices.
     pub sectors_differ: Option<f64>,
-    /// What each stiffness at speed is.
-    pub spin: Vec<(f64, SpinFinding)>,
     /// Why the package has no mesh, if it has none.
     pub no_mesh: Option<NoMesh>,
 }
@@ -95,13 +91,8 @@ pub fn import(model: &CalculixModel) -> Result<(RawPackage, ImportSummary), Calc
     }
     require_whole(&files, &read)?;
     let mut matrices: Vec<RawMatrix> = read.into_iter().map(|(matrix, _)| matrix).collect();
-    let mut summary = ImportSummary {
-        faces_swapped: false,
-        contact: Vec::new(),
-        sectors_differ: None,
-        spin: Vec::new(),
-        no_mesh: None,
-    };
+    let mut summary =
+        ImportSummary { faces_swapped: false, contact: Vec::new(), sectors_differ: None, no_mesh: None };
     let kept;
     let (pairs, dofs, contact_nodes) = if model.whole_wheel {
         let cut = wheel::cut(&rest, &matrices[1], &positions, &low, sectors, &frame, tolerance)?;
@@ -145,14 +136,6 @@ pub fn import(model: &CalculixModel) -> Result<(RawPackage, ImportSummary), Calc
     }
     let all: Vec<[f64; 3]> = nodes.iter().map(|node| node.position).collect();
     summary.contact = contact::with_normals(&contact, &model.normals, &frame, &all)?;
-    let on_face: HashSet<u64> = pairs.iter().flatten().copied().collect();
-    for ((speed, _), at_speed) in model.at_speed.iter().zip(&matrices[2..]) {
-        let given = [&matrices[1], at_speed, &matrices[0]];
-        let inner = |node| !on_face.contains(&node);
-        let finding =
-            spin::check(*speed, given, &dofs, &positions, (axis.origin.into(), frame.direction()), inner);
-        summary.spin.push((*speed, finding));
-    }
     let stiffness = matrices.split_off(1);
     let Some(mass) = matrices.pop() else { unreachable!("the mass is read first") };
     let manifest = Manifest {

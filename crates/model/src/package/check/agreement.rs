@@ -155,7 +155,7 @@ fn groups(mesh: &SectorMesh, layout: &Layout) -> Vec<Option<usize>> {
 }
 
 /// (Y0 + Y1 + Y1ᵀ) x: what a sector of the whole wheel bears if all of them move alike.
-fn times(matrix: &CyclicMatrix, x: &[f64]) -> Vec<f64> {
+pub(crate) fn times(matrix: &CyclicMatrix, x: &[f64]) -> Vec<f64> {
     let mut y = vec![0.0; x.len()];
     let mut add = |part: &SparseColMat<usize, f64>, both: bool| {
         for entry in part.triplet_iter() {

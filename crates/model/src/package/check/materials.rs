@@ -1,10 +1,12 @@
 //! What `sector.json` says of materials.
 
 use rubmap_solid::material::Material;
+use rubmap_wheel::dynamics::sector::Units;
 
 use crate::package::error::{ManifestProblem, PackageError};
+use crate::package::findings::in_si;
 use crate::package::quote::quoted;
-use crate::package::raw::{LONGEST_NAME, ManifestMesh};
+use crate::package::raw::{LONGEST_NAME, Manifest, ManifestMesh};
 
 /// More sets than any wheel has materials.
 const MOST_SETS: usize = 1000;
@@ -22,6 +24,35 @@ pub(super) fn check(mesh: &ManifestMesh) -> Result<(), PackageError> {
         }
         of_one(material)
             .map_err(|(field, problem)| PackageError::manifest(format!("{set}/{field}"), problem))?;
+    }
+    Ok(())
+}
+
+/// Refuses constants beyond those of any solid; where units are not known, any may be right. Comes after the matrices have had their say,
+/// which tells more.
+pub(crate) fn check_solids(manifest: &Manifest) -> Result<(), PackageError> {
+    for (name, material) in manifest.mesh.iter().flat_map(|mesh| &mesh.sets) {
+        of_a_solid(material, &manifest.units).map_err(|(field, problem)| {
+            PackageError::manifest(format!("{}/{field}", pointer(name)), problem)
+        })?;
+    }
+    Ok(())
+}
+
+fn of_a_solid(material: &Material, units: &Units) -> Result<(), (&'static str, ManifestProblem)> {
+    let (modulus, density) = (material.youngs_modulus, material.density);
+    let Some([modulus_pa, density_kg_m3]) = in_si::in_si(modulus, density, units) else { return Ok(()) };
+    if !(in_si::SOFTEST..=in_si::STIFFEST).contains(&modulus_pa) {
+        return Err((
+            "youngs_modulus",
+            ManifestProblem::NoSolid { value: modulus, in_si: modulus_pa, unit: "Pa" },
+        ));
+    }
+    if !(in_si::LIGHTEST..=in_si::DENSEST).contains(&density_kg_m3) {
+        return Err((
+            "density",
+            ManifestProblem::NoSolid { value: density, in_si: density_kg_m3, unit: "kg/m³" },
+        ));
     }
     Ok(())
 }

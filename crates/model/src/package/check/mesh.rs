@@ -16,6 +16,9 @@ use crate::package::content::SourceLines;
 use crate::package::error::{ArchiveProblem, ManifestProblem, PackageError, TableProblem};
 use crate::package::raw::{Manifest, ManifestMesh, RawElement, RawNode, RawPackage};
 
+/// Nodes without element that a package may always have.
+const MOST_SPARE: usize = 1000;
+
 /// Partners of nodes on the cyclic faces, or [`NONE`].
 pub(crate) struct Faces<'a> {
     pub(crate) high_of: &'a [u32],
@@ -45,6 +48,7 @@ pub(crate) fn check(
     };
     let mesh = made(manifest, stated, elements, &package.nodes, lines, frame, index, rows_of_node, faces)?;
     has_all_that_moves(package, stated, &mesh, lines, index)?;
+    check_spare_nodes(&mesh)?;
     hangs_together(stated, &mesh, lines)?;
     overlap::check(&stated.elements, &mesh, lines)?;
     repeats(stated, &mesh, lines)?;
@@ -94,6 +98,17 @@ pub(crate) fn made(
         elements,
         sets,
     })
+}
+
+/// Refuses more nodes without element than any export leaves over: every mesh that is asked for would carry them.
+fn check_spare_nodes(mesh: &SectorMesh) -> Result<(), PackageError> {
+    let used: HashSet<u32> = mesh.elements.iter().flat_map(|element| &element.nodes).copied().collect();
+    let spare = mesh.nodes.len() - used.len();
+    if spare <= MOST_SPARE.max(used.len()) {
+        return Ok(());
+    }
+    let problem = ManifestProblem::SpareNodes { spare, used: used.len() };
+    Err(PackageError::manifest("/nodes", problem))
 }
 
 /// Nodes with degrees of freedom and contact nodes have elements.

@@ -9,7 +9,7 @@ pub(super) mod cyclic;
 pub(super) mod elements;
 pub(super) mod layout;
 pub(super) mod mass;
-mod materials;
+pub(super) mod materials;
 mod matrices;
 pub(super) mod mesh;
 mod overlap;

@@ -249,6 +249,33 @@ pub enum ManifestProblem {
         /// N.
         sectors: usize,
     },
+    /// Rows that are in balance only if they are read otherwise.
+    #[error(
+        "a rigid motion of the sector makes forces where nothing holds it: {stated} of {inner} inner nodes are in balance as the rows are \
+         stated, {found} if {reading}"
+    )]
+    RowsOtherwise {
+        /// Reading that puts more nodes in balance.
+        reading: RowReading,
+        /// Nodes in balance as stated.
+        stated: usize,
+        /// Nodes in balance in the other reading.
+        found: usize,
+        /// Nodes inside the sector with three components.
+        inner: usize,
+    },
+    /// A constant that no solid has by far.
+    #[error(
+        "the value is {value:e}, in SI units {in_si:.3e} {unit}, which no solid is near to: check it and the units"
+    )]
+    NoSolid {
+        /// Value given.
+        value: f64,
+        /// Value in SI units.
+        in_si: f64,
+        /// SI unit.
+        unit: &'static str,
+    },
     /// A constant or strength that must be positive.
     #[error("the value is {value}; it must be positive")]
     NotPositive {
@@ -332,6 +359,16 @@ pub enum ManifestProblem {
         /// File name of the element table.
         elements: String,
     },
+    /// Mostly nodes without element.
+    #[error(
+        "{spare} nodes belong to no element, more than the {used} that do: leave them out of the node table"
+    )]
+    SpareNodes {
+        /// Nodes without element.
+        spare: usize,
+        /// Nodes with one.
+        used: usize,
+    },
     /// A contact node outside the mesh.
     #[error("contact node {node} belongs to no element of {elements}")]
     ContactWithoutElement {
@@ -377,6 +414,62 @@ pub enum ManifestProblem {
         /// What would have been accepted.
         tolerance: f64,
     },
+}
+
+/// Reading of the rows of the matrices other than the stated one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum RowReading {
+    /// All components in the other frame.
+    OtherFrame {
+        /// Its name.
+        meant: &'static str,
+    },
+    /// Components of face nodes in the other frame.
+    FacesInOtherFrame {
+        /// Its name.
+        meant: &'static str,
+    },
+    /// Components of high face nodes along axes that are turned with the sector.
+    HighFaceTurned,
+    /// Nodes as the DOF table lists them, the components of each together.
+    ByNode,
+    /// Nodes in another order.
+    NodesInOtherOrder {
+        /// The order.
+        order: &'static str,
+    },
+    /// First all components 1, then all 2, then all 3.
+    ByComponent {
+        /// Order of the nodes.
+        order: &'static str,
+    },
+}
+
+impl fmt::Display for RowReading {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::OtherFrame { meant } => write!(f, "their components are {meant}: say \"frame\": \"{meant}\""),
+            Self::FacesInOtherFrame { meant } => write!(
+                f,
+                "the components of the nodes on the cyclic faces alone are {meant}: export all nodes in one frame"
+            ),
+            Self::HighFaceTurned => f.write_str(
+                "the components of the nodes on the high face are along axes turned with the sector: export all nodes in one frame",
+            ),
+            Self::ByNode => f.write_str(
+                "the matrices have the components of each node together: list the rows of the DOF table in that order",
+            ),
+            Self::NodesInOtherOrder { order } => write!(
+                f,
+                "the matrices have the nodes in the order of {order}: list the rows of the DOF table as the matrices have them"
+            ),
+            Self::ByComponent { order } => write!(
+                f,
+                "the matrices have all components 1 first, then all 2, then all 3, nodes in the order of {order}: list the rows of the \
+                 DOF table as the matrices have them"
+            ),
+        }
+    }
 }
 
 /// Turn about the axis that takes low nodes to high nodes.

@@ -1,0 +1,64 @@
+//! Noise of matrices that were written with few digits.
+//!
+//! Round-off of the entries holds rigid motions by forces that are not there. In a mode of a blade each element moves nearly rigidly, most of
+//! all at the tip, so the same forces, times the amplitudes of such a mode, change the square of its frequency by about (w·F)/(w·M w), summed
+//! over nodes as independent errors are.
+
+use rubmap_solid::frame::distance;
+use rubmap_wheel::dynamics::findings::DigitNoise;
+
+use super::rigid::{Balance, Body, MOTIONS, forces};
+use crate::package::check::layout::Layout;
+use crate::package::raw::RawPackage;
+use crate::package::units;
+
+/// The estimate is so many times what independent errors give: equal entries are rounded alike. Wheels with blades of 0.3 to 3 mm
+/// (`tests/package/findings.rs`) change by 0.05 to 6 times as much as is said then.
+const SAFETY: f64 = 4.0;
+
+/// Relative forces below this are those of ten digits and more.
+const ALL_DIGITS: f64 = 1e-10;
+
+/// Finds it, at nodes that K(0) leaves in balance.
+pub(super) fn find(
+    body: &Body,
+    balance: &Balance,
+    package: &RawPackage,
+    layout: &Layout,
+) -> Option<DigitNoise> {
+    if balance.residual <= ALL_DIGITS {
+        return None;
+    }
+    let reading = body.as_stated();
+    let motions = body.motions(&reading);
+    let inertia = forces(&package.mass, &motions);
+    let shape = amplitudes(package, layout, body.size);
+    let square = |motion: usize| {
+        let (mut work, mut kinetic) = (0.0, 0.0);
+        for node in (0..balance.nodes.len()).filter(|&node| balance.nodes[node]) {
+            let amplitude = shape[node];
+            for row in reading.rows_of_node[node].map(|row| row as usize) {
+                let moved = amplitude * amplitude * motions[row][motion];
+                work += (moved * balance.forces[row][motion]).powi(2);
+                kinetic += moved * inertia[row][motion];
+            }
+        }
+        SAFETY * work.sqrt() / kinetic
+    };
+    let largest = (0..MOTIONS).map(square).filter(|square| square.is_finite()).fold(0.0, f64::max);
+    let seconds = units::seconds(&package.manifest.units);
+    Some(DigitNoise { residual: balance.residual, square_rad2_s2: largest / (seconds * seconds) })
+}
+
+/// Amplitude of each node in a mode of the blade: from 1 at the contact nodes down to 0 at half their line's length from them.
+fn amplitudes(package: &RawPackage, layout: &Layout, size: f64) -> Vec<f64> {
+    let contact: Vec<[f64; 3]> =
+        layout.contact.iter().map(|&node| package.nodes[node as usize].position).collect();
+    let length: f64 = contact.windows(2).map(|pair| distance(pair[0], pair[1])).sum();
+    let reach = 0.5 * if length > 0.0 { length } else { size };
+    let amplitude = |position: [f64; 3]| {
+        let nearest = contact.iter().map(|&at| distance(at, position)).fold(f64::INFINITY, f64::min);
+        (1.0 - nearest / reach).max(0.0)
+    };
+    package.nodes.iter().map(|node| amplitude(node.position)).collect()
+}

@@ -1,0 +1,212 @@
+//! Rigid motions of a sector, and the nodes at which K(0) gives no force against them.
+//!
+//! An elastic stiffness gives none at a node that no clamp, support or cyclic face touches: what is left there is the
+//! round-off of the entries as they were written.
+
+use nalgebra::Vector3;
+use rubmap_solid::frame::Basis;
+
+use crate::package::check::layout::{Layout, NONE};
+use crate::package::raw::{Frame, RawMatrix, RawPackage};
+
+/// Rigid motions: three translations and three turns.
+pub(super) const MOTIONS: usize = 6;
+
+/// Forces below this part of Σ|K_ij| times the size of the sector are balance: entries of four digits leave 1e-6, a node at a
+/// wrong place 1e-3 and more.
+const IN_BALANCE: f64 = 1e-5;
+
+/// One number of every motion.
+pub(super) type OfMotions = [f64; MOTIONS];
+
+/// Nodes of a sector with their places, and the rows that the package gives them.
+pub(super) struct Body {
+    /// Places from the middle of the sector.
+    positions: Vec<Vector3<f64>>,
+    /// Parts of the places normal to the axis, from the axis.
+    from_axis: Vec<Vector3<f64>>,
+    pub(super) axis: Vector3<f64>,
+    /// Local unit vectors (r, θ, z) of each node.
+    pub(super) cylindrical: Vec<Basis>,
+    pub(super) rows_of_node: Vec<[u32; 3]>,
+    pub(super) frame: Frame,
+    /// Whether a node is on a cyclic face.
+    pub(super) on_face: Vec<bool>,
+    rows: usize,
+    /// Largest distance from the middle.
+    pub(super) size: f64,
+}
+
+/// Rows and components of each node, as a package states them or as they might be meant.
+pub(super) struct Reading {
+    pub(super) rows_of_node: Vec<[u32; 3]>,
+    /// Local unit vectors of each node's components.
+    pub(super) bases: Vec<Basis>,
+}
+
+impl Body {
+    pub(super) fn of(package: &RawPackage, layout: &Layout) -> Self {
+        let free = |node: &usize| layout.rows_of_node[*node] != [NONE; 3];
+        let at = |node: usize| Vector3::from(package.nodes[node].position);
+        let nodes = package.nodes.len();
+        let count = (0..nodes).filter(free).count().max(1) as f64;
+        let middle = (0..nodes).filter(free).map(|node| at(node) / count).sum::<Vector3<f64>>();
+        let positions: Vec<_> = (0..nodes).map(|node| at(node) - middle).collect();
+        let size = (0..nodes).filter(free).map(|node| positions[node].norm()).fold(0.0, f64::max);
+        let local = |node: usize| {
+            let [r, theta, _] = layout.frame.coordinates(package.nodes[node].position);
+            let basis = layout.frame.cylindrical(theta);
+            (basis.row(0).transpose() * r, basis)
+        };
+        let (from_axis, cylindrical) = (0..nodes).map(local).unzip();
+        Self {
+            positions,
+            from_axis,
+            axis: layout.frame.direction(),
+            cylindrical,
+            rows_of_node: layout.rows_of_node.clone(),
+            frame: package.manifest.frame,
+            on_face: (0..nodes).map(|k| layout.high_of[k] != NONE || layout.low_of[k] != NONE).collect(),
+            rows: package.dofs.len(),
+            size,
+        }
+    }
+
+    pub(super) fn as_stated(&self) -> Reading {
+        self.in_frames(|_| self.frame)
+    }
+
+    /// Rows as stated, components of each node in the frame that is given.
+    pub(super) fn in_frames(&self, frame: impl Fn(usize) -> Frame) -> Reading {
+        let basis = |node: usize| match frame(node) {
+            Frame::Cartesian => Basis::identity(),
+            Frame::Cylindrical => self.cylindrical[node],
+        };
+        let bases = (0..self.positions.len()).map(basis).collect();
+        Reading { rows_of_node: self.rows_of_node.clone(), bases }
+    }
+
+    /// Displacement of a node in a motion, global components: motions 0 to 2 move it by the size of the sector along x, y and z, 3 to 5
+    /// turn it by 1 rad about its middle.
+    fn displacement(&self, node: usize, motion: usize) -> Vector3<f64> {
+        let mut unit = Vector3::zeros();
+        unit[motion % 3] = 1.0;
+        if motion < 3 { unit * self.size } else { unit.cross(&self.positions[node]) }
+    }
+
+    /// Vector about which a motion turns, of length 1, or 0 for a translation.
+    pub(super) fn turn(motion: usize) -> Vector3<f64> {
+        let mut unit = Vector3::zeros();
+        if motion >= 3 {
+            unit[motion - 3] = 1.0;
+        }
+        unit
+    }
+
+    /// All motions by row.
+    pub(super) fn motions(&self, reading: &Reading) -> Vec<OfMotions> {
+        self.by_row(reading, |node, motion| self.displacement(node, motion))
+    }
+
+    /// Parts of all motions normal to the axis, by row.
+    pub(super) fn motions_in_plane(&self, reading: &Reading) -> Vec<OfMotions> {
+        self.by_row(reading, |node, motion| self.in_plane(self.displacement(node, motion)))
+    }
+
+    /// Radius vectors from the axis, by row.
+    pub(super) fn radii(&self, reading: &Reading) -> Vec<OfMotions> {
+        self.by_row(reading, |node, motion| if motion == 0 { self.from_axis[node] } else { Vector3::zeros() })
+    }
+
+    pub(super) fn in_plane(&self, vector: Vector3<f64>) -> Vector3<f64> {
+        vector - self.axis * vector.dot(&self.axis)
+    }
+
+    fn by_row(&self, reading: &Reading, vector: impl Fn(usize, usize) -> Vector3<f64>) -> Vec<OfMotions> {
+        let mut by_row = vec![[0.0; MOTIONS]; self.rows];
+        for (node, rows) in reading.rows_of_node.iter().enumerate().filter(|(_, rows)| **rows != [NONE; 3]) {
+            for motion in 0..MOTIONS {
+                let local = reading.bases[node] * vector(node, motion);
+                for (component, &row) in rows.iter().enumerate().filter(|(_, row)| **row != NONE) {
+                    by_row[row as usize][motion] = local[component];
+                }
+            }
+        }
+        by_row
+    }
+
+    /// Vector of a node, global components, from its rows.
+    pub(super) fn vector(
+        reading: &Reading,
+        node: usize,
+        by_row: &[OfMotions],
+        motion: usize,
+    ) -> Vector3<f64> {
+        let local = Vector3::from(reading.rows_of_node[node].map(|row| by_row[row as usize][motion]));
+        reading.bases[node].tr_mul(&local)
+    }
+
+    /// Nodes that have all three components and are on no cyclic face.
+    pub(super) fn inner(&self) -> impl Iterator<Item = usize> + '_ {
+        (0..self.rows_of_node.len())
+            .filter(|&node| !self.on_face[node] && !self.rows_of_node[node].contains(&NONE))
+    }
+}
+
+/// Forces of a matrix against motions, by row.
+pub(super) fn forces(matrix: &RawMatrix, motions: &[OfMotions]) -> Vec<OfMotions> {
+    let mut forces = vec![[0.0; MOTIONS]; matrix.size];
+    for &(row, column, value) in &matrix.entries {
+        let (row, column) = (row as usize, column as usize);
+        for motion in 0..MOTIONS {
+            forces[row][motion] += value * motions[column][motion];
+            if row != column {
+                forces[column][motion] += value * motions[row][motion];
+            }
+        }
+    }
+    forces
+}
+
+/// Inner nodes that K(0) leaves in balance.
+pub(super) struct Balance {
+    /// Whether a node is one of them.
+    pub(super) nodes: Vec<bool>,
+    /// Forces against the motions.
+    pub(super) forces: Vec<OfMotions>,
+    /// Median of the largest force at nodes in balance, as a part of Σ|K_ij| times the size of the sector.
+    pub(super) residual: f64,
+}
+
+impl Balance {
+    pub(super) fn of(body: &Body, reading: &Reading, stiffness: &RawMatrix) -> Self {
+        let mut scale = vec![0.0; stiffness.size];
+        for &(row, column, value) in &stiffness.entries {
+            scale[row as usize] += value.abs();
+            if row != column {
+                scale[column as usize] += value.abs();
+            }
+        }
+        let forces = forces(stiffness, &body.motions(reading));
+        let mut nodes = vec![false; body.rows_of_node.len()];
+        let mut residuals = Vec::new();
+        for node in body.inner() {
+            let rows = reading.rows_of_node[node];
+            let largest =
+                |row: u32| forces[row as usize].iter().fold(0.0, |most: f64, force| most.max(force.abs()));
+            let [force, scale] = [&largest as &dyn Fn(u32) -> f64, &|row| scale[row as usize] * body.size]
+                .map(|of| rows.map(of).into_iter().fold(0.0, f64::max));
+            if force <= IN_BALANCE * scale && scale > 0.0 {
+                nodes[node] = true;
+                residuals.push(force / scale);
+            }
+        }
+        residuals.sort_unstable_by(f64::total_cmp);
+        let residual = residuals.get(residuals.len() / 2).copied().unwrap_or(0.0);
+        Self { nodes, forces, residual }
+    }
+
+    pub(super) fn count(&self) -> usize {
+        self.nodes.iter().filter(|balanced| **balanced).count()
+    }
+}

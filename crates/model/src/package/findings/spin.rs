@@ -1,0 +1,127 @@
+//! Whether K(Ω) − K(0) is what spinning adds on the undeformed geometry, without knowing the stresses (docs/method.md,
+//! Centrifugal stiffening).
+//!
+//! Move the sector rigidly, w = t + a × x. The elastic stiffness gives no force; the geometric stiffness turns the nodal
+//! forces that the stresses balance, K_σ w = a × Ω² M x⊥ where nothing else holds a node (x⊥ is the part of x
+//! normal to the axis); spin softening gives −Ω² M_spin w, with M_spin the mass without its axial part. So
+//!
+//! ```text
+//! (K(Ω) − K(0)) w = Ω² (σ a × M x⊥ − β M_spin w),    σ = β = 1,    for every t and a
+//! ```
+//!
+//! holds for exact undeformed-geometry matrices of any element, and for no tangent on the deformed geometry, where the
+//! left side has K_e (a × u) in it, of the same order. The shares σ and β that fit best tell what is missing.
+
+use nalgebra::{Matrix2, Vector2};
+
+use super::rigid::{Balance, Body, MOTIONS, OfMotions, forces};
+use crate::package::raw::{RawMatrix, RawPackage};
+use crate::package::units;
+use rubmap_wheel::dynamics::findings::SpinFinding;
+
+/// Residuals up to this are undeformed geometry; printed stresses of seven digits leave 1e-7.
+const SOUND: f64 = 1e-3;
+
+/// Residuals of the shares that fit best, up to which these shares are what is wrong.
+const FITS: f64 = 0.05;
+
+/// Round-off of K(0) beyond this part of the right-hand side hides it.
+const HIDDEN: f64 = 0.03;
+
+/// Round-off may add so many times its own size to a residual.
+const ROUND_OFF: f64 = 3.0;
+
+/// Shares that are known to so much although round-off hides the rest.
+const KNOWN: f64 = 0.05;
+
+/// Shares that round-off leaves may be this far from 1.
+const AS_SAID: f64 = 0.3;
+
+/// Holds K(Ω) at `speed`, rad/s, against the identity, at nodes that K(0) leaves in balance.
+pub(super) fn find(
+    body: &Body,
+    balance: &Balance,
+    package: &RawPackage,
+    speed: f64,
+    at_speed: &RawMatrix,
+) -> SpinFinding {
+    let reading = body.as_stated();
+    let moved = forces(at_speed, &body.motions(&reading));
+    let load = forces(&package.mass, &body.radii(&reading));
+    let in_plane = forces(&package.mass, &body.motions_in_plane(&reading));
+    let square = (speed * units::seconds(&package.manifest.units)).powi(2);
+    let mut sums = Sums::default();
+    for node in (0..balance.nodes.len()).filter(|&node| balance.nodes[node]) {
+        let at = |by_row: &[OfMotions], motion| Body::vector(&reading, node, by_row, motion);
+        for motion in 0..MOTIONS {
+            let at_rest = at(&balance.forces, motion) / square;
+            let found = at(&moved, motion) / square - at_rest;
+            let turned = Body::turn(motion).cross(&at(&load, 0));
+            let softening = body.in_plane(at(&in_plane, motion));
+            for k in 0..3 {
+                sums.add(found[k], turned[k], softening[k], at_rest[k]);
+            }
+        }
+    }
+    sums.judge()
+}
+
+/// Sums of squares and products over rows and motions.
+#[derive(Default)]
+struct Sums {
+    /// Of found, turned and −softening.
+    products: [[f64; 3]; 3],
+    /// Of (found − turned + softening)².
+    residual: f64,
+    /// Of the forces of K(0), which should be none.
+    noise: f64,
+    rows: f64,
+}
+
+impl Sums {
+    fn add(&mut self, found: f64, turned: f64, softening: f64, at_rest: f64) {
+        let row = [found, turned, -softening];
+        for (sums, a) in self.products.iter_mut().zip(row) {
+            sums.iter_mut().zip(row).for_each(|(sum, b)| *sum += a * b);
+        }
+        self.residual += (found - turned + softening).powi(2);
+        self.noise += at_rest * at_rest;
+        self.rows += 1.0;
+    }
+
+    fn judge(&self) -> SpinFinding {
+        let [[found, of_turned, of_softening], [_, turned, both], [_, _, softening]] = self.products;
+        let size = turned + softening;
+        if size == 0.0 {
+            return SpinFinding::NotChecked;
+        }
+        let [residual, noise] = [self.residual, self.noise].map(|sum| (sum / size).sqrt());
+        if residual <= SOUND.max(ROUND_OFF * noise) && noise <= HIDDEN {
+            return SpinFinding::Undeformed { residual };
+        }
+        let normal = Matrix2::new(turned, both, both, softening);
+        let inverse = normal.try_inverse().filter(|inverse| inverse.iter().all(|x| x.is_finite()));
+        let shares = inverse.map(|inverse| inverse * Vector2::new(of_turned, of_softening));
+        if noise > HIDDEN {
+            // Over many rows round-off averages out.
+            let variance =
+                |k: usize| inverse.map_or(f64::INFINITY, |inverse| inverse[(k, k)] * self.noise / self.rows);
+            let known = variance(0).max(variance(1)) <= KNOWN * KNOWN;
+            return match shares
+                .filter(|shares| known && shares.iter().any(|share| (share - 1.0).abs() > AS_SAID))
+            {
+                Some(shares) => SpinFinding::Shares { stiffening: shares.x, softening: shares.y, residual },
+                None => SpinFinding::Hidden,
+            };
+        }
+        if found <= (SOUND * SOUND).max((ROUND_OFF * noise).powi(2)) * size {
+            return SpinFinding::Shares { stiffening: 0.0, softening: 0.0, residual };
+        }
+        let Some(shares) = shares else { return SpinFinding::Other { residual } };
+        let left = (found - shares.dot(&Vector2::new(of_turned, of_softening))).max(0.0) / found;
+        if left.sqrt() > FITS.max(ROUND_OFF * noise * (size / found).sqrt()) {
+            return SpinFinding::Other { residual };
+        }
+        SpinFinding::Shares { stiffening: shares.x, softening: shares.y, residual }
+    }
+}

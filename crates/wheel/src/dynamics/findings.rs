@@ -1,0 +1,242 @@
+//! Findings about a sector: its size in SI units, and what in its matrices looks wrong, in words.
+
+use std::f64::consts::TAU;
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+/// Shares of stiffening and softening below this are none.
+const NONE: f64 = 1e-3;
+
+/// A share may be this far from the number that is said of it.
+const SHARE: f64 = 0.05;
+
+/// Radians per second of one revolution per minute.
+const RPM: f64 = std::f64::consts::TAU / 60.0;
+
+/// Young's moduli of solids that turn, from rubber to diamond, Pa.
+const USUAL_MODULUS: [f64; 2] = [1e6, 1.3e12];
+
+/// Their densities, from foam to osmium, kg/m³.
+const USUAL_DENSITY: [f64; 2] = [10.0, 2.3e4];
+
+/// √(E/ρ), from rubber to diamond, m/s.
+const USUAL_WAVE_SPEED: [f64; 2] = [20.0, 2e4];
+
+/// Radii of wheels, m.
+const USUAL_RADIUS: [f64; 2] = [1e-3, 20.0];
+
+/// Mass over cube of the radius, kg/m³: more would be denser than a cylinder of osmium that is as long as it is wide.
+const MOST_MASS: f64 = 1.5e5;
+
+/// Findings about a package.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Findings {
+    /// Each speed above 0 with what its stiffness was found to be.
+    pub spin: Vec<(f64, SpinFinding)>,
+    /// Noise of matrices of few digits; none where all digits are there, or no node is free.
+    pub digits: Option<DigitNoise>,
+    /// Size and materials in SI units; none where a unit is not known.
+    pub in_si: Option<InSi>,
+}
+
+impl Findings {
+    /// Sentences about what looks wrong, K(Ω) aside.
+    pub fn warnings(&self) -> Vec<String> {
+        let digits = self.digits.iter().map(DigitNoise::warning);
+        digits.chain(self.in_si.iter().flat_map(InSi::warnings)).collect()
+    }
+}
+
+/// What a stiffness at speed was found to be.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum SpinFinding {
+    /// Geometric stiffness and spin softening on the undeformed geometry, within the residual.
+    Undeformed {
+        /// Residual of the identity, relative to its right-hand side.
+        residual: f64,
+    },
+    /// Both on the undeformed geometry, but not as much of each as mass and speed say.
+    Shares {
+        /// Geometric stiffness, 1 where it is right.
+        stiffening: f64,
+        /// Spin softening, 1 where it is right.
+        softening: f64,
+        /// Residual of the identity.
+        residual: f64,
+    },
+    /// Something else: the deformed geometry, stresses of another load or of a sector whose ties were open.
+    Other {
+        /// Residual of the identity.
+        residual: f64,
+    },
+    /// No row is free of clamps and cyclic faces.
+    NotChecked,
+    /// The digits of the matrices do not show it.
+    Hidden,
+}
+
+impl SpinFinding {
+    /// Whether what was found makes frequencies wrong at the given speeds already.
+    pub fn is_wrong_at_speed(self) -> bool {
+        matches!(self, Self::Shares { .. })
+    }
+
+    /// Residual of what is as it must be.
+    pub fn residual(self) -> Option<f64> {
+        match self {
+            Self::Undeformed { residual } => Some(residual),
+            _ => None,
+        }
+    }
+
+    /// Whether it was checked, and is not that of the undeformed geometry.
+    pub fn is_other(self) -> bool {
+        matches!(self, Self::Other { .. })
+    }
+}
+
+impl fmt::Display for SpinFinding {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::Undeformed { residual } => {
+                write!(
+                    f,
+                    "geometric stiffness and spin softening on the undeformed geometry (residual {residual:.1e})"
+                )
+            }
+            Self::Shares { stiffening, softening, residual } => {
+                shares(f, stiffening, softening)?;
+                write!(f, " (residual {residual:.2})")
+            }
+            Self::Other { residual } => write!(
+                f,
+                "NOT that of the undeformed geometry under this speed (residual {residual:.1e}); between the speeds it will be \
+                 wrong (see docs/calculix.md)"
+            ),
+            Self::NotChecked => f.write_str("not checked, no node is free of clamps and faces"),
+            Self::Hidden => f.write_str("not checked, the matrices have too few digits"),
+        }
+    }
+}
+
+fn shares(f: &mut fmt::Formatter<'_>, stiffening: f64, softening: f64) -> fmt::Result {
+    let near = |share: f64, is: f64| (share - is).abs() <= SHARE * is.max(1.0);
+    if near(stiffening, 1.0) && near(softening, 0.0) {
+        return f.write_str("WITHOUT spin softening: export K_e + K_σ − Ω²M_spin (CalculiX: repeat *DLOAD, CENTRIF in the exporting step)");
+    }
+    if near(stiffening, 1.0) && near(softening, 2.0) {
+        return f
+            .write_str("with TWICE the spin softening: the exporting program subtracts Ω²M_spin already");
+    }
+    if near(stiffening, 0.0) && near(softening, 1.0) {
+        return f.write_str("WITHOUT geometric stiffness: export under the centrifugal pre-stress");
+    }
+    if stiffening.abs().max(softening.abs()) <= NONE {
+        return f.write_str("that at rest: it does NOT change with speed");
+    }
+    if stiffening > 0.0 && (stiffening / softening - 1.0).abs() <= SHARE {
+        let factor = stiffening.sqrt();
+        let rpm = [
+            (RPM, "the speeds are in rpm, and belong in rad/s"),
+            (1.0 / RPM, "the stiffness was computed at speeds in rad/s taken for rpm"),
+        ];
+        let hint = rpm.iter().find(|(of, _)| (factor / of - 1.0).abs() < 0.01).map_or("", |(_, hint)| *hint);
+        write!(f, "that of {factor:.4} times this speed by mass and positions")?;
+        return if hint.is_empty() {
+            f.write_str(": check the speeds and the units of the mass")
+        } else {
+            write!(f, ": probably {hint}")
+        };
+    }
+    write!(
+        f,
+        "NOT that of this speed: by mass and positions it has {stiffening:.3} times the geometric stiffness and {softening:.3} times the \
+         spin softening"
+    )
+}
+
+/// Noise of the stiffness matrix at rest.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct DigitNoise {
+    /// Forces against rigid motions, as a part of Σ|K_ij| times the size of the sector: the median of nodes in balance.
+    pub residual: f64,
+    /// Change that it may make to the square of an angular frequency, rad²/s².
+    pub square_rad2_s2: f64,
+}
+
+impl DigitNoise {
+    /// Relative change that it may make to a frequency, Hz.
+    pub fn change_of(&self, frequency_hz: f64) -> f64 {
+        0.5 * self.square_rad2_s2 / (TAU * frequency_hz).powi(2)
+    }
+
+    /// A sentence about it.
+    pub fn warning(&self) -> String {
+        let at = |frequency_hz: f64| 100.0 * self.change_of(frequency_hz);
+        format!(
+            "the stiffness matrix at rest has few digits: rigid motions leave forces of {:.1e} of its entries, where double precision \
+             leaves 1e-14. This may change a frequency of 100 Hz by {:.2} % and one of 1000 Hz by {:.4} %: export all digits",
+            self.residual,
+            at(100.0),
+            at(1000.0)
+        )
+    }
+}
+
+/// Size and materials in SI units.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct InSi {
+    /// Mass of the whole wheel without nodes that are clamped, kg.
+    pub mass_kg: f64,
+    /// Largest distance of a contact node from the axis, m.
+    pub contact_radius_m: f64,
+    /// Materials of the element sets, in the order of their names.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub materials: Vec<MaterialInSi>,
+}
+
+/// Material of an element set in SI units.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct MaterialInSi {
+    /// Name of the element set.
+    pub set: String,
+    /// Young's modulus, Pa.
+    pub youngs_modulus_pa: f64,
+    /// Density, kg/m³.
+    pub density_kg_m3: f64,
+    /// √(E/ρ), m/s: some 5,000 in metals.
+    pub wave_speed_m_s: f64,
+}
+
+impl InSi {
+    /// Sentences about what no wheel is like.
+    fn warnings(&self) -> Vec<String> {
+        let mut found = Vec::new();
+        let mut expect = |value: f64, [least, most]: [f64; 2], of: &str, unit: &str, solids: &str| {
+            if !(least..=most).contains(&value) {
+                found.push(format!(
+                    "{of} is {value:.3e} {unit}; {solids} from {least} to {most}: check the units"
+                ));
+            }
+        };
+        for MaterialInSi { set, youngs_modulus_pa, density_kg_m3, wave_speed_m_s } in &self.materials {
+            let of = |what: &str| format!("{what} of \"{set}\"");
+            expect(*youngs_modulus_pa, USUAL_MODULUS, &of("Young's modulus"), "Pa", "solids have");
+            expect(*density_kg_m3, USUAL_DENSITY, &of("the density"), "kg/m³", "solids have");
+            expect(*wave_speed_m_s, USUAL_WAVE_SPEED, &of("√(E/ρ)"), "m/s", "solids have");
+        }
+        expect(self.contact_radius_m, USUAL_RADIUS, "the radius of the contact nodes", "m", "wheels have");
+        let most = MOST_MASS * self.contact_radius_m.powi(3);
+        if self.mass_kg > most {
+            found.push(format!(
+                "the wheel has a mass of {:.3e} kg within a radius of {:.3e} m, more than any solid of that size: check the units",
+                self.mass_kg, self.contact_radius_m
+            ));
+        }
+        found
+    }
+}
