@@ -5,11 +5,12 @@
 
 use rubmap::analysis::monitor::Unwatched;
 use rubmap::analysis::resolved::ResolvedSweep;
-use rubmap::analysis::result::Quantity;
+use rubmap::analysis::result::{Point, PointError, Quantity};
 use rubmap::analysis::run::{
     Choice, FinerRun, Next, Resources, Setting, TrialRequest, control_requests, error_estimate, next,
     run_speed,
 };
+use rubmap::impeller::{ImpellerParameters, MeshDensities};
 use serde_json::json;
 
 use crate::wheel::Wheel;
@@ -135,6 +136,99 @@ pub(crate) fn chosen(wheel: &mut Wheel, request: &ResolvedSweep) -> Result<Choic
             Next::Refuse(violation) => return Err(violation.message),
         }
     }
+}
+
+/// Random wheels whose stress errors are covered, with so many speeds each.
+const STRESSED: (u64, usize) = (10, 4);
+
+/// A wheel of coarse mesh, and a sweep on it with stress.
+fn stressed(draw: &mut Draw) -> (Wheel, serde_json::Value) {
+    let mesh = MeshDensities {
+        between_contact_nodes: 1,
+        blade_height: 4,
+        blade_thickness: 1,
+        half_passage: 1,
+        disk: 1,
+    };
+    let default = ImpellerParameters::default();
+    let thickness = draw.within(0.7, 1.4);
+    let wheel = Wheel::with_stress(&ImpellerParameters {
+        sectors: draw.among(&[3, 4, 5, 7]),
+        contact_nodes: 4,
+        backsweep_deg: draw.within(0.0, 40.0),
+        root_thickness: thickness * default.root_thickness,
+        tip_thickness: thickness * default.tip_thickness,
+        mesh,
+        ..default
+    });
+    let (mut body, _) = scene(draw);
+    let mut speeds: Vec<f64> = (0..STRESSED.1).map(|_| draw.within(10_000.0, 36_000.0)).collect();
+    speeds.sort_by(f64::total_cmp);
+    body["speeds"] = json!({"values": speeds, "unit": "rpm"});
+    body["modes_per_speed"] = json!(20);
+    body["integration"]["scheme"] = json!("exact_modal");
+    body["integration"]["steps_per_revolution"] = json!(1920);
+    body["control_speeds"] = json!(STRESSED.1);
+    body["record"] = json!({"stress": {}});
+    (wheel, body)
+}
+
+/// (true, estimated) errors of the largest stress at each speed.
+fn stress_errors(draw: &mut Draw) -> Vec<(f64, f64)> {
+    let (mut wheel, body) = stressed(draw);
+    let request = wheel.resolved(body.clone());
+    let reduced = wheel.reduced(20);
+    let results: Vec<_> =
+        (0..STRESSED.1).map(|k| run_speed(&reduced, &request, k, None, &Unwatched).unwrap()).collect();
+    let points: Vec<Point> = results.iter().map(|result| result.point.clone()).collect();
+    let asked = control_requests(&request, wheel.facts.sectors, &points, None);
+    let trials: Vec<_> =
+        asked.iter().map(|(index, setting, finer)| (*index, *setting, wheel.run(finer))).collect();
+    let runs: Vec<FinerRun<'_>> = (trials.iter())
+        .map(|(index, setting, trial)| {
+            let spectra = results[*index as usize].spectra.as_ref().unwrap();
+            FinerRun { index: *index, setting: *setting, spectra, trial }
+        })
+        .collect();
+    let estimate = error_estimate(&request, None, &points, &runs);
+    let mut finest = body;
+    finest["modes_per_speed"] = json!(160);
+    finest["integration"]["steps_per_revolution"] = json!(8 * 1920);
+    let (finest, reduced) = (wheel.resolved(finest), wheel.reduced(160));
+    let truth = |error: &PointError| {
+        let exact = run_speed(&reduced, &finest, error.index as usize, None, &Unwatched).unwrap().point;
+        // Of a speed that diverges there is none.
+        let largest = |point: &Point| Some(point.stress.as_ref()?.largest.von_mises);
+        let truth = (largest(&points[error.index as usize])? / largest(&exact)? - 1.0).abs();
+        Some((truth, error.estimated_stress_error?))
+    };
+    estimate.points.iter().filter_map(truth).collect()
+}
+
+/// On random wheels at most one largest stress in twenty is farther off than its estimate, and estimates are not absurdly large.
+#[test]
+fn errors_of_stress_cover_the_true_ones() {
+    let seeds: Vec<u64> = (0..STRESSED.0).collect();
+    let halves = [0, 1].map(|half| {
+        let seeds: Vec<u64> = seeds.iter().copied().filter(|seed| seed % 2 == half).collect();
+        std::thread::spawn(move || {
+            seeds.iter().flat_map(|&seed| stress_errors(&mut Draw(1000 + seed))).collect::<Vec<_>>()
+        })
+    });
+    let errors: Vec<(f64, f64)> = halves.into_iter().flat_map(|half| half.join().unwrap()).collect();
+    let mut ratios: Vec<f64> = errors.iter().map(|(truth, estimate)| truth / estimate).collect();
+    ratios.sort_by(f64::total_cmp);
+    for (truth, estimate) in &errors {
+        println!("true {truth:.2e}, estimated {estimate:.2e}, ratio {:.2}", truth / estimate);
+    }
+    println!(
+        "true/estimated: median {:.3}, most {:?}",
+        ratios[ratios.len() / 2],
+        &ratios[ratios.len() - 3..]
+    );
+    let above = ratios.iter().filter(|ratio| **ratio > 1.0).count();
+    assert!(20 * above <= ratios.len(), "{above} of {} above 1", ratios.len());
+    assert!(ratios[ratios.len() / 2] > 0.02, "{ratios:?}");
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use crate::accuracy::trial::lines;
 use crate::resolved::ResolvedSweep;
 use crate::result::trial::repeats;
-use crate::result::{Errors, Point, SpeedSpectra, Trial};
+use crate::result::{Errors, Point, PointStress, SpeedSpectra, Trial};
 
 /// The steady response of a completed run, as it is compared.
 pub(super) struct Response<'a> {
@@ -19,8 +19,8 @@ pub(super) struct Response<'a> {
     mean_force: f64,
     /// Whether the run took the revolutions that were asked for.
     took_all: bool,
-    /// Largest von Mises stress, where it was recorded.
-    pub(super) stress: Option<f64>,
+    /// Where it was recorded.
+    pub(super) stress: Option<&'a PointStress>,
 }
 
 impl<'a> Response<'a> {
@@ -34,11 +34,11 @@ impl<'a> Response<'a> {
     }
 
     /// Of a speed of a sweep.
-    pub(super) fn of_speed(point: &Point, spectra: &SpeedSpectra, request: &ResolvedSweep) -> Self {
+    pub(super) fn of_speed(point: &'a Point, spectra: &SpeedSpectra, request: &ResolvedSweep) -> Self {
         Self { lines: lines(spectra, request), ..Self::of_point(point) }
     }
 
-    fn of_point(point: &Point) -> Self {
+    fn of_point(point: &'a Point) -> Self {
         Self {
             rms: point.responses.iter().map(|response| response.rms).collect(),
             lines: Vec::new(),
@@ -47,7 +47,7 @@ impl<'a> Response<'a> {
             impulse: point.contact_impulse.unwrap_or(0.0),
             mean_force: point.contact.as_ref().map_or(0.0, |contact| contact.mean_force),
             took_all: point.march.is_none() && !point.is_solved(),
-            stress: point.stress.as_ref().map(|stress| stress.largest.von_mises),
+            stress: point.stress.as_ref(),
         }
     }
 
@@ -72,7 +72,10 @@ impl<'a> Response<'a> {
             engine_orders: repeat.then(|| self.error_of_lines(finer)),
             impulse: (impulse != 0.0 || finer_impulse != 0.0)
                 .then(|| relative((impulse - finer_impulse).abs(), finer_impulse.abs())),
-            stress: self.stress.zip(finer.stress).map(|(a, b)| relative((a - b).abs(), b)),
+            stress: self
+                .stress
+                .zip(finer.stress)
+                .map(|(a, b)| relative(a.difference(b), b.largest.von_mises)),
         }
     }
 

@@ -57,7 +57,8 @@ pub use run_up::{
 };
 pub use steady::{FloquetMultiplier, MarchReport, Stability, SteadyReport};
 pub use stress::{
-    PointStress, Strengths, StressCycle, StressPeak, drawn_stress_unit, most_utilised_first, stress_unit,
+    LeadingPlace, PointStress, Strengths, StressCycle, StressPeak, drawn_stress_unit, most_utilised_first,
+    stress_unit,
 };
 pub use study::{
     Histories, HistoryLine, SpeedStudy, StepOrder, StudyReduction, StudyRun, WorkPrecision, front,

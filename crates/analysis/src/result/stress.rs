@@ -20,6 +20,11 @@ pub struct PointStress {
     /// The most utilised places by descending utilisation; without strengths those of the largest alternating stress.
     #[cfg_attr(feature = "schema", schema(max_items = 20))]
     pub cycles: Vec<StressCycle>,
+    /// Places with the largest von Mises stress among those that were followed, by descending stress; the errors of two settings are compared
+    /// there. Empty in results that an earlier version has kept.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[cfg_attr(feature = "schema", schema(max_items = 20))]
+    pub leading: Vec<LeadingPlace>,
     /// Nodes within this distance of a contact node are left out, in the model's unit of length.
     pub excluded_radius: f64,
     /// So many nodes of a sector are left out.
@@ -45,6 +50,18 @@ pub struct StressPeak {
     pub sector: u32,
     /// Revolutions since the start.
     pub revolution: f64,
+}
+
+/// A place with its largest stress of all blades and instants.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct LeadingPlace {
+    /// Id of the node.
+    pub node: u64,
+    /// Name of its element set.
+    pub set: String,
+    /// Von Mises stress, in the model's units.
+    pub von_mises: f64,
 }
 
 /// How the stress of one place goes over a revolution.
@@ -77,6 +94,17 @@ pub struct StressCycle {
 }
 
 impl PointStress {
+    /// Largest difference to a `finer` setting, of the largest stress and of the stress at every place that leads in both: that of one number
+    /// alone vanishes by chance where another place or instant takes over.
+    pub(crate) fn difference(&self, finer: &Self) -> f64 {
+        let there = |here: &LeadingPlace| {
+            let same = |there: &&LeadingPlace| there.node == here.node && there.set == here.set;
+            finer.leading.iter().find(same).map(|there| (here.von_mises - there.von_mises).abs())
+        };
+        let of_largest = (self.largest.von_mises - finer.largest.von_mises).abs();
+        self.leading.iter().filter_map(there).fold(of_largest, f64::max)
+    }
+
     /// The largest utilisation of its cycles; none without strengths.
     pub fn utilisation(&self) -> Option<f64> {
         self.cycles.iter().filter_map(|cycle| cycle.utilisation).max_by(f64::total_cmp)

@@ -11,13 +11,16 @@ use super::look::{BATCH, Look, Seen};
 use super::measure::von_mises;
 use super::reduced::ReducedStress;
 use super::trajectory::paths;
-use crate::result::stress::{PointStress, StressCycle, StressPeak};
+use crate::result::stress::{LeadingPlace, PointStress, StressCycle, StressPeak};
 use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
 use rubmap_wheel::dynamics::reduction::ReducedHarmonic;
 use rubmap_wheel::dynamics::states::WheelStates;
 
 /// Places whose cycles are told.
 const CYCLES: usize = 20;
+
+/// Places whose largest stress is told.
+const LEADING: usize = 20;
 
 /// A wheel at a speed over a revolution.
 pub(crate) struct Course<'a> {
@@ -99,12 +102,18 @@ pub(crate) fn stress_of(
         }
     });
     let cycles = cycles.collect();
+    let leading = search.leading().into_iter().map(|(von_mises, at)| {
+        let (place, set) = place(at);
+        LeadingPlace { node: place.node, set: set.name.clone(), von_mises }
+    });
+    let leading = leading.collect();
     let Some(largest) = peak else { return Ok(None) };
     Ok(Some(PointStress {
         largest,
         largest_over_yield: yielding.map(|at| over_yield[at] * search.follow(at).peak.0),
         largest_static: fixed.iter().map(von_mises).fold(0.0, f64::max),
         cycles,
+        leading,
         excluded_radius: stress.excluded_radius,
         excluded_nodes: stress.excluded_nodes,
         followed_nodes: search.followed.iter().flatten().count() as u32,
@@ -196,6 +205,16 @@ impl Search<'_> {
         }
         found.sort_unstable_by(descending);
         found.into_iter().take(count).map(|(_, place)| place).collect()
+    }
+
+    /// Places with the largest von Mises stress among those that were followed.
+    fn leading(&self) -> Vec<(f64, usize)> {
+        let followed = self.followed.iter().enumerate();
+        let mut peaks: Vec<(f64, usize)> =
+            followed.filter_map(|(place, followed)| Some((followed.as_ref()?.peak.0, place))).collect();
+        peaks.sort_unstable_by(descending);
+        peaks.truncate(LEADING);
+        peaks
     }
 
     fn look(&mut self, places: impl Iterator<Item = usize>) {
