@@ -210,9 +210,10 @@ pub(super) async fn create_model(
     ))]
 pub(super) async fn plan_model_generation(
     state: State<AppState>,
+    whose: Principal,
     body: JsonBody<GenerationBody>,
 ) -> Result<Json<GenerationPlan>, Problem> {
-    Ok(Json(state.jobs.plan_generation(&body.value.parts()?.0).await?))
+    Ok(Json(state.jobs.plan_generation(&whose, &body.value.parts()?.0).await?))
 }
 
 /// Writes a body to a temporary file beside the models, piece by piece.

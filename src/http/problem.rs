@@ -22,6 +22,9 @@ pub const MEDIA_TYPE: &str = "application/problem+json";
 const FULL_DISK_S: u32 = 60;
 /// The same where jobs have to end, or somebody has to delete something.
 const LIMIT_S: u32 = 60;
+
+/// The same of plans and checks, which take a second or less.
+const PLANS_S: u32 = 1;
 /// The same where a lock or descriptors are to be had again by themselves.
 const BUSY_S: u32 = 5;
 /// Most items in `errors`; of more, the last one says how many.
@@ -363,6 +366,9 @@ impl From<LimitReached> for Problem {
                     "{asked} speeds are more than the {limit} that one owner may have waiting: ask for fewer at a time"
                 );
                 Self::violations(Kind::InvalidRequest, vec![Violation::new("/speeds", message)])
+            }
+            LimitReached::Plans { .. } => {
+                Self::new(Kind::LimitReached, reached.to_string()).retry_after(PLANS_S)
             }
             _ => Self::new(Kind::LimitReached, reached.to_string()).retry_after(LIMIT_S),
         }

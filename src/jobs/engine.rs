@@ -14,6 +14,7 @@ use super::counters::Counters;
 use super::error::{self, Interruption};
 use super::memory::Memory;
 use super::patience::{BETWEEN_ATTEMPTS, patiently};
+use super::planner::Planner;
 use super::pool::CpuPool;
 use super::progress::{PendingReports, PhaseMonitor, Watch};
 use super::reductions::Reductions;
@@ -36,7 +37,7 @@ pub(super) struct Engine {
     /// Reads and writes packages, so that uploads do not wait behind speeds.
     pub(super) importer: CpuPool,
     /// Plans, which are wanted at once.
-    pub(super) planner: CpuPool,
+    pub(super) planner: Planner,
     pub(super) reductions: Reductions,
     pub(super) calibrated: Calibrated,
     /// What all computations may take together.
@@ -121,7 +122,7 @@ impl Engine {
             tasks,
             computing,
             importer,
-            planner,
+            planner: Planner::new(planner),
             deleted: Notify::new(),
             counters: Counters::default(),
             stopping: Arc::default(),

@@ -96,53 +96,60 @@ impl Jobs {
         answer: Option<&Answer>,
     ) -> Result<(), SubmitError> {
         let engine = &self.engine;
+        let _asked = engine.planner.admit(&whose.owner).map_err(SubmitError::Limit)?;
         let refused = SubmitError::Refused;
         let (request, facts) = match submission {
             Submission::Sweep(mut request) => {
                 let facts = self.facts(whose, &request.model).await?;
                 let placed = self.place(&request.model, &mut request.sensors).await?;
-                let (_, request) = both(placed, self.resolve(*request, &facts, run::resolve_sweep).await?)?;
-                self.check(&request).await?;
+                let (_, request) =
+                    both(placed, self.resolve(whose, *request, &facts, run::resolve_sweep).await?)?;
+                self.check(whose, &request).await?;
                 (JobRequest::Sweep(Box::new(request)), Some(facts))
             }
             Submission::ModalAnalysis(request) => {
                 let facts = self.facts(whose, &request.model).await?;
-                let request =
-                    self.resolve(*request, &facts, run::resolve_modal_analysis).await?.map_err(refused)?;
+                let request = self
+                    .resolve(whose, *request, &facts, run::resolve_modal_analysis)
+                    .await?
+                    .map_err(refused)?;
                 (JobRequest::ModalAnalysis(Box::new(request)), Some(facts))
             }
             Submission::Study(mut request) => {
                 let facts = self.facts(whose, &request.model).await?;
                 let placed = self.place(&request.model, &mut request.sensors).await?;
-                let (_, request) = both(placed, self.resolve(*request, &facts, run::resolve_study).await?)?;
+                let (_, request) =
+                    both(placed, self.resolve(whose, *request, &facts, run::resolve_study).await?)?;
                 (JobRequest::Study(Box::new(request)), Some(facts))
             }
             Submission::CaseStudy(mut request) => {
                 let facts = self.facts(whose, &request.model).await?;
                 let placed = self.place(&request.model, &mut request.sensors).await?;
-                let (_, case) = both(placed, self.resolve(*request, &facts, run::resolve_case_study).await?)?;
-                self.check(case.sweep()).await?;
+                let (_, case) =
+                    both(placed, self.resolve(whose, *request, &facts, run::resolve_case_study).await?)?;
+                self.check(whose, case.sweep()).await?;
                 (JobRequest::CaseStudy(Box::new(case)), Some(facts))
             }
             Submission::Branches(mut request) => {
                 let facts = self.facts(whose, &request.model).await?;
                 let placed = self.place(&request.model, &mut request.sensors).await?;
                 let (_, branches) =
-                    both(placed, self.resolve(*request, &facts, run::resolve_branches).await?)?;
-                self.check(branches.sweep()).await?;
+                    both(placed, self.resolve(whose, *request, &facts, run::resolve_branches).await?)?;
+                self.check(whose, branches.sweep()).await?;
                 (JobRequest::Branches(Box::new(branches)), Some(facts))
             }
             Submission::RunUps(mut request) => {
                 let facts = self.facts(whose, &request.model).await?;
                 let placed = self.place(&request.model, &mut request.sensors).await?;
-                let (_, run_ups) = both(placed, self.resolve(*request, &facts, run::resolve_run_ups).await?)?;
-                self.check(run_ups.sweep()).await?;
+                let (_, run_ups) =
+                    both(placed, self.resolve(whose, *request, &facts, run::resolve_run_ups).await?)?;
+                self.check(whose, run_ups.sweep()).await?;
                 (JobRequest::RunUps(Box::new(run_ups)), Some(facts))
             }
             Submission::Campaign(request) => {
                 let (campaign, facts, _) = self.campaign(whose, *request).await?;
                 for sweep in campaign.sweeps() {
-                    self.check(sweep).await?;
+                    self.check(whose, sweep).await?;
                 }
                 (JobRequest::Campaign(Box::new(campaign)), Some(facts))
             }
@@ -151,7 +158,7 @@ impl Jobs {
                 let facts = self.facts(whose, sweep.model()).await?;
                 let held = facts.clone();
                 let resolve = move || run::histories_of(&sweep, &request, &critical, &held);
-                let case = engine.planner.run_while_awaited(resolve).await?.map_err(refused)?;
+                let case = engine.planner.run(&whose.owner, resolve).await?.map_err(refused)?;
                 (JobRequest::CaseStudy(Box::new(case)), Some(facts))
             }
             Submission::ModelGeneration(parameters) => (JobRequest::ModelGeneration(parameters), None),
@@ -186,18 +193,19 @@ impl Jobs {
         whose: &Principal,
         mut request: SweepRequest,
     ) -> Result<SweepPlan, SubmitError> {
+        let _asked = self.engine.planner.admit(&whose.owner).map_err(SubmitError::Limit)?;
         let facts = self.facts(whose, &request.model).await?;
         let placed = self.place(&request.model, &mut request.sensors).await?;
         let (placed_sensors, mut request) =
-            both(placed, self.resolve(request, &facts, run::resolve_sweep).await?)?;
+            both(placed, self.resolve(whose, request, &facts, run::resolve_sweep).await?)?;
         let mut choice = None;
         if request.is_sought() {
             let stored = choice::stored(&self.engine, &request, facts.sectors).await?;
             choice = stored.map_err(|violation| SubmitError::Refused(vec![violation]))?;
             request = choice.as_ref().map_or(request.clone(), |choice| choice.explicit(&request));
         }
-        let reduced = self.check(&request).await?;
-        let plan = plans::sweep::<SubmitError>(&self.engine, request, facts, reduced).await?;
+        let reduced = self.check(whose, &request).await?;
+        let plan = plans::sweep::<SubmitError>(&self.engine, &whose.owner, request, facts, reduced).await?;
         Ok(SweepPlan { choice, placed_sensors, ..plan })
     }
 
@@ -207,11 +215,12 @@ impl Jobs {
         whose: &Principal,
         mut request: BranchesRequest,
     ) -> Result<BranchesPlan, SubmitError> {
+        let _asked = self.engine.planner.admit(&whose.owner).map_err(SubmitError::Limit)?;
         let facts = self.facts(whose, &request.model).await?;
         let placed = self.place(&request.model, &mut request.sensors).await?;
-        let (_, request) = both(placed, self.resolve(request, &facts, run::resolve_branches).await?)?;
-        let reduced = self.check(request.sweep()).await?;
-        plans::branches(&self.engine, request, facts, reduced).await
+        let (_, request) = both(placed, self.resolve(whose, request, &facts, run::resolve_branches).await?)?;
+        let reduced = self.check(whose, request.sweep()).await?;
+        plans::branches(&self.engine, &whose.owner, request, facts, reduced).await
     }
 
     /// The same for run-ups.
@@ -220,11 +229,12 @@ impl Jobs {
         whose: &Principal,
         mut request: RunUpRequest,
     ) -> Result<RunUpPlan, SubmitError> {
+        let _asked = self.engine.planner.admit(&whose.owner).map_err(SubmitError::Limit)?;
         let facts = self.facts(whose, &request.model).await?;
         let placed = self.place(&request.model, &mut request.sensors).await?;
-        let (_, request) = both(placed, self.resolve(request, &facts, run::resolve_run_ups).await?)?;
-        let reduced = self.check(request.sweep()).await?;
-        plans::run_ups(&self.engine, request, facts, reduced).await
+        let (_, request) = both(placed, self.resolve(whose, request, &facts, run::resolve_run_ups).await?)?;
+        let reduced = self.check(whose, request.sweep()).await?;
+        plans::run_ups(&self.engine, &whose.owner, request, facts, reduced).await
     }
 
     /// The same for a campaign.
@@ -233,25 +243,27 @@ impl Jobs {
         whose: &Principal,
         request: CampaignRequest,
     ) -> Result<CampaignPlan, SubmitError> {
+        let _asked = self.engine.planner.admit(&whose.owner).map_err(SubmitError::Limit)?;
         let (campaign, facts, others) = self.campaign(whose, request).await?;
-        let own = (facts, self.check(campaign.sweep()).await?);
+        let own = (facts, self.check(whose, campaign.sweep()).await?);
         let compared = match campaign.compared().zip(others) {
-            Some((sweep, facts)) => Some((facts, self.check(sweep).await?)),
+            Some((sweep, facts)) => Some((facts, self.check(whose, sweep).await?)),
             None => None,
         };
-        plans::campaign(&self.engine, campaign, own, compared).await
+        plans::campaign(&self.engine, &whose.owner, campaign, own, compared).await
     }
 
     /// Resolves `request` against its model on the planning thread: tables, cuts and designs take longer than a thread that
     /// serves requests may be away.
     async fn resolve<Q: Send + 'static, T: Send + 'static>(
         &self,
+        whose: &Principal,
         request: Q,
         facts: &run::ModelFacts,
         resolve: fn(Q, &run::ModelFacts) -> Result<T, Vec<Violation>>,
     ) -> Result<Result<T, Vec<Violation>>, SubmitError> {
         let facts = facts.clone();
-        Ok(self.engine.planner.run_while_awaited(move || resolve(request, &facts)).await?)
+        Ok(self.engine.planner.run(&whose.owner, move || resolve(request, &facts)).await?)
     }
 
     /// Resolves a campaign against its models, and gives their facts, too. Designs are checked a [`TURN`] at a time, between which other
@@ -275,7 +287,7 @@ impl Jobs {
         let held = (facts.clone(), compared.clone());
         let planner = &self.engine.planner;
         let resolved =
-            planner.run_while_awaited(move || run::resolve_campaign(request, held.0, held.1)).await?;
+            planner.run(&whose.owner, move || run::resolve_campaign(request, held.0, held.1)).await?;
         let (_, mut designs) = both(placed, resolved)?;
         loop {
             let check = move || {
@@ -286,7 +298,7 @@ impl Jobs {
                 }
                 (designs, left)
             };
-            let (checked, left) = planner.run_while_awaited(check).await?;
+            let (checked, left) = planner.run(&whose.owner, check).await?;
             designs = checked;
             if !left {
                 break;
@@ -302,9 +314,10 @@ impl Jobs {
         whose: &Principal,
         request: ModalAnalysisRequest,
     ) -> Result<ModalAnalysisPlan, SubmitError> {
+        let _asked = self.engine.planner.admit(&whose.owner).map_err(SubmitError::Limit)?;
         let facts = self.facts(whose, &request.model).await?;
         let mut request = self
-            .resolve(request, &facts, run::resolve_modal_analysis)
+            .resolve(whose, request, &facts, run::resolve_modal_analysis)
             .await?
             .map_err(SubmitError::Refused)?;
         let mut choice = None;
@@ -314,7 +327,7 @@ impl Jobs {
             request = choice.as_ref().map_or(request.clone(), |choice| choice.explicit(&request));
         }
         let reduced = self.reduction(request.model(), request.modes()).await?;
-        let plan = plans::modal_analysis(&self.engine, request, facts, reduced).await?;
+        let plan = plans::modal_analysis(&self.engine, &whose.owner, request, facts, reduced).await?;
         Ok(ModalAnalysisPlan { choice, ..plan })
     }
 
@@ -343,13 +356,17 @@ impl Jobs {
     }
 
     /// Checks what only the reduction of a resolved sweep can tell, if it is stored; returns it.
-    async fn check(&self, request: &ResolvedSweep) -> Result<Option<Arc<ReducedSector>>, SubmitError> {
+    async fn check(
+        &self,
+        whose: &Principal,
+        request: &ResolvedSweep,
+    ) -> Result<Option<Arc<ReducedSector>>, SubmitError> {
         let reduced = self.reduction(request.model(), request.modes()).await?;
         if let Some(reduced) = reduced.clone() {
             let request = request.clone();
             let check = move || run::check(&reduced, &request, &Unwatched);
             if let Err(AnalysisError::Refused(violations)) =
-                self.engine.planner.run_while_awaited(check).await?
+                self.engine.planner.run(&whose.owner, check).await?
             {
                 return Err(SubmitError::Refused(violations));
             }
@@ -364,9 +381,14 @@ impl Jobs {
     }
 
     /// The same for the generation of a model.
-    pub async fn plan_generation(&self, request: &ImpellerRequest) -> Result<GenerationPlan, SubmitError> {
+    pub async fn plan_generation(
+        &self,
+        whose: &Principal,
+        request: &ImpellerRequest,
+    ) -> Result<GenerationPlan, SubmitError> {
+        let _asked = self.engine.planner.admit(&whose.owner).map_err(SubmitError::Limit)?;
         let parameters = parameters_of(request)?;
-        let planned = self.engine.planner.run_while_awaited(move || plan_generation(&parameters)).await?;
+        let planned = self.engine.planner.run(&whose.owner, move || plan_generation(&parameters)).await?;
         planned.map_err(|error| SubmitError::Refused(vec![violation(&error)]))
     }
 
@@ -466,8 +488,9 @@ impl Jobs {
         let read = move || {
             let _memory = memory;
             package::read(&path, &limits)
-                .map(|imported| {
-                    (run::ModelFacts::with_mesh(&imported.sector, imported.mesh.as_ref()), imported.digest)
+                .map(|read| {
+                    let facts = run::ModelFacts::of_package(&read.sector, read.mesh.as_ref(), &read.findings);
+                    (facts, read.digest)
                 })
                 .map_err(Box::new)
         };

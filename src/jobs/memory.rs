@@ -26,7 +26,7 @@ pub(super) struct Memory {
 }
 
 /// A claim on memory, for as long as it is held.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct Allowance {
     /// Bytes that may be taken; `None` for no limit.
     pub(super) bytes: Option<u64>,

@@ -39,6 +39,7 @@ mod machine;
 mod memory;
 mod modal_analysis;
 mod patience;
+mod planner;
 mod plans;
 mod pool;
 mod prepare;

@@ -21,37 +21,40 @@ use crate::store::machines::WorkerProcess;
 /// Plans a resolved sweep.
 pub(super) async fn sweep<E: From<StoreError> + From<Panicked>>(
     engine: &Engine,
+    owner: &str,
     request: ResolvedSweep,
     facts: ModelFacts,
     reduced: Option<Arc<ReducedSector>>,
 ) -> Result<SweepPlan, E> {
     let Capacity { machine, costs, threads } = capacity::<E>(engine).await?;
     let plan = move || run::plan_sweep(&request, &facts, reduced.as_deref(), &costs, threads);
-    Ok(SweepPlan { machine: Some(machine), ..engine.planner.run_while_awaited(plan).await? })
+    Ok(SweepPlan { machine: Some(machine), ..engine.planner.run(owner, plan).await? })
 }
 
 /// Plans resolved branches.
 pub(super) async fn branches<E: From<StoreError> + From<Panicked>>(
     engine: &Engine,
+    owner: &str,
     request: ResolvedBranches,
     facts: ModelFacts,
     reduced: Option<Arc<ReducedSector>>,
 ) -> Result<BranchesPlan, E> {
     let Capacity { machine, costs, .. } = capacity::<E>(engine).await?;
     let plan = move || run::plan_branches(&request, &facts, reduced.as_deref(), &costs);
-    Ok(BranchesPlan { machine: Some(machine), ..engine.planner.run_while_awaited(plan).await? })
+    Ok(BranchesPlan { machine: Some(machine), ..engine.planner.run(owner, plan).await? })
 }
 
 /// Plans resolved run-ups.
 pub(super) async fn run_ups<E: From<StoreError> + From<Panicked>>(
     engine: &Engine,
+    owner: &str,
     request: ResolvedRunUps,
     facts: ModelFacts,
     reduced: Option<Arc<ReducedSector>>,
 ) -> Result<RunUpPlan, E> {
     let Capacity { machine, costs, .. } = capacity::<E>(engine).await?;
     let plan = move || run::plan_run_ups(&request, &facts, reduced.as_deref(), &costs);
-    Ok(RunUpPlan { machine: Some(machine), ..engine.planner.run_while_awaited(plan).await? })
+    Ok(RunUpPlan { machine: Some(machine), ..engine.planner.run(owner, plan).await? })
 }
 
 /// A model, and its reduction if that is there.
@@ -60,6 +63,7 @@ type Model = (ModelFacts, Option<Arc<ReducedSector>>);
 /// Plans a resolved campaign of a model and the one that is compared with it.
 pub(super) async fn campaign<E: From<StoreError> + From<Panicked>>(
     engine: &Engine,
+    owner: &str,
     request: ResolvedCampaign,
     own: Model,
     compared: Option<Model>,
@@ -73,7 +77,7 @@ pub(super) async fn campaign<E: From<StoreError> + From<Panicked>>(
         let compared = compared.as_ref().map(borrowed);
         run::plan_campaign(&request, borrowed(&own), compared, &costs, threads)
     };
-    let mut plan = engine.planner.run_while_awaited(plan).await?;
+    let mut plan = engine.planner.run(owner, plan).await?;
     plan.scene.machine = Some(machine);
     Ok(plan)
 }
@@ -98,21 +102,19 @@ async fn capacity<E: From<StoreError> + From<Panicked>>(engine: &Engine) -> Resu
             return Ok(Capacity { machine, costs: Arc::new(costs), threads });
         }
     }
-    let costs = engine.calibrated.get::<E>(&engine.planner).await?;
+    let costs = engine.calibrated.get::<E>(engine.planner.pool()).await?;
     Ok(Capacity { machine: machine::here(), costs, threads: engine.computing.threads() })
 }
 
 /// Plans a resolved modal analysis.
 pub(super) async fn modal_analysis(
     engine: &Engine,
+    owner: &str,
     request: ResolvedModalAnalysis,
     facts: ModelFacts,
     reduced: Option<Arc<ReducedSector>>,
 ) -> Result<ModalAnalysisPlan, Panicked> {
-    engine
-        .planner
-        .run_while_awaited(move || run::plan_modal_analysis(&request, &facts, reduced.as_deref()))
-        .await
+    engine.planner.run(owner, move || run::plan_modal_analysis(&request, &facts, reduced.as_deref())).await
 }
 
 /// Keeps the estimate of a job of speeds whose reductions are there, that of a model which is compared last, unless one was kept before.
@@ -129,7 +131,9 @@ pub(super) async fn keep(
         (Some(facts), None) => {
             let estimate = match &job.request {
                 JobRequest::Sweep(request) => {
-                    sweep::<Interruption>(engine, *request.clone(), facts, Some(reduced)).await?.estimate
+                    sweep::<Interruption>(engine, &job.owner, *request.clone(), facts, Some(reduced))
+                        .await?
+                        .estimate
                 }
                 JobRequest::Campaign(request) => {
                     let compared = match request.compared_model() {
@@ -139,7 +143,9 @@ pub(super) async fn keep(
                         None => None,
                     };
                     let own = (facts, Some(reduced));
-                    campaign::<Interruption>(engine, *request.clone(), own, compared).await?.estimate
+                    campaign::<Interruption>(engine, &job.owner, *request.clone(), own, compared)
+                        .await?
+                        .estimate
                 }
                 _ => None,
             };

@@ -10,7 +10,7 @@ use std::sync::{Arc, Mutex, PoisonError, mpsc};
 
 use tokio::sync::oneshot;
 
-type Work = Box<dyn FnOnce() + Send>;
+pub(super) type Work = Box<dyn FnOnce() + Send>;
 
 /// A fixed number of threads that take work in order of arrival.
 #[derive(Debug, Clone)]
@@ -27,6 +27,23 @@ pub(crate) struct CpuPool {
 pub struct Panicked {
     /// What the panic said.
     pub message: String,
+}
+
+impl Panicked {
+    pub(super) fn of_a_lost_thread() -> Self {
+        Self { message: "its thread is gone".to_owned() }
+    }
+}
+
+/// What `compute` gives, or what its panic said.
+pub(super) fn caught<T>(compute: impl FnOnce() -> T) -> Result<T, Panicked> {
+    catch_unwind(AssertUnwindSafe(compute)).map_err(|payload| Panicked {
+        message: payload
+            .downcast_ref::<&str>()
+            .map(ToString::to_string)
+            .or_else(|| payload.downcast_ref::<String>().cloned())
+            .unwrap_or_else(|| "no message".to_owned()),
+    })
 }
 
 impl CpuPool {
@@ -60,41 +77,17 @@ impl CpuPool {
         T: Send + 'static,
         F: FnOnce() -> T + Send + 'static,
     {
-        self.queue(compute, false).await
-    }
-
-    /// Like [`CpuPool::run`], for work that only its result is wanted of: it does not begin once nobody waits for it any more.
-    pub(crate) async fn run_while_awaited<T, F>(&self, compute: F) -> Result<T, Panicked>
-    where
-        T: Send + 'static,
-        F: FnOnce() -> T + Send + 'static,
-    {
-        self.queue(compute, true).await
-    }
-
-    async fn queue<T, F>(&self, compute: F, only_awaited: bool) -> Result<T, Panicked>
-    where
-        T: Send + 'static,
-        F: FnOnce() -> T + Send + 'static,
-    {
         let (sender, receiver) = oneshot::channel();
-        let work: Work = Box::new(move || {
-            if only_awaited && sender.is_closed() {
-                return;
-            }
-            let result = catch_unwind(AssertUnwindSafe(compute)).map_err(|payload| Panicked {
-                message: payload
-                    .downcast_ref::<&str>()
-                    .map(ToString::to_string)
-                    .or_else(|| payload.downcast_ref::<String>().cloned())
-                    .unwrap_or_else(|| "no message".to_owned()),
-            });
+        self.give(Box::new(move || {
             // Nobody waits any more: the result is not wanted.
-            let _ = sender.send(result);
-        });
-        let gone = || Panicked { message: "its thread is gone".to_owned() };
-        self.sender.send(work).map_err(|_| gone())?;
-        receiver.await.map_err(|_| gone())?
+            let _ = sender.send(caught(compute));
+        }))?;
+        receiver.await.map_err(|_| Panicked::of_a_lost_thread())?
+    }
+
+    /// Gives it work whose panics are caught in it, to be done in order of arrival.
+    pub(super) fn give(&self, work: Work) -> Result<(), Panicked> {
+        self.sender.send(work).map_err(|_| Panicked::of_a_lost_thread())
     }
 
     /// Like [`CpuPool::run`], for work that is parallel in itself (`rayon`).
@@ -119,35 +112,6 @@ impl CpuPool {
 #[cfg(test)]
 mod tests {
     use super::CpuPool;
-    use std::pin::Pin;
-    use std::sync::Arc;
-    use std::sync::atomic::{AtomicU32, Ordering};
-    use std::time::Duration;
-    use tokio::time::timeout;
-
-    #[tokio::test]
-    async fn work_that_nobody_awaits_does_not_begin() {
-        let pool = CpuPool::start("test", 1, 1).unwrap();
-        let (hold, held) = std::sync::mpsc::channel::<()>();
-        let busy = pool.clone();
-        let first = tokio::spawn(async move { busy.run(move || held.recv().is_ok()).await });
-        // The first is queued before the others.
-        tokio::task::yield_now().await;
-        let begun = Arc::new(AtomicU32::new(0));
-        let count = || {
-            let begun = Arc::clone(&begun);
-            move || begun.fetch_add(1, Ordering::SeqCst)
-        };
-        // Both are queued by their first poll and given up.
-        let (dropped, kept) = (pool.run_while_awaited(count()), pool.run(count()));
-        for left in [Box::pin(dropped) as Pin<Box<dyn Future<Output = _>>>, Box::pin(kept)] {
-            assert!(timeout(Duration::ZERO, left).await.is_err());
-        }
-        hold.send(()).unwrap();
-        assert!(first.await.unwrap().unwrap());
-        pool.run(|| ()).await.unwrap();
-        assert_eq!(begun.load(Ordering::SeqCst), 1, "only what runs whatever becomes of its caller");
-    }
 
     #[tokio::test]
     async fn a_panic_is_a_result_and_the_thread_lives_on() {

@@ -77,7 +77,7 @@ async fn announce(engine: Arc<Engine>) {
     loop {
         interval.tick().await;
         let announced = async {
-            let costs = engine.calibrated.get::<Interruption>(&engine.planner).await?;
+            let costs = engine.calibrated.get::<Interruption>(engine.planner.pool()).await?;
             let threads = engine.computing.threads() as u32;
             let worker = WorkerProcess { machine: machine::here(), costs: (*costs).clone(), threads };
             Ok::<_, Interruption>(tasks.announce(&worker).await?)

@@ -28,6 +28,12 @@ pub enum LimitReached {
         /// Most speeds that may wait.
         limit: u64,
     },
+    /// Too many requests at once.
+    #[error("{limit} requests of yours are being checked or planned, as many as may be at once")]
+    Plans {
+        /// Most requests.
+        limit: usize,
+    },
     /// Too many bytes.
     #[error(
         "your models and results take {stored} bytes, with {more} to be added, and the limit is {limit}: delete jobs or models"
