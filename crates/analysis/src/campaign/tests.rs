@@ -508,3 +508,23 @@ fn what_cannot_be_compared_is_refused() {
     let sensors = refused(request(json!({"sensors": [sensor]})), &other);
     assert!(sensors[0].0.starts_with("/sensors/0") && sensors[0].1.contains("compared"), "{sensors:?}");
 }
+
+/// All designs share a table of heights, whose curves are made once; those that change it are a table each.
+#[test]
+fn designs_share_measured_heights_unless_they_change_them() {
+    let angles: Vec<f64> = (0..1000).map(|k| f64::from(k) * std::f64::consts::TAU / 1000.0).collect();
+    let heights: Vec<f64> = angles.iter().map(|angle| 0.1 * (2.0 * angle).cos()).collect();
+    let table = json!({"angles_rad": angles, "chord": [0.0, 1.0], "heights": [heights, heights]});
+    let mut scene = request(json!({}))["scene"].clone();
+    scene["casing"]["measured"] = table;
+    let asked = |parameter: Value, size: u32| {
+        let design = json!({"kind": "latin_hypercube", "size": size, "seed": 1});
+        resolve(json!({"scene": scene, "parameters": [parameter], "design": design}))
+    };
+    let moving = json!({"name": "one", "at": ["/scene/casing/measured/heights/0/5"], "change": "add", "from": -1e-4, "to": 1e-4});
+    assert_eq!(asked(clearance("c", 0.0, 0.1), 600).unwrap().designs(), 600);
+    assert_eq!(asked(moving.clone(), 20).unwrap().designs(), 20);
+    let refused = asked(moving, 600).unwrap_err();
+    assert_eq!(refused[0].pointer, "/parameters/0/at");
+    assert!(refused[0].message.contains("1000000"), "{}", refused[0].message);
+}

@@ -1,6 +1,7 @@
 //! A campaign, held against its model.
 
 use crate::campaign::designs::{added, designs, levels};
+use crate::effects::casing::request::Measured;
 use crate::error::Violation;
 use crate::model::ModelFacts;
 use crate::request::sweep::default_peak_prominence;
@@ -21,6 +22,9 @@ const PARAMETERS: usize = 100;
 /// Most designs of a campaign, and most simulations, each of which is kept.
 const DESIGNS: usize = 10_000;
 const SIMULATIONS: u64 = 100_000;
+
+/// Most measured heights over all designs that change some of them.
+const HEIGHTS: usize = 1_000_000;
 
 /// Designs that are refused are told up to this many.
 const TOLD: usize = 20;
@@ -106,22 +110,37 @@ pub fn resolve_campaign(
     if !found.0.is_empty() {
         return Err(found.0);
     }
-    let mut models = vec![(written_out(&settings.sweep)?, facts)];
+    let measured = sweep.scene.casing.as_ref().and_then(|casing| casing.shape.measured.clone());
+    let measured = measured.filter(|_| !settings.parameters.iter().any(moves_heights));
+    let without_table = |sweep: &SweepRequest| {
+        let mut sweep = sweep.clone();
+        if let Some(casing) = sweep.scene.casing.as_mut().filter(|_| measured.is_some()) {
+            casing.measured = None;
+        }
+        written_out(&sweep)
+    };
+    let mut models = vec![(without_table(&settings.sweep)?, facts)];
     if let (Some(sweep), Some(compared)) = (&settings.compared, compared) {
-        models.push((written_out(sweep)?, compared.facts));
+        models.push((without_table(sweep)?, compared.facts));
     }
     let laid_out = settings.designs.iter().cloned().enumerate();
     let designs: Vec<_> = laid_out.chain(that_may_be_added(&settings, &distributions)).collect();
     let campaign = ResolvedCampaign { sweep, compared: other, distributions, settings };
-    Ok(CampaignDesigns { campaign, models, designs, checked: 0, found })
+    check_work(&mut found, &campaign.settings, designs.len() * models.len());
+    if !found.0.is_empty() {
+        return Err(found.0);
+    }
+    Ok(CampaignDesigns { campaign, models, measured, designs, checked: 0, found })
 }
 
 /// Campaign whose designs are checked one at a time, so that whoever resolves it can do other work between two of them, or give up.
 #[derive(Debug)]
 pub struct CampaignDesigns {
     campaign: ResolvedCampaign,
-    /// Sweep of every model, written out, and facts of the model.
+    /// Sweep of every model, written out without the table that all designs share, and facts of the model.
     models: Vec<(serde_json::Value, ModelFacts)>,
+    /// Measured heights of the casing, where no parameter changes them.
+    measured: Option<Measured>,
     /// Index and values of every design: those laid out, then those that may be added, at both ends of the threshold's parameter.
     designs: Vec<(usize, Vec<f64>)>,
     /// Designs checked so far, counted once for every model.
@@ -143,7 +162,14 @@ impl CampaignDesigns {
         if self.found.0.len() >= TOLD {
             return false;
         }
-        check_design_of(&mut self.found, &self.campaign.settings.parameters, (sweep, facts), *index, values);
+        let parameters = &self.campaign.settings.parameters;
+        let checked = changed(sweep.clone(), parameters, values).and_then(|mut sweep| {
+            if let (Some(casing), Some(measured)) = (&mut sweep.scene.casing, &self.measured) {
+                casing.measured = Some(measured.clone());
+            }
+            resolve_sweep(sweep, facts).map(drop)
+        });
+        tell_of_design(&mut self.found, parameters, checked, *index, values);
         self.checked += 1;
         true
     }
@@ -448,16 +474,35 @@ fn check_severity(found: &mut Findings, severity: Severity, sweep: &ResolvedSwee
     found.require(there, "/severity", format!("there is none without {needs}"));
 }
 
-/// Checks design `index` of a model's sweep.
-fn check_design_of(
+/// Whether a parameter changes measured heights of the casing.
+fn moves_heights(parameter: &Parameter) -> bool {
+    parameter.at.iter().any(|at| at.starts_with("/scene/casing/measured/"))
+}
+
+/// Designs that change measured heights are as much work as all these heights each.
+fn check_work(found: &mut Findings, settings: &CampaignSettings, designs: usize) {
+    let Some(index) = settings.parameters.iter().position(moves_heights) else { return };
+    let casing = settings.sweep.scene.casing.as_ref();
+    let heights = casing
+        .and_then(|casing| casing.measured.as_ref())
+        .map_or(0, |measured| measured.heights.iter().map(Vec::len).sum::<usize>());
+    found.require(
+        designs * heights <= HEIGHTS,
+        &format!("/parameters/{index}/at"),
+        format!(
+            "{designs} designs that change measured heights have a table of {heights} heights each, more than {HEIGHTS} in all: ask for              fewer designs, measure at fewer angles, or change the casing by lobes and waves beside the table"
+        ),
+    );
+}
+
+/// Tells what was found wrong with design `index`.
+fn tell_of_design(
     found: &mut Findings,
     parameters: &[Parameter],
-    (sweep, facts): (&serde_json::Value, &ModelFacts),
+    checked: Result<(), Vec<Violation>>,
     index: usize,
     values: &[f64],
 ) {
-    let checked =
-        changed(sweep.clone(), parameters, values).and_then(|sweep| resolve_sweep(sweep, facts).map(drop));
     for violation in checked.err().unwrap_or_default() {
         let moves = |parameter: &Parameter| {
             let within = |at: &String| at.starts_with(&violation.pointer);

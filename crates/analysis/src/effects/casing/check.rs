@@ -187,7 +187,7 @@ fn check_waves(found: &mut Findings, waves: &[Wave], facts: &ModelFacts) {
 /// Tables that curves go through.
 fn check_measured(found: &mut Findings, measured: &Measured, facts: &ModelFacts) {
     let at = "/scene/casing/measured";
-    let Measured { angles_rad, chord, heights } = measured;
+    let Measured { angles_rad, chord, heights, curves: _ } = measured;
     let ascending = |values: &[f64]| values.windows(2).all(|pair| pair[0] < pair[1]);
     found.require(
         (Measured::LEAST_ANGLES..=MOST_MEASURED).contains(&angles_rad.len()),

@@ -1,12 +1,15 @@
 //! Measured heights: curves through them, and tables of them put together.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
+use std::sync::{Arc, OnceLock};
 
 use num_integer::gcd;
 
 use super::request::Measured;
 use super::result::{FilledHeight, MeasuredCasing, MeasuredSurvey};
-use rubmap_wheel::dynamics::casing::{self, ALIKE, PeriodicSpline, arc_lengths, points_repeat};
+use rubmap_wheel::dynamics::casing::{
+    self, ALIKE, PeriodicSpline, arc_lengths, narrowest_rad, points_repeat,
+};
 
 /// Filled heights that are listed.
 const MOST_LISTED: usize = 100;
@@ -21,17 +24,27 @@ impl Measured {
 
     /// How often all lines repeat around the circumference; 0 of what is the same all around.
     pub(super) fn repeats(&self) -> u32 {
-        self.heights.iter().map(|heights| points_repeat(&self.angles_rad, heights) as u32).fold(0, gcd)
+        self.curves.made(self).repeats
     }
 
     /// A curve for every line.
-    pub(super) fn curves(&self) -> Vec<PeriodicSpline> {
-        self.heights.iter().map(|heights| PeriodicSpline::new(&self.angles_rad, heights)).collect()
+    pub(super) fn curves(&self) -> &[PeriodicSpline] {
+        &self.curves.made(self).lines
+    }
+
+    /// Width that steps have to see, rad.
+    pub(super) fn narrowest_rad(&self) -> f64 {
+        self.curves.made(self).narrowest_rad
+    }
+
+    /// Angle and height of the largest and of the smallest height of every line.
+    pub(super) fn extremes(&self) -> &[[(f64, f64); 2]] {
+        &self.curves.made(self).extremes
     }
 
     /// With contact nodes at positions `[r, θ, z]`: each on its own line, or between the two beside it.
     pub(super) fn at(&self, positions: &[[f64; 3]]) -> casing::Measured {
-        let Some(chord) = &self.chord else { return casing::Measured::at_each(self.curves()) };
+        let Some(chord) = &self.chord else { return casing::Measured::at_each(self.curves().to_vec()) };
         let arc = arc_lengths(positions);
         let whole = arc.last().copied().filter(|whole| *whole > 0.0).unwrap_or(1.0);
         let between = |length: &f64| {
@@ -43,7 +56,43 @@ impl Measured {
             let share = if width > 0.0 && next > 0 { (place - chord[before]) / width } else { 0.0 };
             (before, after, share)
         };
-        casing::Measured { curves: self.curves(), nodes: arc.iter().map(between).collect() }
+        casing::Measured { curves: self.curves().to_vec(), nodes: arc.iter().map(between).collect() }
+    }
+}
+
+/// Curves through measured heights, made once and shared by the copies of a table: of tens of thousands of heights they take longer than
+/// all other checks of a request, and the designs of a campaign share the table.
+#[derive(Debug, Clone, Default)]
+pub struct Curves(Arc<OnceLock<Made>>);
+
+#[derive(Debug)]
+struct Made {
+    lines: Vec<PeriodicSpline>,
+    extremes: Vec<[(f64, f64); 2]>,
+    narrowest_rad: f64,
+    repeats: u32,
+}
+
+impl Curves {
+    fn made(&self, of: &Measured) -> &Made {
+        self.0.get_or_init(|| {
+            let line = |heights: &Vec<f64>| PeriodicSpline::new(&of.angles_rad, heights);
+            let lines: Vec<PeriodicSpline> = of.heights.iter().map(line).collect();
+            let repeats = of.heights.iter().map(|heights| points_repeat(&of.angles_rad, heights) as u32);
+            Made {
+                extremes: lines.iter().map(|curve| [curve.highest(), curve.lowest()]).collect(),
+                narrowest_rad: narrowest_rad(&lines),
+                repeats: repeats.fold(0, gcd),
+                lines,
+            }
+        })
+    }
+}
+
+impl PartialEq for Curves {
+    /// Tables tell their curves.
+    fn eq(&self, _: &Self) -> bool {
+        true
     }
 }
 
@@ -136,7 +185,7 @@ pub fn measured_casing(
         heights.push(angles_rad.iter().map(height).collect());
     }
     let chord = (!each_node).then(|| lines.iter().map(|line| line.place).collect());
-    let measured = Measured { angles_rad, chord, heights };
+    let measured = Measured { angles_rad, chord, heights, curves: Curves::default() };
     Ok(MeasuredCasing { survey: MeasuredSurvey::of(&measured), measured, filled, filled_count })
 }
 

@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::measured::Curves;
+
 /// Casing of revolution, and what stands inward of it: the heights of all shapes that are given add up.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
@@ -142,6 +144,10 @@ pub struct Measured {
     pub chord: Option<Vec<f64>>,
     /// `[line][angle]`, in the model's unit of length; outward of the casing of revolution if negative.
     pub heights: Vec<Vec<f64>>,
+    /// Curves through them, once made.
+    #[serde(skip)]
+    #[cfg_attr(feature = "schema", schema(ignore))]
+    pub curves: Curves,
 }
 
 /// A leaning axis, to first order in its angle.

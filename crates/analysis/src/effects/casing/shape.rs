@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use num_integer::gcd;
 
 use super::request::{self, Lobes, Measured, SingleLobe, Tilt, Wave};
-use rubmap_wheel::dynamics::casing::{self, Part, Profile, Restriction, narrowest_rad};
+use rubmap_wheel::dynamics::casing::{self, Part, Profile, Restriction};
 
 /// Shapes whose heights add up.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -39,7 +39,7 @@ impl Shape {
 
     /// The width that steps have to see, rad; none of a circular casing.
     pub(crate) fn narrowest_rad(&self) -> Option<f64> {
-        let measured = self.measured.as_ref().map(|measured| narrowest_rad(&measured.curves()));
+        let measured = self.measured.as_ref().map(Measured::narrowest_rad);
         let narrowest = measured.into_iter().fold(self.lobes_and_waves().narrowest_rad(), f64::min);
         narrowest.is_finite().then_some(narrowest)
     }
@@ -60,7 +60,7 @@ impl Shape {
             along_chord.into_iter().flatten().fold(f64::NEG_INFINITY, of)
         });
         let measured = self.measured.iter().map(|measured| {
-            measured.curves().iter().map(|curve| curve.highest().1).fold(f64::NEG_INFINITY, f64::max)
+            measured.extremes().iter().map(|[highest, _]| highest.1).fold(f64::NEG_INFINITY, f64::max)
         });
         alike + shared.sum::<f64>() + measured.sum::<f64>()
     }
@@ -150,6 +150,7 @@ impl Tilt {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::effects::casing::measured::Curves;
     use nalgebra::{Rotation3, Unit, Vector3};
     use rubmap_wheel::dynamics::casing::arc_lengths;
     use rubmap_wheel::dynamics::sector::ContactNode;
@@ -191,7 +192,8 @@ mod tests {
         let exact = equal.of_nodes(&nodes).unwrap();
         let angles_rad: Vec<f64> = (0..720).map(|i| TAU * f64::from(i) / 720.0).collect();
         let heights = vec![angles_rad.iter().map(|&angle| exact.height(angle, 0)).collect()];
-        let measured = Measured { angles_rad, chord: Some(vec![0.5]), heights };
+        let measured = Measured { angles_rad, chord: Some(vec![0.5]), heights, curves: Curves::default() };
+        assert!(std::ptr::eq(measured.clone().curves(), measured.curves()), "made once");
         let measured = Shape { measured: Some(measured), ..Shape::default() };
         for (shape, error) in [(&equal, 0.0), (&single, 1e-14), (&measured, 1e-8)] {
             assert_eq!(shape.repeats(), Some(2), "{shape:?}");
@@ -265,7 +267,8 @@ mod tests {
     fn measured_lines_are_joined_along_the_arc() {
         let angles_rad: Vec<f64> = (0..16).map(|i| TAU * f64::from(i) / 16.0).collect();
         let heights = [0.1, 0.5, 0.2].map(|height| vec![height; 16]).to_vec();
-        let measured = Measured { angles_rad, chord: Some(vec![0.25, 0.5, 1.0]), heights };
+        let measured =
+            Measured { angles_rad, chord: Some(vec![0.25, 0.5, 1.0]), heights, curves: Curves::default() };
         let nodes = nodes();
         let restriction =
             Shape { measured: Some(measured.clone()), ..Shape::default() }.of_nodes(&nodes).unwrap();
@@ -282,7 +285,7 @@ mod tests {
             assert!((found - expected(node)).abs() < 1e-14, "{node}: {found} {}", expected(node));
         }
         let heights = (0..5).map(|k| vec![0.1 * f64::from(k); 16]).collect();
-        let each = Measured { chord: None, heights, ..measured };
+        let each = Measured { chord: None, heights, curves: Curves::default(), ..measured };
         let restriction = Shape { measured: Some(each), ..Shape::default() }.of_nodes(&nodes).unwrap();
         for node in 0..5 {
             assert_eq!(restriction.height(1.234, node), 0.1 * node as f64);

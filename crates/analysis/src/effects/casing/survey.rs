@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use super::request::Measured;
 use super::result::{AngularGap, FoundShape, MeasuredSurvey, Outlier, Overshoot};
 use super::shape::Shape;
-use rubmap_wheel::dynamics::casing::{ALIKE, PeriodicSpline};
+use rubmap_wheel::dynamics::casing::ALIKE;
 
 /// Said of every measured shape.
 const INTERPOLATION: &str =
@@ -127,10 +127,9 @@ fn gaps(angles_rad: &[f64]) -> Vec<AngularGap> {
 
 /// Where the curve of every line goes farthest beyond its heights, by nothing if that is round-off, and their range.
 pub(super) fn overshoots(measured: &Measured) -> Vec<(Overshoot, f64)> {
-    let lines = measured.curves().into_iter().zip(&measured.heights).enumerate();
-    let of = |(line, (curve, heights)): (usize, (PeriodicSpline, &Vec<f64>))| {
+    let lines = measured.extremes().iter().zip(&measured.heights).enumerate();
+    let of = |(line, (&[top, bottom], heights)): (usize, (&[(f64, f64); 2], &Vec<f64>))| {
         let (low, high) = range(heights);
-        let (top, bottom) = (curve.highest(), curve.lowest());
         let above = (top.0, top.1 - high);
         let below = (bottom.0, low - bottom.1);
         let (angle_rad, by) = if above.1 >= below.1 { above } else { below };
@@ -150,11 +149,12 @@ fn overshoot(measured: &Measured) -> Option<Overshoot> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::effects::casing::measured::Curves;
 
     fn measured(n: usize, height: impl Fn(f64) -> f64) -> Measured {
         let angles_rad: Vec<f64> = (0..n).map(|i| TAU * i as f64 / n as f64).collect();
         let heights = vec![angles_rad.iter().map(|&angle| height(angle)).collect()];
-        Measured { angles_rad, chord: Some(vec![0.0]), heights }
+        Measured { angles_rad, chord: Some(vec![0.0]), heights, curves: Curves::default() }
     }
 
     fn lobes(angle: f64) -> f64 {
