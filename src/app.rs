@@ -141,7 +141,7 @@ impl App {
         let document = http::document();
         let state = AppState {
             store: store.clone(),
-            answers: LargeAnswers::new(LARGE_ANSWERS),
+            answers: LargeAnswers::new(LARGE_ANSWERS, &config.data),
             renderings: Arc::default(),
             tokens,
             limits: config.owner_limits(),

@@ -99,6 +99,12 @@ async fn snapshot(state: &AppState) -> Snapshot {
         now.gauge("disk_free_bytes", "Room on the disk of the data folder", free);
     }
 
+    now.gauge(
+        "answers_waiting_bytes",
+        "Parts of answers that wait in files for slow clients",
+        state.answers.spooled_bytes(),
+    );
+
     let work = state.jobs.work();
     now.gauge("workers", "Queues that are being worked on", u64::from(work.workers));
     now.gauge("queues", "Queues that shall be worked on", u64::from(work.queues));
