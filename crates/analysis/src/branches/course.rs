@@ -23,6 +23,9 @@ pub struct Course {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Stretch {
     pub(super) track: Track,
+    /// How far the flip may be from where a branch of doubled period begins.
+    #[serde(default)]
+    pub(super) flip_error: f64,
     /// Passages over a lobe after which its motions repeat; none of those that repeat as their scene does.
     pub(super) passages: Option<u32>,
     pub(super) backwards: bool,
@@ -38,7 +41,15 @@ const BEHIND: usize = 8;
 
 impl Stretch {
     pub(super) fn new(track: Track, passages: Option<u32>, front: &Front) -> Self {
-        Self { track, passages, backwards: false, front: front.into(), tells_start: true, behind: Vec::new() }
+        Self {
+            track,
+            flip_error: 0.0,
+            passages,
+            backwards: false,
+            front: front.into(),
+            tells_start: true,
+            behind: Vec::new(),
+        }
     }
 
     /// Whether it is the same branch from the same point, to the other side.

@@ -75,7 +75,14 @@ impl Events<'_> {
             let told = tell(self.scenes, self.branch, motion, &hint)?;
             Ok((told.growth(), told))
         };
-        let found = self.branch.crossing((a.motion, a.told.growth()), (b.motion, b.told.growth()), look);
+        // Of one kind of multiplier: real ones of either sign, or a pair.
+        let kind = |told: &Told| {
+            let leading = told.multipliers.first();
+            leading.map(|leading| (leading.imaginary == 0.0, leading.real < 0.0 && leading.imaginary == 0.0))
+        };
+        let alike = |one: &Told, other: &Told| kind(one) == kind(other);
+        let ends = [(a.motion, a.told.growth()), (b.motion, b.told.growth())];
+        let found = self.branch.crossing(ends[0], ends[1], look, alike);
         let (motion, told, error) = match found {
             Ok(Some(place)) if place.told.growth() > 0.0 => (place.motion, place.told, place.error),
             Ok(Some(place)) => (place.motion, unstable.told.clone(), place.error),

@@ -71,7 +71,8 @@ pub fn branch_leg(
             doubles: Some((stretch.track.branch, bifurcation.value)),
         };
         branches += 1;
-        waiting.insert(0, Stretch::new(track, Some(2 * passages), &Front::aside(motion, grows)));
+        let stretch = Stretch::new(track, Some(2 * passages), &Front::aside(motion, grows));
+        waiting.insert(0, Stretch { flip_error: bifurcation.error, ..stretch });
     }
     if matches!(end, Some(BranchEnd::Joins)) {
         waiting.retain(|other| !stretch.doubles_as(other) || !is_at(&branch, &front, &other.start()));
@@ -148,6 +149,8 @@ struct Walk<'a> {
     lap: Lap,
     tells_start: bool,
     branch: u32,
+    /// Value at which a branch of doubled period begins, and how far from there the flip may be.
+    flip: Option<(f64, f64)>,
     doubles: bool,
     front: Front,
     /// Points of the stretch, but for where it begins.
@@ -177,6 +180,7 @@ impl<'a> Walk<'a> {
             lap: stretch.passages.map_or(Lap::Symmetric, |passages| Lap::Lobes(passages as usize)),
             tells_start: stretch.tells_start,
             branch: stretch.track.branch,
+            flip: stretch.track.doubles.map(|(_, value)| (value, stretch.flip_error)),
             doubles: asked.doubled,
             front: (&stretch.front).into(),
             points,
@@ -227,6 +231,11 @@ impl<'a> Walk<'a> {
                 Err(lost) => break Some(end(lost)?),
             };
             self.points += 1;
+            if self.points == 2
+                && let Err(lost) = self.begin_at_flip(branch, &found.motion)
+            {
+                break Some(end(lost)?);
+            }
             self.found.push(told.point(&found, self.scenes.speed(found.motion.value)));
             self.front.move_to(found.motion);
             last = told;
@@ -270,7 +279,7 @@ impl<'a> Walk<'a> {
         self.maxima.extend(events.maxima(self.crests.pass(passed))?);
         self.joins = told.passages < self.passages() || self.has_crossed(branch, motion)?;
         let pending = self.pending.take();
-        if let Some((bifurcation, _)) = fold.filter(|_| !self.joins) {
+        if let Some((bifurcation, _)) = fold.filter(|(fold, _)| !self.joins && !self.is_at_its_flip(fold)) {
             let is_same = |other: &Bifurcation| {
                 (other.value - bifurcation.value).abs() <= AT_FOLD * bifurcation.value.abs()
             };
@@ -287,13 +296,34 @@ impl<'a> Walk<'a> {
         match event.bifurcation.kind {
             BifurcationKind::Branching => self.pending = Some(event.bifurcation),
             kind => {
+                let again = self.bifurcations.iter().any(|other| other.is_same_as(&event.bifurcation));
                 self.bifurcations.push(event.bifurcation.clone());
-                if kind == BifurcationKind::Flip && self.doubles && 2 * event.passages <= LONGEST {
+                if !again && kind == BifurcationKind::Flip && self.doubles && 2 * event.passages <= LONGEST {
                     self.flips.push(event);
                 }
             }
         }
         Ok(told)
+    }
+
+    /// Whether a fold is what is left of the error of the flip where the branch begins: it begins beside itself.
+    fn is_at_its_flip(&self, fold: &Bifurcation) -> bool {
+        self.flip.is_some_and(|(value, error)| self.points == 1 || (fold.value - value).abs() <= error)
+    }
+
+    /// Moves the beginning of a branch of doubled period to where its amplitude is zero, within the error of the flip: by a parabola through its
+    /// first two points, the last of which is `second`.
+    fn begin_at_flip(&mut self, branch: &Branch<'_>, second: &Motion) -> Result<(), Lost> {
+        let (Some((value, error)), Lap::Lobes(lobes)) = (self.flip, self.lap) else { return Ok(()) };
+        let Some(start) = self.found.first_mut().filter(|start| start.value == value) else { return Ok(()) };
+        let single = Branch { lap: Lap::Lobes(lobes / 2), ..*branch };
+        let first = &self.front.last;
+        let [a, b] = [single.off(first)?.powi(2), single.off(second)?.powi(2)];
+        let zero = first.value - a * (second.value - first.value) / (b - a);
+        if (zero - value).abs() <= error {
+            (start.value, start.speed_rad_s) = (zero, self.scenes.speed(zero));
+        }
+        Ok(())
     }
 
     /// Passages over a lobe after which motions of a doubled branch repeat; 0 of others.

@@ -221,6 +221,29 @@ impl Branches {
                 branch.ends.extend(end);
             }
         }
+        for branch in &mut branches {
+            let found = std::mem::take(&mut branch.bifurcations);
+            for bifurcation in found {
+                match branch.bifurcations.last_mut().filter(|last| last.is_same_as(&bifurcation)) {
+                    Some(last) => last.reach(&bifurcation),
+                    None => branch.bifurcations.push(bifurcation),
+                }
+            }
+        }
         Some(Self { head, complete, branches })
+    }
+}
+
+impl Bifurcation {
+    /// Whether both are of one kind, and where the one may be the other may be, too. A branch may turn back twice at nearly one value.
+    pub(crate) fn is_same_as(&self, other: &Self) -> bool {
+        self.kind == other.kind
+            && self.kind != BifurcationKind::Fold
+            && (self.value - other.value).abs() <= self.error + other.error
+    }
+
+    /// Extends its error over all places where the other may be.
+    fn reach(&mut self, other: &Self) {
+        self.error = self.error.max((self.value - other.value).abs() + other.error);
     }
 }
