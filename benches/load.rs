@@ -1,6 +1,10 @@
 //! What clients feel, and what sweeps feel of clients: `cargo bench --bench load [-- CLIENTS SECONDS]`. Clients poll jobs, list them and
 //! ask for plans, 200 requests a second together, beside two sweeps on two workers; the same sweeps alone before it, in the same run,
 //! and beside open pages that watch one of them. Then a listing of 10,000 jobs in pages. Run it on an otherwise idle machine.
+//! `cargo bench --bench load -- abuse`: only what one client can keep from others.
+
+#[path = "service/abuse.rs"]
+mod abuse;
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -50,6 +54,12 @@ async fn measure(clients: usize, seconds: u64) -> anyhow::Result<()> {
 
     // The reduction is made, and the machine warm.
     sweeps(&client, &base, &model, 2).await?;
+    if std::env::args().any(|argument| argument == "abuse") {
+        abuse::planning(&client, &base, &sweep(&model, 2)).await?;
+        abuse::slow_readers(&client, &base, &model).await?;
+        stop.cancel();
+        return Ok(service.await?);
+    }
     let alone = sweeps(&client, &base, &model, 24).await?;
     let running = tokio::spawn({
         let (client, base, model) = (client.clone(), base.clone(), model.clone());

@@ -23,6 +23,11 @@ pub fn document() -> utoipa::openapi::OpenApi {
                 wanted.enum_values = Some(forms.iter().map(|form| form.word().into()).collect());
                 add_forms(&mut operation.responses.responses, forms);
             }
+            if operation.request_body.is_some() {
+                let stopped = "The body stopped coming.";
+                let answers = &mut operation.responses.responses;
+                answers.entry("408".to_owned()).or_insert_with(|| problem(stopped));
+            }
             add_common_answers(&mut operation.responses.responses);
         }
     }
@@ -101,7 +106,7 @@ fn add_common_answers(responses: &mut BTreeMap<String, RefOr<Response>>) {
         ("421", "The service does not go by the name in the Host header."),
         (
             "429",
-            "The owner has too many models, bytes or waiting speeds; Retry-After says when to try again.",
+            "The owner has too many models, bytes, waiting speeds, or requests that are being planned; Retry-After says when to try again.",
         ),
         ("503", "The storage cannot be used for the moment; Retry-After says when to try again."),
         ("507", "The storage is full; Retry-After says when to try again."),
