@@ -153,7 +153,8 @@ mod tests {
         let (first, ..) = tokio::join!(first, later, release);
         assert!(first.unwrap());
         let order: Vec<&str> = order.try_iter().collect();
-        assert_eq!(order, ["a1", "b1", "a2", "a3"]);
+        let turn = order.iter().position(|said| *said == "b1");
+        assert!(order.len() == 4 && turn.is_some_and(|turn| turn <= 1), "{order:?}");
     }
 
     #[tokio::test]

@@ -191,6 +191,11 @@ class DesignOutcome(TypedDict):
 DifferenceVerdict: TypeAlias = Literal["greater", "smaller", "undecided"]
 
 
+class DigitNoise(TypedDict):
+    residual: float
+    square_rad2_s2: float
+
+
 DistributionKind: TypeAlias = Literal[
     "uniform", "log_uniform", "normal", "triangular", "whole", "values"
 ]
@@ -377,6 +382,12 @@ class LargestOfRun(TypedDict):
     time_s: float
 
 
+class LeadingPlace(TypedDict):
+    node: int
+    set: str
+    von_mises: float
+
+
 class LimitsMet(TypedDict):
     both: int
     neither: int
@@ -418,6 +429,13 @@ class Material(TypedDict, closed=True):
     ultimate_strength: NotRequired[float | None]
     yield_strength: NotRequired[float | None]
     youngs_modulus: NotRequired[float]
+
+
+class MaterialInSi(TypedDict):
+    density_kg_m3: float
+    set: str
+    wave_speed_m_s: float
+    youngs_modulus_pa: float
 
 
 class Measured(TypedDict, closed=True):
@@ -1164,6 +1182,12 @@ class ImpellerParameters(TypedDict, closed=True):
     wrap_deg: NotRequired[float]
 
 
+class InSi(TypedDict):
+    contact_radius_m: float
+    mass_kg: float
+    materials: NotRequired[list[MaterialInSi]]
+
+
 class Initial(TypedDict, closed=True):
     amplitude: float
     family: int
@@ -1293,6 +1317,7 @@ class PointStress(TypedDict):
     largest: StressPeak
     largest_over_yield: NotRequired[float | None]
     largest_static: float
+    leading: NotRequired[list[LeadingPlace]]
 
 
 class PreliminaryStiffening(TypedDict):
@@ -1595,7 +1620,9 @@ class ModelFacts(TypedDict):
     contact_nodes: int
     contact_radius: NotRequired[float | None]
     contact_spacing: NotRequired[float | None]
+    digits: NotRequired[DigitNoise | None]
     gyroscopic: NotRequired[bool]
+    in_si: NotRequired[InSi | None]
     mesh: NotRequired[MeshFacts | None]
     name: str
     own_dofs: int
@@ -1603,6 +1630,7 @@ class ModelFacts(TypedDict):
     speeds_rad_s: list[float]
     stiffening: NotRequired[PreliminaryStiffening | None]
     units: Units
+    warnings: NotRequired[list[str]]
 
 
 class ReductionReport(TypedDict):

@@ -5,8 +5,15 @@ use super::family::Scenes;
 use super::told::{Told, amplitudes_of, carried, tell};
 use crate::result::{Bifurcation, BifurcationKind, BranchMaximum};
 use rubmap_wheel::dynamics::initial::Stepped;
+use rubmap_wheel::dynamics::steady::branch::locate::{Place, off_by_steps};
 use rubmap_wheel::dynamics::steady::branch::{Branch, Lost, Motion};
 use rubmap_wheel::dynamics::steady::stability::Stability;
+
+/// So many times the steps tell what those of a branch leave open: the more, the less is left of jumps of their own.
+const FINER: [u32; 2] = [3, 8];
+
+/// Share of the way between two points, on either side of a place, over which slopes are taken.
+const BESIDE: f64 = 0.1;
 
 /// A point with what is told of it.
 #[derive(Clone, Copy)]
@@ -75,17 +82,13 @@ impl Events<'_> {
             let told = tell(self.scenes, self.branch, motion, &hint)?;
             Ok((told.growth(), told))
         };
-        // Of one kind of multiplier: real ones of either sign, or a pair.
-        let kind = |told: &Told| {
-            let leading = told.multipliers.first();
-            leading.map(|leading| (leading.imaginary == 0.0, leading.real < 0.0 && leading.imaginary == 0.0))
-        };
-        let alike = |one: &Told, other: &Told| kind(one) == kind(other);
-        let ends = [(a.motion, a.told.growth()), (b.motion, b.told.growth())];
-        let found = self.branch.crossing(ends[0], ends[1], look, alike);
+        let found = self.branch.crossing((a.motion, a.told.growth()), (b.motion, b.told.growth()), look);
         let (motion, told, error) = match found {
-            Ok(Some(place)) if place.told.growth() > 0.0 => (place.motion, place.told, place.error),
-            Ok(Some(place)) => (place.motion, unstable.told.clone(), place.error),
+            Ok(Some(place)) => {
+                let error = place.error.max(self.off_by_steps([a, b], &place, look)?);
+                let told = if place.told.growth() > 0.0 { place.told } else { unstable.told.clone() };
+                (place.motion, told, error)
+            }
             Err(Lost::Cancelled) => return Err(Lost::Cancelled),
             Ok(None) | Err(_) => {
                 let error = (a.motion.value - b.motion.value).abs();
@@ -108,6 +111,44 @@ impl Events<'_> {
         };
         let (lobe_passages, passages) = (told.lobe_passages, told.passages);
         Ok(Some(Event { bifurcation, motion, grows: told.leading, lobe_passages, passages }))
+    }
+
+    /// How far a change of stability between two points may be off, in p, because of the steps of time; 0 where finer ones cannot be followed, as at
+    /// a multiplier of 1.
+    fn off_by_steps(
+        &self,
+        [a, b]: [At<'_>; 2],
+        place: &Place<Told>,
+        look: impl Fn(&Motion) -> Result<(f64, Told), Lost>,
+    ) -> Result<f64, Lost> {
+        let known = |lost: Result<f64, Lost>| match lost {
+            Err(Lost::Cancelled) => Err(Lost::Cancelled),
+            other => Ok(other.ok()),
+        };
+        let mut finer = Vec::new();
+        for times in FINER {
+            let scenes = self.scenes.with_more_steps(times);
+            let branch = Branch { family: &scenes, ..*self.branch };
+            let growth = branch
+                .with_more_steps(&place.motion, times.into())
+                .and_then(|motion| Ok(tell(&scenes, &branch, &motion, &motion.state)?.growth()));
+            finer.extend(known(growth)?.map(|growth| (f64::from(times), growth)));
+        }
+        // Near the place: farther off multipliers may be of another kind.
+        let (from, to) = (a.motion.value, b.motion.value);
+        let share = (place.motion.value - from) / (to - from);
+        let (low, high) = ((share - BESIDE).max(0.0), (share + BESIDE).min(1.0));
+        let growth = |share: f64| {
+            known(self.branch.between(a.motion, b.motion, share).and_then(|found| Ok(look(&found.motion)?.0)))
+        };
+        let beside = growth(low)?.zip(growth(high)?);
+        let slope = match beside {
+            Some((before, behind)) => (behind - before) / ((high - low) * (to - from)),
+            None => (b.told.growth() - a.told.growth()) / (to - from),
+        };
+        let off = off_by_steps(place.told.growth(), slope, finer.into_iter());
+        // No more is left open than where the branch was known to be stable and not.
+        Ok(off.min((to - from).abs()))
     }
 
     /// The maxima of sensors' amplitudes that were passed.

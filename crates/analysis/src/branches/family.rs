@@ -89,6 +89,20 @@ impl<'a> Scenes<'a> {
         Ok(Self { sector, asked, setting, report, sweep, kept: RefCell::default() })
     }
 
+    /// The same scenes with so many times the steps.
+    pub(super) fn with_more_steps(&self, times: u32) -> Self {
+        let steps_per_revolution = self.setting.steps_per_revolution.saturating_mul(times);
+        let setting = Setting { steps_per_revolution, ..self.setting };
+        Self {
+            sector: self.sector,
+            asked: self.asked,
+            setting,
+            report: self.report.clone(),
+            sweep: self.asked.sweep.at(setting),
+            kept: RefCell::default(),
+        }
+    }
+
     /// How all of them are stepped.
     pub(super) fn setting(&self) -> Setting {
         self.setting

@@ -1,10 +1,8 @@
 //! Where something happens between points of a branch: it turns back, or its stability changes.
 
-use faer::Mat;
-use faer::prelude::Solve;
-
 use super::correct::Found;
 use super::{Branch, Lost, Motion};
+use crate::dynamics::initial::Stepped;
 
 /// Share of p to which a place is found.
 pub const PLACE: f64 = 1e-6;
@@ -14,17 +12,6 @@ const GOLDEN: f64 = 0.382;
 
 /// Most points between two that are looked at.
 const LOOKS: usize = 30;
-
-/// Points between two that tell how uneven they are, and as many within this share of a crossing.
-const SAMPLES: u32 = 12;
-const NEAR: f64 = 0.2;
-
-/// Degree of the curve through them.
-const MOST_DEGREE: usize = 4;
-
-/// A jump, and what comes of several, over the most that is left of them: with 500 to 4,000 steps per period of a one-sided spring flips are
-/// off by 0.6 to 7 times as much.
-const JUMP: f64 = 16.0;
 
 /// A place that was found.
 #[derive(Debug, Clone, PartialEq)]
@@ -100,10 +87,6 @@ impl Branch<'_> {
     /// Where between `a` and `b` the sign of `told` changes, which differs there: by chords (Illinois), also where it jumps. What is told is
     /// that of the last point where it is positive, if there was one.
     ///
-    /// Multipliers jump a little wherever a contact moves from one step of time into the next, so that they cross zero anywhere that their slope
-    /// takes to make up for such a jump. How far they jump is told by points all over between `a` and `b` that are `alike`, by what is left of
-    /// them over a smooth curve; the error is as much over its slope.
-    ///
     /// # Errors
     /// [`Lost`].
     pub fn crossing<T>(
@@ -111,10 +94,9 @@ impl Branch<'_> {
         (a, told_a): (&Motion, f64),
         (b, told_b): (&Motion, f64),
         tell: impl Fn(&Motion) -> Result<(f64, T), Lost>,
-        alike: impl Fn(&T, &T) -> bool,
     ) -> Result<Option<Place<T>>, Lost> {
         let (mut low, mut high) = ((0.0, told_a, a.value), (1.0, told_b, b.value));
-        let mut best = None::<(f64, f64, Motion, T)>;
+        let mut best = None::<(f64, Motion, T)>;
         let mut last_side = None;
         for _ in 0..LOOKS {
             let margin = 0.01 * (high.0 - low.0);
@@ -124,7 +106,7 @@ impl Branch<'_> {
             let (sign, told) = tell(&found.motion)?;
             let here = (share, sign, found.motion.value);
             if sign > 0.0 || best.as_ref().is_none_or(|(best, ..)| *best <= 0.0) {
-                best = Some((sign, share, found.motion, told));
+                best = Some((sign, found.motion, told));
             }
             let is_low = (sign < 0.0) == (told_a < 0.0);
             // An end that stays weighs half the next time.
@@ -141,49 +123,34 @@ impl Branch<'_> {
                 break;
             }
         }
-        let bracket = (high.2 - low.2).abs();
-        let Some((_, share, motion, told)) = best else { return Ok(None) };
-        let mut samples = Vec::new();
-        // All over, and near by, where the rest may be of another kind.
-        let spread = |k: u32| (f64::from(k) + 0.5) / f64::from(SAMPLES);
-        let near = |k: u32| share + NEAR * (2.0 * spread(k) - 1.0);
-        let shares = (0..SAMPLES).map(spread).chain((0..SAMPLES).map(near));
-        for share in shares.filter(|share| (0.0..=1.0).contains(share)) {
-            let looked = self.between(a, b, share).and_then(|found| tell(&found.motion));
-            match looked {
-                Ok((value, other)) if alike(&told, &other) => samples.push((share, value)),
-                Err(Lost::Cancelled) => return Err(Lost::Cancelled),
-                _ => {}
-            }
-        }
-        let uneven = unevenness(&samples, share).map_or(0.0, |uneven| uneven * (b.value - a.value).abs());
-        Ok(Some(Place { motion, told, error: bracket.max(uneven) }))
+        let error = (high.2 - low.2).abs();
+        Ok(best.map(|(_, motion, told)| Place { motion, told, error }))
     }
 }
 
-/// How far, in shares, a crossing at `at` may be off for what is left of `samples` over a polynomial through them; none of fewer than six.
-fn unevenness(samples: &[(f64, f64)], at: f64) -> Option<f64> {
-    let degree = samples.len().checked_sub(5)?.min(MOST_DEGREE);
-    if degree == 0 {
-        return None;
+/// Safety of [`off_by_steps`]: what is left of an error of first order, and of jumps, that agree by chance.
+const SAFETY: f64 = 2.0;
+
+/// How far from a place, in p, what is told of a branch vanishes for an infinite number of steps of time: there is told `here`, of which the slope
+/// over p is `slope`, and with so many times the steps what `finer` has. Contacts that begin and end within a step leave multipliers an error of
+/// first order, which jumps wherever one moves into the next step.
+pub fn off_by_steps(here: f64, slope: f64, finer: impl Iterator<Item = (f64, f64)>) -> f64 {
+    let off = finer.map(|(times, told)| (told - here).abs() * times / (times - 1.0));
+    SAFETY * off.fold(0.0, f64::max) / slope.abs()
+}
+
+impl Branch<'_> {
+    /// The motion of this branch at the value of `coarse`, which is of the same with fewer steps of time: one for `times` here.
+    ///
+    /// # Errors
+    /// [`Lost`].
+    pub fn with_more_steps(&self, coarse: &Motion, times: f64) -> Result<Motion, Lost> {
+        let mut guess = coarse.clone();
+        guess.state.modes.iter_mut().for_each(|mode| mode.increment *= 1.0 / times);
+        guess.state.casing.iter_mut().for_each(|wave| wave.increment = wave.increment.map(|x| x / times));
+        let along = Motion { value: self.span, state: Stepped::default() };
+        Ok(self.correct(guess, &along, coarse.value)?.motion)
     }
-    let powers = |share: f64| {
-        let x = 2.0 * share - 1.0;
-        // Chebyshev's, of which the normal equations stay well-conditioned.
-        (0..=degree).map(move |n| (n as f64 * x.clamp(-1.0, 1.0).acos()).cos())
-    };
-    let rows: Vec<Vec<f64>> = samples.iter().map(|&(share, _)| powers(share).collect()).collect();
-    let sum = |of: &dyn Fn(usize) -> f64| (0..samples.len()).map(of).sum::<f64>();
-    let normal = Mat::from_fn(degree + 1, degree + 1, |i, j| sum(&|k| rows[k][i] * rows[k][j]));
-    let right = Mat::from_fn(degree + 1, 1, |i, _| sum(&|k| rows[k][i] * samples[k].1));
-    let fitted = normal.partial_piv_lu().solve(right);
-    let value = |share: f64| powers(share).enumerate().map(|(n, power)| fitted[(n, 0)] * power).sum::<f64>();
-    let left = samples.iter().map(|&(share, told)| (told - value(share)).abs()).fold(0.0, f64::max);
-    let by = 1e-3;
-    let (before, behind) = ((at - by).max(0.0), (at + by).min(1.0));
-    let slope = (value(behind) - value(before)) / (behind - before);
-    // What is left of a jump is a half of it at most, and less where the curve follows it.
-    Some((JUMP * left / slope.abs()).min(1.0)).filter(|uneven| uneven.is_finite())
 }
 
 /// Of the parabola through three points, kept away from the middle one, which is the highest.

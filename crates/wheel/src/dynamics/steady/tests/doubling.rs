@@ -84,7 +84,7 @@ fn a_branch_of_doubled_period_begins_at_a_flip() {
                     Ok((growth(&floquet), (floquet, grows)))
                 };
                 let ends = [(&front.last, growth(&last)), (&found.motion, growth(&now))];
-                let place = branch.crossing(ends[0], ends[1], look, |_, _| true);
+                let place = branch.crossing(ends[0], ends[1], look);
                 if let Ok(Some(Place { motion, told: (floquet, grows), .. })) = place
                     && floquet.stability == Stability::Flip
                 {
