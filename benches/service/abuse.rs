@@ -19,7 +19,9 @@ fn requests(sweep: &Value) -> Vec<(&'static str, &'static str, Value)> {
     let scene = &sweep["scene"];
     let with = |fields: Value| {
         let mut body = json!({"model": sweep["model"], "scene": scene});
-        body.as_object_mut().zip(fields.as_object()).map(|(body, fields)| body.extend(fields.clone()));
+        for (field, value) in fields.as_object().into_iter().flatten() {
+            body[field] = value.clone();
+        }
         body
     };
     let speeds = json!({"from": 12_000, "to": 36_000, "count": 200, "unit": "rpm"});

@@ -103,6 +103,12 @@ pub(super) fn si_sizes(units: &Units) -> Option<[f64; 3]> {
     Some([length, force, force * seconds * seconds / length])
 }
 
+/// Young's modulus, Pa, and density, kg/m³; none where a unit is not known.
+pub(super) fn material_in_si(youngs_modulus: f64, density: f64, units: &Units) -> Option<[f64; 2]> {
+    let [length, force, mass] = si_sizes(units)?;
+    Some([youngs_modulus * (force / (length * length)), density * (mass / length.powi(3))])
+}
+
 /// Checks that force = mass·length/time² among the names this module knows.
 ///
 /// A name it does not know is accepted: a package may use any consistent system, and only what is known to be

@@ -24,22 +24,25 @@ impl Measured {
 
     /// How often all lines repeat around the circumference; 0 of what is the same all around.
     pub(super) fn repeats(&self) -> u32 {
-        self.curves.made(self).repeats
+        let repeats = |heights: &Vec<f64>| points_repeat(&self.angles_rad, heights) as u32;
+        *self.curves.0.repeats.get_or_init(|| self.heights.iter().map(repeats).fold(0, gcd))
     }
 
     /// A curve for every line.
     pub(super) fn curves(&self) -> &[PeriodicSpline] {
-        &self.curves.made(self).lines
+        let line = |heights: &Vec<f64>| PeriodicSpline::new(&self.angles_rad, heights);
+        self.curves.0.lines.get_or_init(|| self.heights.iter().map(line).collect())
     }
 
     /// Width that steps have to see, rad.
     pub(super) fn narrowest_rad(&self) -> f64 {
-        self.curves.made(self).narrowest_rad
+        *self.curves.0.narrowest_rad.get_or_init(|| narrowest_rad(self.curves()))
     }
 
     /// Angle and height of the largest and of the smallest height of every line.
     pub(super) fn extremes(&self) -> &[[(f64, f64); 2]] {
-        &self.curves.made(self).extremes
+        let extremes = |curve: &PeriodicSpline| [curve.highest(), curve.lowest()];
+        self.curves.0.extremes.get_or_init(|| self.curves().iter().map(extremes).collect())
     }
 
     /// With contact nodes at positions `[r, θ, z]`: each on its own line, or between the two beside it.
@@ -63,30 +66,15 @@ impl Measured {
 /// Curves through measured heights, made once and shared by the copies of a table: of tens of thousands of heights they take longer than
 /// all other checks of a request, and the designs of a campaign share the table.
 #[derive(Debug, Clone, Default)]
-pub struct Curves(Arc<OnceLock<Made>>);
+pub struct Curves(Arc<Made>);
 
-#[derive(Debug)]
+/// Each is made when it is first asked for: of tables that were not checked yet only how often they repeat.
+#[derive(Debug, Default)]
 struct Made {
-    lines: Vec<PeriodicSpline>,
-    extremes: Vec<[(f64, f64); 2]>,
-    narrowest_rad: f64,
-    repeats: u32,
-}
-
-impl Curves {
-    fn made(&self, of: &Measured) -> &Made {
-        self.0.get_or_init(|| {
-            let line = |heights: &Vec<f64>| PeriodicSpline::new(&of.angles_rad, heights);
-            let lines: Vec<PeriodicSpline> = of.heights.iter().map(line).collect();
-            let repeats = of.heights.iter().map(|heights| points_repeat(&of.angles_rad, heights) as u32);
-            Made {
-                extremes: lines.iter().map(|curve| [curve.highest(), curve.lowest()]).collect(),
-                narrowest_rad: narrowest_rad(&lines),
-                repeats: repeats.fold(0, gcd),
-                lines,
-            }
-        })
-    }
+    lines: OnceLock<Vec<PeriodicSpline>>,
+    extremes: OnceLock<Vec<[(f64, f64); 2]>>,
+    narrowest_rad: OnceLock<f64>,
+    repeats: OnceLock<u32>,
 }
 
 impl PartialEq for Curves {

@@ -127,16 +127,15 @@ fn gaps(angles_rad: &[f64]) -> Vec<AngularGap> {
 
 /// Where the curve of every line goes farthest beyond its heights, by nothing if that is round-off, and their range.
 pub(super) fn overshoots(measured: &Measured) -> Vec<(Overshoot, f64)> {
-    let lines = measured.extremes().iter().zip(&measured.heights).enumerate();
-    let of = |(line, (&[top, bottom], heights)): (usize, (&[(f64, f64); 2], &Vec<f64>))| {
-        let (low, high) = range(heights);
+    let of = |(line, heights): (usize, &Vec<f64>)| {
+        let ([top, bottom], (low, high)) = (measured.extremes()[line], range(heights));
         let above = (top.0, top.1 - high);
         let below = (bottom.0, low - bottom.1);
         let (angle_rad, by) = if above.1 >= below.1 { above } else { below };
         let by = if by > ALIKE * low.abs().max(high.abs()) { by } else { 0.0 };
         (Overshoot { line: line as u32, angle_rad: angle_rad.rem_euclid(TAU), by }, high - low)
     };
-    lines.map(of).collect()
+    measured.heights.iter().enumerate().map(of).collect()
 }
 
 /// The largest, if it is more than that of a crest.

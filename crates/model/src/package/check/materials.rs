@@ -4,9 +4,21 @@ use rubmap_solid::material::Material;
 use rubmap_wheel::dynamics::sector::Units;
 
 use crate::package::error::{ManifestProblem, PackageError};
-use crate::package::findings::in_si;
 use crate::package::quote::quoted;
 use crate::package::raw::{LONGEST_NAME, Manifest, ManifestMesh};
+use crate::package::units;
+
+/// Largest Young's modulus that a package may have, Pa: a hundred diamonds.
+const STIFFEST: f64 = 1e14;
+
+/// Smallest, Pa: a thousandth of the softest gels.
+const SOFTEST: f64 = 1.0;
+
+/// Largest density that a package may have, kg/m³: fifty times osmium.
+const DENSEST: f64 = 1e6;
+
+/// Smallest, kg/m³: that of air in the thin.
+const LIGHTEST: f64 = 1e-2;
 
 /// More sets than any wheel has materials.
 const MOST_SETS: usize = 1000;
@@ -41,14 +53,16 @@ pub(crate) fn check_solids(manifest: &Manifest) -> Result<(), PackageError> {
 
 fn of_a_solid(material: &Material, units: &Units) -> Result<(), (&'static str, ManifestProblem)> {
     let (modulus, density) = (material.youngs_modulus, material.density);
-    let Some([modulus_pa, density_kg_m3]) = in_si::in_si(modulus, density, units) else { return Ok(()) };
-    if !(in_si::SOFTEST..=in_si::STIFFEST).contains(&modulus_pa) {
+    let Some([modulus_pa, density_kg_m3]) = units::material_in_si(modulus, density, units) else {
+        return Ok(());
+    };
+    if !(SOFTEST..=STIFFEST).contains(&modulus_pa) {
         return Err((
             "youngs_modulus",
             ManifestProblem::NoSolid { value: modulus, in_si: modulus_pa, unit: "Pa" },
         ));
     }
-    if !(in_si::LIGHTEST..=in_si::DENSEST).contains(&density_kg_m3) {
+    if !(LIGHTEST..=DENSEST).contains(&density_kg_m3) {
         return Err((
             "density",
             ManifestProblem::NoSolid { value: density, in_si: density_kg_m3, unit: "kg/m³" },

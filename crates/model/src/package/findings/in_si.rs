@@ -1,24 +1,12 @@
-//! Size and materials of a model in SI units, and whether a solid can have them.
+//! Size and materials of a model in SI units.
 
 use rubmap_solid::mesh::SectorMesh;
 use rubmap_wheel::dynamics::findings::{InSi, MaterialInSi};
-use rubmap_wheel::dynamics::sector::{SectorModel, Units};
+use rubmap_wheel::dynamics::sector::SectorModel;
 
 use crate::package::check::agreement::times;
 use crate::package::check::layout::{Layout, NONE};
 use crate::package::units;
-
-/// Largest Young's modulus that a package may have, Pa: a hundred diamonds.
-pub(in crate::package) const STIFFEST: f64 = 1e14;
-
-/// Smallest, Pa: a thousandth of the softest gels.
-pub(in crate::package) const SOFTEST: f64 = 1.0;
-
-/// Largest density that a package may have, kg/m³: fifty times osmium.
-pub(in crate::package) const DENSEST: f64 = 1e6;
-
-/// Smallest, kg/m³: that of air in the thin.
-pub(in crate::package) const LIGHTEST: f64 = 1e-2;
 
 /// Size and materials of a `sector` whose matrices still count time in the package's unit; none where a unit is not known.
 pub(in crate::package) fn of(
@@ -30,7 +18,7 @@ pub(in crate::package) fn of(
     let radius = sector.contact.iter().map(|node| node.position[0]).fold(0.0, f64::max);
     let materials = mesh.into_iter().flat_map(|mesh| &mesh.sets).map(|set| {
         let [youngs_modulus_pa, density_kg_m3] =
-            in_si(set.material.youngs_modulus, set.material.density, &sector.units)?;
+            units::material_in_si(set.material.youngs_modulus, set.material.density, &sector.units)?;
         Some(MaterialInSi {
             set: set.name.clone(),
             youngs_modulus_pa,
@@ -43,12 +31,6 @@ pub(in crate::package) fn of(
         contact_radius_m: radius * length,
         materials: materials.collect::<Option<_>>()?,
     })
-}
-
-/// Young's modulus, Pa, and density, kg/m³; none where a unit is not known.
-pub(in crate::package) fn in_si(youngs_modulus: f64, density: f64, units: &Units) -> Option<[f64; 2]> {
-    let [length, force, mass] = units::si_sizes(units)?;
-    Some([youngs_modulus * (force / (length * length)), density * (mass / length.powi(3))])
 }
 
 /// Mass of a sector along its axis, clamped nodes aside.

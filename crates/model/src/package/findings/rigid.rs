@@ -125,11 +125,10 @@ impl Body {
     fn by_row(&self, reading: &Reading, vector: impl Fn(usize, usize) -> Vector3<f64>) -> Vec<OfMotions> {
         let mut by_row = vec![[0.0; MOTIONS]; self.rows];
         for (node, rows) in reading.rows_of_node.iter().enumerate().filter(|(_, rows)| **rows != [NONE; 3]) {
-            for motion in 0..MOTIONS {
-                let local = reading.bases[node] * vector(node, motion);
-                for (component, &row) in rows.iter().enumerate().filter(|(_, row)| **row != NONE) {
-                    by_row[row as usize][motion] = local[component];
-                }
+            let local: [Vector3<f64>; MOTIONS] =
+                std::array::from_fn(|motion| reading.bases[node] * vector(node, motion));
+            for (component, &row) in rows.iter().enumerate().filter(|(_, row)| **row != NONE) {
+                by_row[row as usize] = local.map(|moved| moved[component]);
             }
         }
         by_row
