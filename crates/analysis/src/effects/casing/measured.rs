@@ -1,10 +1,10 @@
 //! Measured heights: curves through them, and tables of them put together.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
-use std::sync::{Arc, OnceLock};
 
 use num_integer::gcd;
 
+use super::curves::Curves;
 use super::request::Measured;
 use super::result::{FilledHeight, MeasuredCasing, MeasuredSurvey};
 use rubmap_wheel::dynamics::casing::{
@@ -25,24 +25,24 @@ impl Measured {
     /// How often all lines repeat around the circumference; 0 of what is the same all around.
     pub(super) fn repeats(&self) -> u32 {
         let repeats = |heights: &Vec<f64>| points_repeat(&self.angles_rad, heights) as u32;
-        *self.curves.0.repeats.get_or_init(|| self.heights.iter().map(repeats).fold(0, gcd))
+        *self.curves.repeats.get_or_init(|| self.heights.iter().map(repeats).fold(0, gcd))
     }
 
     /// A curve for every line.
     pub(super) fn curves(&self) -> &[PeriodicSpline] {
         let line = |heights: &Vec<f64>| PeriodicSpline::new(&self.angles_rad, heights);
-        self.curves.0.lines.get_or_init(|| self.heights.iter().map(line).collect())
+        self.curves.lines.get_or_init(|| self.heights.iter().map(line).collect())
     }
 
     /// Width that steps have to see, rad.
     pub(super) fn narrowest_rad(&self) -> f64 {
-        *self.curves.0.narrowest_rad.get_or_init(|| narrowest_rad(self.curves()))
+        *self.curves.narrowest_rad.get_or_init(|| narrowest_rad(self.curves()))
     }
 
     /// Angle and height of the largest and of the smallest height of every line.
     pub(super) fn extremes(&self) -> &[[(f64, f64); 2]] {
         let extremes = |curve: &PeriodicSpline| [curve.highest(), curve.lowest()];
-        self.curves.0.extremes.get_or_init(|| self.curves().iter().map(extremes).collect())
+        self.curves.extremes.get_or_init(|| self.curves().iter().map(extremes).collect())
     }
 
     /// With contact nodes at positions `[r, θ, z]`: each on its own line, or between the two beside it.
@@ -60,27 +60,6 @@ impl Measured {
             (before, after, share)
         };
         casing::Measured { curves: self.curves().to_vec(), nodes: arc.iter().map(between).collect() }
-    }
-}
-
-/// Curves through measured heights, made once and shared by the copies of a table: of tens of thousands of heights they take longer than
-/// all other checks of a request, and the designs of a campaign share the table.
-#[derive(Debug, Clone, Default)]
-pub struct Curves(Arc<Made>);
-
-/// Each is made when it is first asked for: of tables that were not checked yet only how often they repeat.
-#[derive(Debug, Default)]
-struct Made {
-    lines: OnceLock<Vec<PeriodicSpline>>,
-    extremes: OnceLock<Vec<[(f64, f64); 2]>>,
-    narrowest_rad: OnceLock<f64>,
-    repeats: OnceLock<u32>,
-}
-
-impl PartialEq for Curves {
-    /// Tables tell their curves.
-    fn eq(&self, _: &Self) -> bool {
-        true
     }
 }
 

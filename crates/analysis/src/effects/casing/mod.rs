@@ -6,6 +6,7 @@ use crate::resolved::ResolvedSweep;
 
 pub(crate) mod check;
 pub(crate) mod convert;
+pub mod curves;
 pub mod measured;
 pub mod request;
 pub mod resolved;

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::measured::Curves;
+use super::curves::Curves;
 
 /// Casing of revolution, and what stands inward of it: the heights of all shapes that are given add up.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -150,7 +150,7 @@ impl Tilt {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::effects::casing::measured::Curves;
+    use crate::effects::casing::curves::Curves;
     use nalgebra::{Rotation3, Unit, Vector3};
     use rubmap_wheel::dynamics::casing::arc_lengths;
     use rubmap_wheel::dynamics::sector::ContactNode;

@@ -148,7 +148,7 @@ fn overshoot(measured: &Measured) -> Option<Overshoot> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::effects::casing::measured::Curves;
+    use crate::effects::casing::curves::Curves;
 
     fn measured(n: usize, height: impl Fn(f64) -> f64) -> Measured {
         let angles_rad: Vec<f64> = (0..n).map(|i| TAU * i as f64 / n as f64).collect();
