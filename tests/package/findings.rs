@@ -99,6 +99,21 @@ fn rows_in_another_order_are_refused_with_that_order() {
     }
 }
 
+/// An order that is none of the known ones: accepted, for it may be something else than a solid, and told.
+#[test]
+fn rows_that_no_reading_balances_are_told() {
+    let mut package = wheel();
+    assert!(found(&package).warnings().is_empty());
+    let mut nodes: Vec<u64> = package.dofs.iter().map(|dof| dof.node).collect();
+    nodes.dedup();
+    nodes.sort_by_key(|&node| (7 * node) % 101);
+    let order: Vec<RawDof> =
+        nodes.iter().flat_map(|&node| (1..=3).map(move |component| RawDof { node, component })).collect();
+    reordered(&mut package, &order);
+    let findings = found(&package);
+    assert!(findings.warnings()[0].contains("rigid motions of the sector"), "{findings:?}");
+}
+
 #[test]
 fn components_in_another_frame_are_refused_with_that_frame() {
     let good = wheel();
@@ -170,7 +185,8 @@ fn shares_of_stiffening_and_softening_are_told() {
     for matrix in &mut rpm.stiffness {
         matrix.entries.iter_mut().for_each(|entry| entry.2 = f64::from(entry.2 as f32));
     }
-    println!("float32: {:?}", found(&rpm).spin);
+    let said = shares(&rpm);
+    assert!((said.0 / factor - 1.0).abs() < 0.05 && said.2.contains("in rpm"), "{said:?}");
 
     let softened = |times: f64| {
         let mut package = good.clone();

@@ -138,7 +138,7 @@ fn convert(
 ) -> Result<(SectorModel, Option<SectorMesh>, Findings), PackageError> {
     let mut layout = check::check(&mut package, lines)?;
     let mesh = layout.mesh.take();
-    let of_matrices = findings::of_matrices(&package, &layout)?;
+    let mut findings = findings::of_matrices(&package, &layout)?;
     let names = package.manifest.clone();
     let row_names: Vec<u64> = layout.own_rows.iter().map(|&row| package.dofs[row as usize].node).collect();
     let sector = sound(partition::build(package, &layout));
@@ -147,7 +147,7 @@ fn convert(
         check::agreement::check(&sector, mesh, &layout, &names)?;
     }
     check::materials::check_solids(&names)?;
-    let findings = of_matrices.with_size(findings::in_si::of(&sector, mesh.as_ref(), &layout));
+    findings.in_si = findings::in_si::of(&sector, mesh.as_ref(), &layout);
     let mut parts = sector.into_parts();
     units::count_time_in_seconds(&mut parts);
     Ok((sound(parts), mesh, findings))

@@ -8,6 +8,9 @@ use serde::{Deserialize, Serialize};
 /// Shares of stiffening and softening below this are none.
 const NONE: f64 = 1e-3;
 
+/// Fewest inner nodes of which it is said that they are out of balance.
+const FEWEST_JUDGED: usize = 10;
+
 /// A share may be this far from the number that is said of it.
 const SHARE: f64 = 0.05;
 
@@ -36,6 +39,8 @@ pub struct Findings {
     pub spin: Vec<(f64, SpinFinding)>,
     /// Noise of matrices of few digits; none where all digits are there, or no node is free.
     pub digits: Option<DigitNoise>,
+    /// Inner nodes that hardly any of are in balance, if that is so.
+    pub unbalanced: Option<Unbalanced>,
     /// Size and materials in SI units; none where a unit is not known.
     pub in_si: Option<InSi>,
 }
@@ -44,11 +49,36 @@ impl Findings {
     /// Sentences about what looks wrong, K(Ω) aside.
     pub fn warnings(&self) -> Vec<String> {
         let digits = self.digits.iter().map(DigitNoise::warning);
-        digits.chain(self.in_si.iter().flat_map(InSi::warnings)).collect()
+        let unbalanced = self.unbalanced.iter().map(Unbalanced::warning);
+        unbalanced.chain(digits).chain(self.in_si.iter().flat_map(InSi::warnings)).collect()
     }
 }
 
-/// What a stiffness at speed was found to be.
+/// Inner nodes hardly any of which a rigid motion leaves without force, and that no known other reading of the rows balances.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Unbalanced {
+    /// Nodes in balance.
+    balanced: usize,
+    /// Nodes inside the sector with three components.
+    inner: usize,
+}
+
+impl Unbalanced {
+    /// Counts that no elastic solid has, if these are such: its nodes are out of balance only beside clamps and supports.
+    pub fn of(balanced: usize, inner: usize) -> Option<Self> {
+        (inner >= FEWEST_JUDGED && 10 * balanced < inner).then_some(Self { balanced, inner })
+    }
+
+    fn warning(&self) -> String {
+        format!(
+            "rigid motions of the sector make forces at all but {} of {} inner nodes, where an elastic solid has them beside clamps and supports \
+             alone: check that the DOF table lists the rows as the matrices have them, and `frame`, `axis` and positions",
+            self.balanced, self.inner
+        )
+    }
+}
+
+/// Verdict on a stiffness at speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum SpinFinding {
     /// Geometric stiffness and spin softening on the undeformed geometry, within the residual.

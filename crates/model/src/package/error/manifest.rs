@@ -421,12 +421,12 @@ pub enum ManifestProblem {
 pub enum RowReading {
     /// All components in the other frame.
     OtherFrame {
-        /// Its name.
+        /// Name of that frame.
         meant: &'static str,
     },
     /// Components of face nodes in the other frame.
     FacesInOtherFrame {
-        /// Its name.
+        /// Name of that frame.
         meant: &'static str,
     },
     /// Components of high face nodes along axes that are turned with the sector.

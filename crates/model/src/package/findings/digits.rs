@@ -19,7 +19,7 @@ const SAFETY: f64 = 4.0;
 /// Relative forces below this are those of ten digits and more.
 const ALL_DIGITS: f64 = 1e-10;
 
-/// Finds it, at nodes that K(0) leaves in balance.
+/// Noise of the stiffness matrix at rest, by the nodes that it leaves in balance; none where all digits are there.
 pub(super) fn find(
     body: &Body,
     balance: &Balance,
@@ -29,15 +29,14 @@ pub(super) fn find(
     if balance.residual <= ALL_DIGITS {
         return None;
     }
-    let reading = body.as_stated();
-    let motions = body.motions(&reading);
+    let motions = body.motions(&body.stated);
     let inertia = forces(&package.mass, &motions);
     let shape = amplitudes(package, layout, body.size);
     let square = |motion: usize| {
         let (mut work, mut kinetic) = (0.0, 0.0);
         for node in (0..balance.nodes.len()).filter(|&node| balance.nodes[node]) {
             let amplitude = shape[node];
-            for row in reading.rows_of_node[node].map(|row| row as usize) {
+            for row in body.stated.rows_of_node[node].map(|row| row as usize) {
                 let moved = amplitude * amplitude * motions[row][motion];
                 work += (moved * balance.forces[row][motion]).powi(2);
                 kinetic += moved * inertia[row][motion];

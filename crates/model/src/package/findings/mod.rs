@@ -13,39 +13,27 @@ mod order;
 mod rigid;
 mod spin;
 
-use rubmap_wheel::dynamics::findings::{DigitNoise, Findings, InSi, SpinFinding};
+use rubmap_wheel::dynamics::findings::{Findings, Unbalanced};
 
 use super::check::layout::Layout;
 use super::error::PackageError;
 use super::raw::RawPackage;
 use rigid::{Balance, Body};
 
-/// What the matrices of a package say about its rigid motions.
-pub(super) struct OfMatrices {
-    spin: Vec<(f64, SpinFinding)>,
-    digits: Option<DigitNoise>,
-}
-
-/// Moves the sector rigidly against its matrices.
+/// Findings of rigid motions of the sector against its matrices; its size is still to be told.
 ///
 /// # Errors
 /// Rows in another order or frame than the package says.
-pub(super) fn of_matrices(package: &RawPackage, layout: &Layout) -> Result<OfMatrices, PackageError> {
+pub(super) fn of_matrices(package: &RawPackage, layout: &Layout) -> Result<Findings, PackageError> {
     let body = Body::of(package, layout);
-    let balance = Balance::of(&body, &body.as_stated(), &package.stiffness[0]);
-    order::check(&body, &balance, package)?;
+    let balance = Balance::of(&body, &body.stated, &package.stiffness[0]);
+    order::check(&body, &balance, package, layout)?;
     let at_speed = package.manifest.speeds_rad_s.iter().zip(&package.stiffness).skip(1);
-    Ok(OfMatrices {
-        spin: at_speed
-            .map(|(&speed, matrix)| (speed, spin::find(&body, &balance, package, speed, matrix)))
-            .collect(),
+    let spin = at_speed.map(|(&speed, matrix)| (speed, spin::find(&body, &balance, package, speed, matrix)));
+    Ok(Findings {
+        spin: spin.collect(),
         digits: digits::find(&body, &balance, package, layout),
+        unbalanced: Unbalanced::of(balance.count(), body.inner().count()),
+        in_si: None,
     })
-}
-
-impl OfMatrices {
-    /// With size and materials.
-    pub(super) fn with_size(self, in_si: Option<InSi>) -> Findings {
-        Findings { spin: self.spin, digits: self.digits, in_si }
-    }
 }

@@ -27,9 +27,8 @@ pub(super) struct Body {
     from_axis: Vec<Vector3<f64>>,
     pub(super) axis: Vector3<f64>,
     /// Local unit vectors (r, θ, z) of each node.
-    pub(super) cylindrical: Vec<Basis>,
-    pub(super) rows_of_node: Vec<[u32; 3]>,
-    pub(super) frame: Frame,
+    cylindrical: Vec<Basis>,
+    pub(super) stated: Reading,
     /// Whether a node is on a cyclic face.
     pub(super) on_face: Vec<bool>,
     rows: usize,
@@ -38,6 +37,7 @@ pub(super) struct Body {
 }
 
 /// Rows and components of each node, as a package states them or as they might be meant.
+#[derive(Clone)]
 pub(super) struct Reading {
     pub(super) rows_of_node: Vec<[u32; 3]>,
     /// Local unit vectors of each node's components.
@@ -58,22 +58,21 @@ impl Body {
             let basis = layout.frame.cylindrical(theta);
             (basis.row(0).transpose() * r, basis)
         };
-        let (from_axis, cylindrical) = (0..nodes).map(local).unzip();
+        let (from_axis, cylindrical): (Vec<_>, Vec<Basis>) = (0..nodes).map(local).unzip();
+        let bases = match package.manifest.frame {
+            Frame::Cartesian => vec![Basis::identity(); nodes],
+            Frame::Cylindrical => cylindrical.clone(),
+        };
         Self {
             positions,
             from_axis,
             axis: layout.frame.direction(),
             cylindrical,
-            rows_of_node: layout.rows_of_node.clone(),
-            frame: package.manifest.frame,
+            stated: Reading { rows_of_node: layout.rows_of_node.clone(), bases },
             on_face: (0..nodes).map(|k| layout.high_of[k] != NONE || layout.low_of[k] != NONE).collect(),
             rows: package.dofs.len(),
             size,
         }
-    }
-
-    pub(super) fn as_stated(&self) -> Reading {
-        self.in_frames(|_| self.frame)
     }
 
     /// Rows as stated, components of each node in the frame that is given.
@@ -83,7 +82,7 @@ impl Body {
             Frame::Cylindrical => self.cylindrical[node],
         };
         let bases = (0..self.positions.len()).map(basis).collect();
-        Reading { rows_of_node: self.rows_of_node.clone(), bases }
+        Reading { rows_of_node: self.stated.rows_of_node.clone(), bases }
     }
 
     /// Displacement of a node in a motion, global components: motions 0 to 2 move it by the size of the sector along x, y and z, 3 to 5
@@ -147,8 +146,8 @@ impl Body {
 
     /// Nodes that have all three components and are on no cyclic face.
     pub(super) fn inner(&self) -> impl Iterator<Item = usize> + '_ {
-        (0..self.rows_of_node.len())
-            .filter(|&node| !self.on_face[node] && !self.rows_of_node[node].contains(&NONE))
+        let rows = &self.stated.rows_of_node;
+        (0..rows.len()).filter(|&node| !self.on_face[node] && !rows[node].contains(&NONE))
     }
 }
 
@@ -187,7 +186,7 @@ impl Balance {
             }
         }
         let forces = forces(stiffness, &body.motions(reading));
-        let mut nodes = vec![false; body.rows_of_node.len()];
+        let mut nodes = vec![false; body.positions.len()];
         let mut residuals = Vec::new();
         for node in body.inner() {
             let rows = reading.rows_of_node[node];

@@ -25,6 +25,9 @@ const SOUND: f64 = 1e-3;
 /// Residuals of the shares that fit best, up to which these shares are what is wrong.
 const FITS: f64 = 0.05;
 
+/// Shares so near to 1 are those of other quadratures for stresses and masses, which the residual tells.
+const NEARLY: f64 = 0.02;
+
 /// Round-off of K(0) beyond this part of the right-hand side hides it.
 const HIDDEN: f64 = 0.03;
 
@@ -45,14 +48,14 @@ pub(super) fn find(
     speed: f64,
     at_speed: &RawMatrix,
 ) -> SpinFinding {
-    let reading = body.as_stated();
-    let moved = forces(at_speed, &body.motions(&reading));
-    let load = forces(&package.mass, &body.radii(&reading));
-    let in_plane = forces(&package.mass, &body.motions_in_plane(&reading));
+    let reading = &body.stated;
+    let moved = forces(at_speed, &body.motions(reading));
+    let load = forces(&package.mass, &body.radii(reading));
+    let in_plane = forces(&package.mass, &body.motions_in_plane(reading));
     let square = (speed * units::seconds(&package.manifest.units)).powi(2);
     let mut sums = Sums::default();
     for node in (0..balance.nodes.len()).filter(|&node| balance.nodes[node]) {
-        let at = |by_row: &[OfMotions], motion| Body::vector(&reading, node, by_row, motion);
+        let at = |by_row: &[OfMotions], motion| Body::vector(reading, node, by_row, motion);
         for motion in 0..MOTIONS {
             let at_rest = at(&balance.forces, motion) / square;
             let found = at(&moved, motion) / square - at_rest;
@@ -69,11 +72,11 @@ pub(super) fn find(
 /// Sums of squares and products over rows and motions.
 #[derive(Default)]
 struct Sums {
-    /// Of found, turned and −softening.
+    /// Products of found, turned and −softening.
     products: [[f64; 3]; 3],
-    /// Of (found − turned + softening)².
+    /// Sum of (found − turned + softening)².
     residual: f64,
-    /// Of the forces of K(0), which should be none.
+    /// Sum of the squared forces of K(0), which should be none.
     noise: f64,
     rows: f64,
 }
@@ -121,6 +124,9 @@ impl Sums {
         let left = (found - shares.dot(&Vector2::new(of_turned, of_softening))).max(0.0) / found;
         if left.sqrt() > FITS.max(ROUND_OFF * noise * (size / found).sqrt()) {
             return SpinFinding::Other { residual };
+        }
+        if shares.iter().all(|share| (share - 1.0).abs() <= NEARLY) {
+            return SpinFinding::Undeformed { residual };
         }
         SpinFinding::Shares { stiffening: shares.x, softening: shares.y, residual }
     }
