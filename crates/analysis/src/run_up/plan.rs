@@ -27,8 +27,10 @@ pub fn plan_run_ups(
     calibration: &Calibration,
 ) -> RunUpPlan {
     let sweep = asked.sweep();
-    let runs: Vec<_> =
-        (0..asked.runs()).map(|run| plan_run(asked, facts, reduced, calibration, run)).collect();
+    let mut set_up_s = None;
+    let runs: Vec<_> = (0..asked.runs())
+        .map(|run| plan_run(asked, facts, reduced, calibration, run, &mut set_up_s))
+        .collect();
     let estimate = reduced.and_then(|reduced| {
         let mut all = CostRange { free: 0.0, contact: 0.0 };
         let mut steps = 0;
@@ -75,6 +77,7 @@ fn plan_run(
     reduced: Option<&ReducedSector>,
     calibration: &Calibration,
     run: u32,
+    set_up_s: &mut Option<f64>,
 ) -> PlannedRunUp {
     let profile = asked.speed.profile(run);
     let revolutions = profile.revolutions();
@@ -94,7 +97,7 @@ fn plan_run(
         Err(reason) => return PlannedRunUp { message: Some(reason.to_string()), ..planned },
     };
     let planned = PlannedRunUp { segments: march.segments.len() as u64, ..planned };
-    match reduced.map(|reduced| price(&march, reduced, calibration)) {
+    match reduced.map(|reduced| price(&march, reduced, calibration, set_up_s)) {
         None => planned,
         Some(Ok((scheme, steps, computing_time_s))) => PlannedRunUp {
             scheme: Some(scheme),
@@ -106,12 +109,13 @@ fn plan_run(
     }
 }
 
-/// Scheme at the lowest speed, steps and time of a run: of every band what a step takes, and of every segment what setting it up took just
-/// now.
+/// Scheme at the lowest speed, steps and time of a run: of every band what a step takes, and of every segment what setting it up took for the
+/// first run of the plan, `set_up_s`, which is measured if it is not there: that of others takes as long.
 fn price(
     march: &March<'_>,
     reduced: &ReducedSector,
     calibration: &Calibration,
+    set_up_s: &mut Option<f64>,
 ) -> Result<(SchemeReport, u64, CostRange), NotRunnable> {
     let request = march.request();
     let nodes = touching(reduced, request);
@@ -125,10 +129,16 @@ fn price(
     bands.sort_unstable();
     let first = march.segments.first().map_or(0, |segment| segment.band);
     let stepping = march.stepping(reduced, first)?;
-    let planning = reduced.for_planning();
-    let clock = Instant::now();
-    march.begin(&planning, &stepping)?;
-    let set_up = clock.elapsed().as_secs_f64() * march.segments.len() as f64;
+    let set_up_s = match *set_up_s {
+        Some(known) => known,
+        None => {
+            let planning = reduced.for_planning();
+            let clock = Instant::now();
+            march.begin(&planning, &stepping)?;
+            *set_up_s.insert(clock.elapsed().as_secs_f64())
+        }
+    };
+    let set_up = set_up_s * march.segments.len() as f64;
     let (mut all, mut time, mut scheme) = (0, CostRange { free: set_up, contact: set_up }, None);
     for (band, samples) in bands {
         let stepping = march.stepping(reduced, band)?;
