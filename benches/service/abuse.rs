@@ -1,4 +1,4 @@
-//! What one client can keep from others: requests that take long to plan, and readers that do not read.
+//! Hostile clients, and what they keep from others: requests that take long to plan, and readers that do not read.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};

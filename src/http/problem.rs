@@ -23,7 +23,7 @@ const FULL_DISK_S: u32 = 60;
 /// The same where jobs have to end, or somebody has to delete something.
 const LIMIT_S: u32 = 60;
 
-/// The same of plans and checks, which take a second or less.
+/// Seconds after which plans and checks that are under way have ended.
 const PLANS_S: u32 = 1;
 /// The same where a lock or descriptors are to be had again by themselves.
 const BUSY_S: u32 = 5;

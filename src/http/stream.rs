@@ -34,7 +34,7 @@ const WAITING: usize = 4;
 /// Time for which an answer keeps its place for a client that is slower than it is made.
 const PATIENCE: Duration = Duration::from_secs(1);
 
-/// The same of each piece where there is no room for the rest on the disk.
+/// Time for which each piece waits where there is no room for the rest on the disk.
 const STALLED: Duration = Duration::from_secs(30);
 
 /// Bytes of all answers that wait for slow clients in files.

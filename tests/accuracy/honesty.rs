@@ -10,7 +10,7 @@ use rubmap::analysis::run::{
     Choice, FinerRun, Next, Resources, Setting, TrialRequest, control_requests, error_estimate, next,
     run_speed,
 };
-use rubmap::impeller::{ImpellerParameters, MeshDensities};
+use rubmap::impeller::ImpellerParameters;
 use serde_json::json;
 
 use crate::wheel::Wheel;
@@ -143,23 +143,13 @@ const STRESSED: (u64, usize) = (10, 4);
 
 /// A wheel of coarse mesh, and a sweep on it with stress.
 fn stressed(draw: &mut Draw) -> (Wheel, serde_json::Value) {
-    let mesh = MeshDensities {
-        between_contact_nodes: 1,
-        blade_height: 4,
-        blade_thickness: 1,
-        half_passage: 1,
-        disk: 1,
-    };
-    let default = ImpellerParameters::default();
     let thickness = draw.within(0.7, 1.4);
+    let coarse = Wheel::coarse_parameters(draw.among(&[3, 4, 5, 7]));
     let wheel = Wheel::with_stress(&ImpellerParameters {
-        sectors: draw.among(&[3, 4, 5, 7]),
-        contact_nodes: 4,
         backsweep_deg: draw.within(0.0, 40.0),
-        root_thickness: thickness * default.root_thickness,
-        tip_thickness: thickness * default.tip_thickness,
-        mesh,
-        ..default
+        root_thickness: thickness * coarse.root_thickness,
+        tip_thickness: thickness * coarse.tip_thickness,
+        ..coarse
     });
     let (mut body, _) = scene(draw);
     let mut speeds: Vec<f64> = (0..STRESSED.1).map(|_| draw.within(10_000.0, 36_000.0)).collect();

@@ -45,8 +45,8 @@ impl Checkpoints for Bases {
 }
 
 impl Wheel {
-    /// Of so many sectors, about 500 DOF each.
-    pub(crate) fn coarse(sectors: usize) -> Self {
+    /// Parameters of a coarse mesh: about 500 DOF a sector.
+    pub(crate) fn coarse_parameters(sectors: usize) -> ImpellerParameters {
         let mesh = MeshDensities {
             between_contact_nodes: 1,
             blade_height: 4,
@@ -54,16 +54,15 @@ impl Wheel {
             half_passage: 1,
             disk: 1,
         };
-        Self::of(&ImpellerParameters { sectors, contact_nodes: 4, mesh, ..ImpellerParameters::default() })
+        ImpellerParameters { sectors, contact_nodes: 4, mesh, ..ImpellerParameters::default() }
+    }
+
+    pub(crate) fn coarse(sectors: usize) -> Self {
+        Self::of(&Self::coarse_parameters(sectors))
     }
 
     pub(crate) fn of(parameters: &ImpellerParameters) -> Self {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("wheel.zip");
-        package::write(&generate(parameters).unwrap(), std::fs::File::create(&path).unwrap()).unwrap();
-        let read = package::read(&path, &package::Limits::default()).unwrap();
-        let facts = ModelFacts::of_package(&read.sector, read.mesh.as_ref(), &read.findings);
-        Self { sector: read.sector, facts, reductions: BTreeMap::new(), elements: None }
+        Self { elements: None, ..Self::with_stress(parameters) }
     }
 
     /// With stress beside its reductions.
@@ -72,9 +71,11 @@ impl Wheel {
         let path = folder.path().join("wheel.zip");
         package::write(&generate(parameters).unwrap(), std::fs::File::create(&path).unwrap()).unwrap();
         let limits = package::Limits::default();
-        let mesh = package::read_mesh(&path, &limits).unwrap().expect("the generator writes its elements");
+        let read = package::read(&path, &limits).unwrap();
+        let facts = ModelFacts::of_package(&read.sector, read.mesh.as_ref(), &read.findings);
         let nodes = package::read_nodes(&path, &limits).unwrap();
-        Self { elements: Some((mesh, nodes)), ..Self::of(parameters) }
+        let elements = read.mesh.map(|mesh| (mesh, nodes));
+        Self { sector: read.sector, facts, reductions: BTreeMap::new(), elements }
     }
 
     pub(crate) fn reduced(&mut self, modes_per_speed: u32) -> Arc<ReducedSector> {

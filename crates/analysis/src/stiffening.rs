@@ -84,16 +84,16 @@ pub(super) fn stiffening_report(check: &InterpolationCheck, sector: &SectorModel
     StiffeningReport { verdict, linear_ratio, quadratic_ratio, frequency_error, message }
 }
 
-/// What is found of the stiffness at each speed above 0, held against mass and positions.
+/// Findings about the stiffness at each speed above 0, held against mass and positions.
 type Spin = [(f64, SpinFinding)];
 
-/// With what mass and positions say of K(Ω).
+/// Joins what mass and positions say of K(Ω).
 pub(super) fn with_spin(mut found: PreliminaryStiffening, spin: &Spin) -> PreliminaryStiffening {
     (found.verdict, found.message) = judged(found.verdict, found.message, spin);
     found
 }
 
-/// With what mass and positions say of K(Ω).
+/// Joins what mass and positions say of K(Ω) to the report of a reduction.
 pub(super) fn report_with_spin(mut found: StiffeningReport, spin: &Spin) -> StiffeningReport {
     (found.verdict, found.message) = judged(found.verdict, found.message, spin);
     found

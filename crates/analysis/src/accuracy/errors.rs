@@ -19,7 +19,7 @@ pub(super) struct Response<'a> {
     mean_force: f64,
     /// Whether the run took the revolutions that were asked for.
     took_all: bool,
-    /// Where it was recorded.
+    /// Stress, where it was recorded.
     pub(super) stress: Option<&'a PointStress>,
 }
 

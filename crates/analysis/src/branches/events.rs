@@ -9,7 +9,7 @@ use rubmap_wheel::dynamics::steady::branch::locate::{Place, off_by_steps};
 use rubmap_wheel::dynamics::steady::branch::{Branch, Lost, Motion};
 use rubmap_wheel::dynamics::steady::stability::Stability;
 
-/// So many times the steps tell what those of a branch leave open: the more, the less is left of jumps of their own.
+/// Multiples of the steps of a branch that tell what these leave open: the more, the less is left of jumps of their own.
 const FINER: [u32; 2] = [3, 8];
 
 /// Share of the way between two points, on either side of a place, over which slopes are taken.

@@ -89,7 +89,7 @@ impl<'a> Scenes<'a> {
         Ok(Self { sector, asked, setting, report, sweep, kept: RefCell::default() })
     }
 
-    /// The same scenes with so many times the steps.
+    /// Scenes with so many times the steps.
     pub(super) fn with_more_steps(&self, times: u32) -> Self {
         let steps_per_revolution = self.setting.steps_per_revolution.saturating_mul(times);
         let setting = Setting { steps_per_revolution, ..self.setting };

@@ -231,10 +231,8 @@ impl<'a> Walk<'a> {
                 Err(lost) => break Some(end(lost)?),
             };
             self.points += 1;
-            if self.points == 2
-                && let Err(lost) = self.begin_at_flip(branch, &found.motion)
-            {
-                break Some(end(lost)?);
+            if self.points == 2 {
+                self.begin_at_flip(branch, &found.motion);
             }
             self.found.push(told.point(&found, self.scenes.speed(found.motion.value)));
             self.front.move_to(found.motion);
@@ -312,18 +310,18 @@ impl<'a> Walk<'a> {
     }
 
     /// Moves the beginning of a branch of doubled period to where its amplitude is zero, within the error of the flip: by a parabola through its
-    /// first two points, the last of which is `second`.
-    fn begin_at_flip(&mut self, branch: &Branch<'_>, second: &Motion) -> Result<(), Lost> {
-        let (Some((value, error)), Lap::Lobes(lobes)) = (self.flip, self.lap) else { return Ok(()) };
-        let Some(start) = self.found.first_mut().filter(|start| start.value == value) else { return Ok(()) };
+    /// first two points, the last of which is `second`. It stays where it is if they cannot be looked at.
+    fn begin_at_flip(&mut self, branch: &Branch<'_>, second: &Motion) {
+        let (Some((value, error)), Lap::Lobes(lobes)) = (self.flip, self.lap) else { return };
+        let Some(start) = self.found.first_mut().filter(|start| start.value == value) else { return };
         let single = Branch { lap: Lap::Lobes(lobes / 2), ..*branch };
         let first = &self.front.last;
-        let [a, b] = [single.off(first)?.powi(2), single.off(second)?.powi(2)];
+        let (Ok(a), Ok(b)) = (single.off(first), single.off(second)) else { return };
+        let (a, b) = (a * a, b * b);
         let zero = first.value - a * (second.value - first.value) / (b - a);
         if (zero - value).abs() <= error {
             (start.value, start.speed_rad_s) = (zero, self.scenes.speed(zero));
         }
-        Ok(())
     }
 
     /// Passages over a lobe after which motions of a doubled branch repeat; 0 of others.

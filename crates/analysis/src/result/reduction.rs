@@ -40,7 +40,7 @@ impl StiffeningVerdict {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct PreliminaryStiffening {
-    /// What is suspect may prove to be unsound.
+    /// Verdict; what is suspect may prove to be unsound.
     pub verdict: StiffeningVerdict,
     /// ‖Ω1²K1‖/‖K0‖.
     pub linear_ratio: f64,

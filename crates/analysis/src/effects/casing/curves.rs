@@ -10,10 +10,10 @@ use rubmap_wheel::dynamics::casing::PeriodicSpline;
 #[derive(Debug, Clone, Default)]
 pub struct Curves(Arc<Made>);
 
-/// Each is made when it is first asked for: of tables that were not checked yet only how often they repeat.
+/// Results of a table, each made when it is first asked for: of tables that were not checked yet only how often they repeat.
 #[derive(Debug, Default)]
 pub struct Made {
-    /// Of every line.
+    /// Curve of every line.
     pub(super) lines: OnceLock<Vec<PeriodicSpline>>,
     /// Angle and height of the largest and of the smallest height of every line.
     pub(super) extremes: OnceLock<Vec<[(f64, f64); 2]>>,
