@@ -17,6 +17,16 @@ pub struct Course {
     pub(super) waiting: Vec<Stretch>,
     /// Branches so far.
     pub(super) branches: u32,
+    /// Flips so far: one that is found from both sides of a point is one.
+    #[serde(default)]
+    pub(super) flips: Vec<FoundFlip>,
+}
+
+/// Flip of a branch.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(super) struct FoundFlip {
+    pub(super) branch: u32,
+    pub(super) flip: Bifurcation,
 }
 
 /// A branch away from where it begins, to one side.

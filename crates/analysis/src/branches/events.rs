@@ -5,7 +5,7 @@ use super::family::Scenes;
 use super::told::{Told, amplitudes_of, carried, tell};
 use crate::result::{Bifurcation, BifurcationKind, BranchMaximum};
 use rubmap_wheel::dynamics::initial::Stepped;
-use rubmap_wheel::dynamics::steady::branch::locate::{Place, off_by_steps};
+use rubmap_wheel::dynamics::steady::branch::locate::{FinerGrowth, Place, off_by_steps};
 use rubmap_wheel::dynamics::steady::branch::{Branch, Lost, Motion};
 use rubmap_wheel::dynamics::steady::stability::Stability;
 
@@ -113,8 +113,8 @@ impl Events<'_> {
         Ok(Some(Event { bifurcation, motion, grows: told.leading, lobe_passages, passages }))
     }
 
-    /// How far a change of stability between two points may be off, in p, because of the steps of time; 0 where finer ones cannot be followed, as at
-    /// a multiplier of 1.
+    /// Error, in p, of a change of stability between two points because of the steps of time; all of the way between them where finer steps
+    /// cannot be followed, as at a multiplier of 1.
     fn off_by_steps(
         &self,
         [a, b]: [At<'_>; 2],
@@ -132,10 +132,13 @@ impl Events<'_> {
             let growth = branch
                 .with_more_steps(&place.motion, times.into())
                 .and_then(|motion| Ok(tell(&scenes, &branch, &motion, &motion.state)?.growth()));
-            finer.extend(known(growth)?.map(|growth| (f64::from(times), growth)));
+            finer.extend(known(growth)?.map(|growth| FinerGrowth { times: times.into(), growth }));
         }
         // Near the place: farther off multipliers may be of another kind.
         let (from, to) = (a.motion.value, b.motion.value);
+        if finer.is_empty() {
+            return Ok((to - from).abs());
+        }
         let share = (place.motion.value - from) / (to - from);
         let (low, high) = ((share - BESIDE).max(0.0), (share + BESIDE).min(1.0));
         let growth = |share: f64| {
@@ -146,7 +149,7 @@ impl Events<'_> {
             Some((before, behind)) => (behind - before) / ((high - low) * (to - from)),
             None => (b.told.growth() - a.told.growth()) / (to - from),
         };
-        let off = off_by_steps(place.told.growth(), slope, finer.into_iter());
+        let off = off_by_steps(place.told.growth(), slope, &finer);
         // No more is left open than where the branch was known to be stable and not.
         Ok(off.min((to - from).abs()))
     }

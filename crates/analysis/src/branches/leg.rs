@@ -1,6 +1,6 @@
 //! Branches followed some points further.
 
-use super::course::{Course, Stretch, UnderWay};
+use super::course::{Course, FoundFlip, Stretch, UnderWay};
 use super::crests::{Crests, Passed};
 use super::events::{At, Event, Events};
 use super::family::Scenes;
@@ -48,7 +48,7 @@ pub fn branch_leg(
 ) -> Result<(BranchLeg, Option<Course>), AnalysisError> {
     let scenes = Scenes::new(sector, asked).map_err(|reason| refused("/along", &reason))?;
     let go_on = || !monitor.is_cancelled();
-    let Course { under_way, mut waiting, mut branches } = match course {
+    let Course { under_way, mut waiting, mut branches, flips: mut known } = match course {
         Some(course) => course,
         None => {
             monitor.progress(0.0, "seeking a periodic response");
@@ -56,11 +56,15 @@ pub fn branch_leg(
         }
     };
     let UnderWay { stretch, points, mut last, crests, pending } = under_way;
-    let mut walk = Walk::new(&scenes, asked, &stretch, (points, crests, pending));
+    let of_branch = known.iter().filter(|known| known.branch == stretch.track.branch);
+    let known_flips = of_branch.map(|known| known.flip.clone()).collect();
+    let mut walk = Walk { points, crests, pending, known_flips, ..Walk::new(&scenes, asked, &stretch) };
     let branch =
         Branch { family: &scenes, lap: walk.lap, span: asked.along.to - asked.along.from, go_on: &go_on };
     let end = walk.go(&branch, &mut last, monitor)?;
     let Walk { front, points, found, mut bifurcations, maxima, flips, crests, pending, passed, .. } = walk;
+    let found_flips = bifurcations.iter().filter(|found| found.kind == BifurcationKind::Flip);
+    known.extend(found_flips.map(|flip| FoundFlip { branch: stretch.track.branch, flip: flip.clone() }));
     if let Some(other) = waiting.iter_mut().find(|other| other.continues(&stretch)) {
         other.go_on_from(passed);
     }
@@ -88,7 +92,7 @@ pub fn branch_leg(
     let head = head(&scenes, sector, asked);
     let is_last = under_way.is_none();
     let leg = BranchLeg { head, track, backwards, points: found, bifurcations, maxima, end, is_last };
-    Ok((leg, under_way.map(|under_way| Course { under_way, waiting, branches })))
+    Ok((leg, under_way.map(|under_way| Course { under_way, waiting, branches, flips: known })))
 }
 
 /// The response to begin with, to be followed both ways.
@@ -117,7 +121,7 @@ fn begin(
     let (is_least, is_most) = (start <= asked.along.from, start >= asked.along.to);
     let under_way = UnderWay::new(Stretch { tells_start: true, ..stretch(is_most) });
     let waiting = if is_least || is_most { Vec::new() } else { vec![stretch(true)] };
-    Ok(Course { under_way, waiting, branches: 1 })
+    Ok(Course { under_way, waiting, branches: 1, flips: Vec::new() })
 }
 
 fn refused(pointer: &str, reason: &NotRunnable) -> AnalysisError {
@@ -142,6 +146,14 @@ fn head(scenes: &Scenes<'_>, sector: &ReducedSector, asked: &ResolvedBranches) -
     }
 }
 
+/// Flip at which a branch of doubled period begins.
+#[derive(Clone, Copy)]
+struct FlipStart {
+    value: f64,
+    /// Distance up to which the flip may be from there.
+    error: f64,
+}
+
 /// A leg that is being made.
 struct Walk<'a> {
     scenes: &'a Scenes<'a>,
@@ -149,8 +161,10 @@ struct Walk<'a> {
     lap: Lap,
     tells_start: bool,
     branch: u32,
-    /// Value at which a branch of doubled period begins, and how far from there the flip may be.
-    flip: Option<(f64, f64)>,
+    /// Flip at which a branch of doubled period begins.
+    flip: Option<FlipStart>,
+    /// Flips of the branch that earlier legs found.
+    known_flips: Vec<Bifurcation>,
     doubles: bool,
     front: Front,
     /// Points of the stretch, but for where it begins.
@@ -168,28 +182,26 @@ struct Walk<'a> {
 }
 
 impl<'a> Walk<'a> {
-    fn new(
-        scenes: &'a Scenes<'a>,
-        asked: &'a ResolvedBranches,
-        stretch: &Stretch,
-        (points, crests, pending): (u32, Crests, Option<Bifurcation>),
-    ) -> Self {
+    /// Begins a leg of `stretch`, of which nothing is done yet.
+    fn new(scenes: &'a Scenes<'a>, asked: &'a ResolvedBranches, stretch: &Stretch) -> Self {
+        let doubles = stretch.track.doubles;
         Self {
             scenes,
             asked,
             lap: stretch.passages.map_or(Lap::Symmetric, |passages| Lap::Lobes(passages as usize)),
             tells_start: stretch.tells_start,
             branch: stretch.track.branch,
-            flip: stretch.track.doubles.map(|(_, value)| (value, stretch.flip_error)),
+            flip: doubles.map(|(_, value)| FlipStart { value, error: stretch.flip_error }),
+            known_flips: Vec::new(),
             doubles: asked.doubled,
             front: (&stretch.front).into(),
-            points,
+            points: 0,
             found: Vec::new(),
             bifurcations: Vec::new(),
             maxima: Vec::new(),
             flips: Vec::new(),
-            crests,
-            pending,
+            crests: Crests::default(),
+            pending: None,
             passed: Vec::new(),
             joins: false,
         }
@@ -294,7 +306,8 @@ impl<'a> Walk<'a> {
         match event.bifurcation.kind {
             BifurcationKind::Branching => self.pending = Some(event.bifurcation),
             kind => {
-                let again = self.bifurcations.iter().any(|other| other.is_same_as(&event.bifurcation));
+                let mut others = self.bifurcations.iter().chain(&self.known_flips);
+                let again = others.any(|other| other.is_same_as(&event.bifurcation));
                 self.bifurcations.push(event.bifurcation.clone());
                 if !again && kind == BifurcationKind::Flip && self.doubles && 2 * event.passages <= LONGEST {
                     self.flips.push(event);
@@ -306,13 +319,13 @@ impl<'a> Walk<'a> {
 
     /// Whether a fold is what is left of the error of the flip where the branch begins: it begins beside itself.
     fn is_at_its_flip(&self, fold: &Bifurcation) -> bool {
-        self.flip.is_some_and(|(value, error)| self.points == 1 || (fold.value - value).abs() <= error)
+        self.flip.is_some_and(|flip| (fold.value - flip.value).abs() <= flip.error + fold.error)
     }
 
     /// Moves the beginning of a branch of doubled period to where its amplitude is zero, within the error of the flip: by a parabola through its
     /// first two points, the last of which is `second`. It stays where it is if they cannot be looked at.
     fn begin_at_flip(&mut self, branch: &Branch<'_>, second: &Motion) {
-        let (Some((value, error)), Lap::Lobes(lobes)) = (self.flip, self.lap) else { return };
+        let (Some(FlipStart { value, error }), Lap::Lobes(lobes)) = (self.flip, self.lap) else { return };
         let Some(start) = self.found.first_mut().filter(|start| start.value == value) else { return };
         let single = Branch { lap: Lap::Lobes(lobes / 2), ..*branch };
         let first = &self.front.last;

@@ -224,8 +224,8 @@ impl Branches {
         for branch in &mut branches {
             let found = std::mem::take(&mut branch.bifurcations);
             for bifurcation in found {
-                match branch.bifurcations.last_mut().filter(|last| last.is_same_as(&bifurcation)) {
-                    Some(last) => last.reach(&bifurcation),
+                match branch.bifurcations.iter_mut().rfind(|other| other.is_same_as(&bifurcation)) {
+                    Some(same) => same.reach(&bifurcation),
                     None => branch.bifurcations.push(bifurcation),
                 }
             }

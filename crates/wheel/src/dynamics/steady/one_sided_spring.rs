@@ -13,7 +13,7 @@ use faer::prelude::Solve;
 use faer::{Mat, c64};
 
 use super::branch::follow::{Front, Step};
-use super::branch::locate::off_by_steps;
+use super::branch::locate::{FinerGrowth, off_by_steps};
 use super::branch::{Branch, Family, Lap, Motion, Unreachable};
 use super::multipliers::multipliers;
 use super::periodic::{Search, find};
@@ -388,14 +388,14 @@ fn flips_lie_within_the_error_that_finer_steps_tell() {
                     let motion = Branch { family: &stop, ..branch }
                         .with_more_steps(&place.motion, times as f64)
                         .unwrap();
-                    (times as f64, leading(&stop, &motion).norm() - 1.0)
+                    FinerGrowth { times: times as f64, growth: leading(&stop, &motion).norm() - 1.0 }
                 });
                 let value = place.motion.value;
                 let share = (value - front.last.value) / (found.motion.value - front.last.value);
                 let [before, behind] = [share - 0.1, share + 0.1]
                     .map(|share| branch.between(&front.last, &found.motion, share).unwrap().motion);
                 let slope = (growth(&behind) - growth(&before)) / (behind.value - before.value);
-                let error = off_by_steps(place.told.norm() - 1.0, slope, finer.into_iter()).max(place.error);
+                let error = off_by_steps(place.told.norm() - 1.0, slope, &finer).max(place.error);
                 let (mode, step) = (place.motion.state.modes[0], TAU / value / steps as f64);
                 let exact = exact_change([mode.displacement.re, mode.increment.re / step], value, -1.0);
                 let off = (value - exact).abs();

@@ -131,16 +131,25 @@ impl Branch<'_> {
 /// Safety of [`off_by_steps`]: what is left of an error of first order, and of jumps, that agree by chance.
 const SAFETY: f64 = 2.0;
 
-/// How far from a place, in p, what is told of a branch vanishes for an infinite number of steps of time: there is told `here`, of which the slope
-/// over p is `slope`, and with so many times the steps what `finer` has. Contacts that begin and end within a step leave multipliers an error of
-/// first order, which jumps wherever one moves into the next step.
-pub fn off_by_steps(here: f64, slope: f64, finer: impl Iterator<Item = (f64, f64)>) -> f64 {
-    let off = finer.map(|(times, told)| (told - here).abs() * times / (times - 1.0));
+/// Growth of a motion at a place, with more steps of time than the branch was followed with.
+#[derive(Debug, Clone, Copy)]
+pub struct FinerGrowth {
+    /// Factor of the number of steps.
+    pub times: f64,
+    /// Growth that changes its sign at the place.
+    pub growth: f64,
+}
+
+/// Error of a zero in p from finite steps of time: `2 · max_k |g_k − g| k/(k − 1) / |slope|`, where g is the growth at the place, `here`, g_k that
+/// with k times the steps, and slope is dg/dp. Contacts that begin and end within a step leave multipliers an error of first order, which jumps
+/// wherever one moves into the next step.
+pub fn off_by_steps(here: f64, slope: f64, finer: &[FinerGrowth]) -> f64 {
+    let off = finer.iter().map(|finer| (finer.growth - here).abs() * finer.times / (finer.times - 1.0));
     SAFETY * off.fold(0.0, f64::max) / slope.abs()
 }
 
 impl Branch<'_> {
-    /// The motion of this branch at the value of `coarse`, which is of the same with fewer steps of time: one for `times` here.
+    /// Solves for this branch's motion at `coarse.value`, starting from a motion with `times` times fewer steps.
     ///
     /// # Errors
     /// [`Lost`].
