@@ -156,11 +156,16 @@ impl<'a> March<'a> {
         self.profile.range_rad_s().0 * BAND_RATIO.powi(band as i32)
     }
 
+    /// Highest band of all segments.
+    pub(super) fn highest_band(&self) -> u32 {
+        self.segments.iter().map(|segment| segment.band).max().unwrap_or(0)
+    }
+
     /// How a band is stepped: as its lowest speed is. A boundary without mass keeps the modes of the highest band in all: one that is
     /// integrated only from some speed on would begin at rest, under forces that it had followed.
     pub(super) fn stepping(&self, sector: &ReducedSector, band: u32) -> Result<Stepping, NotRunnable> {
         let request = self.request();
-        let highest = self.segments.iter().map(|segment| segment.band).max().unwrap_or(band);
+        let highest = self.highest_band();
         let of_highest = self.ready(sector, request, self.lowest_of(highest))?;
         let mut stepping = match of_highest.scheme {
             _ if band == highest => of_highest,

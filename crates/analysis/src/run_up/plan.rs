@@ -1,5 +1,7 @@
 //! What run-ups will do and cost, before they begin.
 
+use std::collections::hash_map::Entry;
+use std::collections::{BTreeMap, HashMap};
 use std::time::Instant;
 
 use super::march::March;
@@ -27,10 +29,8 @@ pub fn plan_run_ups(
     calibration: &Calibration,
 ) -> RunUpPlan {
     let sweep = asked.sweep();
-    let mut set_up_s = None;
-    let runs: Vec<_> = (0..asked.runs())
-        .map(|run| plan_run(asked, facts, reduced, calibration, run, &mut set_up_s))
-        .collect();
+    let mut prices = reduced.map(|reduced| Prices::new(reduced, calibration));
+    let runs: Vec<_> = (0..asked.runs()).map(|run| plan_run(asked, facts, prices.as_mut(), run)).collect();
     let estimate = reduced.and_then(|reduced| {
         let mut all = CostRange { free: 0.0, contact: 0.0 };
         let mut steps = 0;
@@ -74,10 +74,8 @@ fn planned_euler_force(asked: &ResolvedRunUps) -> PlannedEffect {
 fn plan_run(
     asked: &ResolvedRunUps,
     facts: &ModelFacts,
-    reduced: Option<&ReducedSector>,
-    calibration: &Calibration,
+    prices: Option<&mut Prices<'_>>,
     run: u32,
-    set_up_s: &mut Option<f64>,
 ) -> PlannedRunUp {
     let profile = asked.speed.profile(run);
     let revolutions = profile.revolutions();
@@ -97,7 +95,7 @@ fn plan_run(
         Err(reason) => return PlannedRunUp { message: Some(reason.to_string()), ..planned },
     };
     let planned = PlannedRunUp { segments: march.segments.len() as u64, ..planned };
-    match reduced.map(|reduced| price(&march, reduced, calibration, set_up_s)) {
+    match prices.map(|prices| prices.of_run(&march)) {
         None => planned,
         Some(Ok((scheme, steps, computing_time_s))) => PlannedRunUp {
             scheme: Some(scheme),
@@ -109,56 +107,94 @@ fn plan_run(
     }
 }
 
-/// Scheme at the lowest speed, steps and time of a run: of every band what a step takes, and of every segment what setting it up took for the
-/// first run of the plan, `set_up_s`, which is measured if it is not there: that of others takes as long.
+/// Prices that runs of one plan share: of rates over one range the bands are the same.
+struct Prices<'a> {
+    reduced: &'a ReducedSector,
+    calibration: &'a Calibration,
+    /// Time that setting up a segment takes, s: all segments take as long.
+    set_up_s: Option<f64>,
+    /// Bands by their lowest speed and the highest band of the run.
+    bands: HashMap<(u64, u32), BandPrice>,
+}
+
+/// Price of a band.
+#[derive(Clone)]
+struct BandPrice {
+    scheme: SchemeReport,
+    steps_per_sample: u64,
+    /// Time of a step without contact and in contact, s.
+    step_s: CostRange,
+}
+
+impl<'a> Prices<'a> {
+    fn new(reduced: &'a ReducedSector, calibration: &'a Calibration) -> Self {
+        Self { reduced, calibration, set_up_s: None, bands: HashMap::new() }
+    }
+
+    /// Scheme at the lowest speed, steps and time of a run: of every band its steps, and of every segment what setting it up takes.
+    fn of_run(&mut self, march: &March<'_>) -> Result<(SchemeReport, u64, CostRange), NotRunnable> {
+        let mut bands = BTreeMap::<u32, u64>::new();
+        for segment in &march.segments {
+            *bands.entry(segment.band).or_default() += segment.samples;
+        }
+        let set_up = self.set_up_seconds(march)? * march.segments.len() as f64;
+        let (mut all, mut time, mut scheme) = (0, CostRange { free: set_up, contact: set_up }, None);
+        for (band, samples) in bands {
+            let price = self.band(march, band)?;
+            let steps = samples * price.steps_per_sample;
+            all += steps;
+            time.free += steps as f64 * price.step_s.free;
+            time.contact += steps as f64 * price.step_s.contact;
+            scheme.get_or_insert_with(|| price.scheme.clone());
+        }
+        Ok((scheme.unwrap_or_else(|| unreachable!("a run has at least one segment")), all, time))
+    }
+
+    fn set_up_seconds(&mut self, march: &March<'_>) -> Result<f64, NotRunnable> {
+        if let Some(known) = self.set_up_s {
+            return Ok(known);
+        }
+        let first = march.segments.first().map_or(0, |segment| segment.band);
+        let stepping = march.stepping(self.reduced, first)?;
+        let planning = self.reduced.for_planning();
+        let clock = Instant::now();
+        march.begin(&planning, &stepping)?;
+        Ok(*self.set_up_s.insert(clock.elapsed().as_secs_f64()))
+    }
+
+    fn band(&mut self, march: &March<'_>, band: u32) -> Result<&BandPrice, NotRunnable> {
+        let lowest = march.lowest_of(band);
+        Ok(match self.bands.entry((lowest.to_bits(), march.highest_band())) {
+            Entry::Occupied(known) => known.into_mut(),
+            Entry::Vacant(unknown) => unknown.insert(price(march, self.reduced, self.calibration, band)?),
+        })
+    }
+}
+
 fn price(
     march: &March<'_>,
     reduced: &ReducedSector,
     calibration: &Calibration,
-    set_up_s: &mut Option<f64>,
-) -> Result<(SchemeReport, u64, CostRange), NotRunnable> {
+    band: u32,
+) -> Result<BandPrice, NotRunnable> {
     let request = march.request();
     let nodes = touching(reduced, request);
-    let mut bands: Vec<(u32, u64)> = Vec::new();
-    for segment in &march.segments {
-        match bands.iter_mut().find(|(band, _)| *band == segment.band) {
-            Some((_, samples)) => *samples += segment.samples,
-            None => bands.push((segment.band, segment.samples)),
-        }
-    }
-    bands.sort_unstable();
-    let first = march.segments.first().map_or(0, |segment| segment.band);
-    let stepping = march.stepping(reduced, first)?;
-    let set_up_s = match *set_up_s {
-        Some(known) => known,
-        None => {
-            let planning = reduced.for_planning();
-            let clock = Instant::now();
-            march.begin(&planning, &stepping)?;
-            *set_up_s.insert(clock.elapsed().as_secs_f64())
-        }
+    let stepping = march.stepping(reduced, band)?;
+    let wheel = wheel_of(&request.scene, &reduced.wheel, march.lowest_of(band))?;
+    let unknowns = stepping.scheme.integrated_unknowns(&wheel);
+    let size = StepSize { sectors: wheel.sectors, nodes, unknowns };
+    let effects = EffectSizes::of(&request.scene, &wheel, stepping.scheme, nodes);
+    let effects = match march.has_euler_force() {
+        true => effects.with_euler_force(&wheel, stepping.scheme, nodes),
+        false => effects,
     };
-    let set_up = set_up_s * march.segments.len() as f64;
-    let (mut all, mut time, mut scheme) = (0, CostRange { free: set_up, contact: set_up }, None);
-    for (band, samples) in bands {
-        let stepping = march.stepping(reduced, band)?;
-        let wheel = wheel_of(&request.scene, &reduced.wheel, march.lowest_of(band))?;
-        let unknowns = stepping.scheme.integrated_unknowns(&wheel);
-        let size = StepSize { sectors: wheel.sectors, nodes, unknowns };
-        let effects = EffectSizes::of(&request.scene, &wheel, stepping.scheme, nodes);
-        let effects = match march.has_euler_force() {
-            true => effects.with_euler_force(&wheel, stepping.scheme, nodes),
-            false => effects,
-        };
-        let (free, contact) = calibration.step_seconds(size, &effects);
-        let steps =
-            samples * (stepping.discretisation.per_revolution / stepping.discretisation.samples) as u64;
-        all += steps;
-        time.free += steps as f64 * free;
-        time.contact += steps as f64 * contact;
-        scheme.get_or_insert(stepping.report);
-    }
-    Ok((scheme.unwrap_or_else(|| unreachable!("a run has at least one segment")), all, time))
+    let (free, contact) = calibration.step_seconds(size, &effects);
+    let steps = stepping.discretisation.per_revolution / stepping.discretisation.samples;
+    Ok(BandPrice {
+        scheme: stepping.report,
+        steps_per_sample: steps as u64,
+        step_s: CostRange { free, contact },
+    })
 }
 
 /// Memory that a run holds, in bytes: what a speed does, the lowest or the highest, its shapes, the samples of a frame and the amplitudes of a leg
