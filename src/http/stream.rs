@@ -1,7 +1,7 @@
 //! Large answers: written on a thread of their own, in pieces, while they are sent.
 
 use std::fs::File;
-use std::io::{self, Seek, Write};
+use std::io::{self, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -34,7 +34,7 @@ const WAITING: usize = 4;
 /// Time for which an answer keeps its place for a client that is slower than it is made.
 const PATIENCE: Duration = Duration::from_secs(1);
 
-/// Time for which each piece waits where there is no room for the rest on the disk.
+/// Time for which each piece waits for its client, or for room in the file, where files have no room for it.
 const STALLED: Duration = Duration::from_secs(30);
 
 /// Bytes of all answers that wait for slow clients in files.
@@ -59,7 +59,7 @@ pub(super) struct Leave {
 impl LargeAnswers {
     /// No more than `most` at once; what waits for slow clients lies in `folder`.
     pub fn new(most: usize, folder: &Path) -> Self {
-        let spool = Spool { folder: folder.to_owned(), bytes: AtomicU64::new(0) };
+        let spool = Spool { folder: folder.to_owned(), bytes: AtomicU64::new(0), most: MOST_SPOOLED };
         Self { turns: Arc::new(Semaphore::new(most)), spool: Arc::new(spool) }
     }
 
@@ -116,7 +116,7 @@ pub(super) fn written(
     let (sender, receiver) = channel(WAITING);
     let (end, rest) = oneshot::channel();
     tokio::task::spawn_blocking(move || {
-        let spool = Arc::clone(&leave.spool);
+        let spool = Some(Arc::clone(&leave.spool));
         let mut pieces =
             Pieces { sender, piece: Vec::with_capacity(PIECE), patience: PATIENCE, spool, later: None };
         let made = write(&mut pieces).and_then(|()| pieces.flush());
@@ -190,6 +190,8 @@ fn broken_off() -> io::Error {
 struct Spool {
     folder: PathBuf,
     bytes: AtomicU64,
+    /// Most bytes of all answers together.
+    most: u64,
 }
 
 /// Part of an answer that waits for its client.
@@ -212,14 +214,17 @@ impl Spool {
 }
 
 impl Later {
-    fn add(&mut self, piece: &[u8]) -> io::Result<()> {
-        let length = piece.len() as u64;
-        let before = self.held.spool.bytes.fetch_add(length, Ordering::Relaxed);
-        self.held.bytes += length;
-        if before + length > MOST_SPOOLED {
-            return Err(io::Error::other("answers that wait for slow clients take too much room"));
+    /// Writes a piece behind the others; false, with the file as it was, where there is no room for it.
+    fn add(&mut self, piece: &[u8]) -> io::Result<bool> {
+        let (end, length) = (self.held.bytes, piece.len() as u64);
+        if !self.held.reserve(length) {
+            return Ok(false);
         }
-        self.file.write_all(piece)
+        let Err(error) = self.file.write_all(piece) else { return Ok(true) };
+        self.held.give_back(length);
+        self.file.set_len(end)?;
+        self.file.seek(SeekFrom::Start(end))?;
+        if error.kind() == io::ErrorKind::StorageFull { Ok(false) } else { Err(error) }
     }
 
     fn rewound(mut self) -> io::Result<Self> {
@@ -228,9 +233,24 @@ impl Later {
     }
 }
 
+impl Held {
+    /// Takes room for more bytes, if all answers together leave so much.
+    fn reserve(&mut self, more: u64) -> bool {
+        let fits = |held: u64| Some(held + more).filter(|held| *held <= self.spool.most);
+        let taken = self.spool.bytes.fetch_update(Ordering::Relaxed, Ordering::Relaxed, fits).is_ok();
+        self.bytes += if taken { more } else { 0 };
+        taken
+    }
+
+    fn give_back(&mut self, bytes: u64) {
+        self.bytes -= bytes;
+        self.spool.bytes.fetch_sub(bytes, Ordering::Relaxed);
+    }
+}
+
 impl Drop for Held {
     fn drop(&mut self) {
-        self.spool.bytes.fetch_sub(self.bytes, Ordering::Relaxed);
+        self.give_back(self.bytes);
     }
 }
 
@@ -238,9 +258,10 @@ impl Drop for Held {
 struct Pieces {
     sender: Sender<Bytes>,
     piece: Vec<u8>,
-    /// Time for which the client will still be waited for.
+    /// Time for which the client will still be waited for before the rest goes to a file.
     patience: Duration,
-    spool: Arc<Spool>,
+    /// None once a file could not be made.
+    spool: Option<Arc<Spool>>,
     later: Option<Later>,
 }
 
@@ -256,6 +277,30 @@ impl Pieces {
             Err(SendTimeoutError::Closed(_)) => Err(gone()),
         }
     }
+
+    /// Writes a piece to the file of the answer; waits for room while the client is there, at most [`STALLED`].
+    fn keep(sender: &Sender<Bytes>, later: &mut Later, piece: &[u8]) -> io::Result<()> {
+        let begin = Instant::now();
+        loop {
+            if sender.is_closed() {
+                return Err(gone());
+            }
+            if later.add(piece)? {
+                return Ok(());
+            }
+            if begin.elapsed() > STALLED {
+                return Err(stalled("answers that wait for slow clients take all room there is for them"));
+            }
+            std::thread::sleep(FOR_ROOM);
+        }
+    }
+}
+
+/// Time between two looks whether there is room again.
+const FOR_ROOM: Duration = Duration::from_millis(50);
+
+fn stalled(reason: &str) -> io::Error {
+    io::Error::new(io::ErrorKind::TimedOut, reason)
 }
 
 fn gone() -> io::Error {
@@ -278,20 +323,26 @@ impl Write for Pieces {
         }
         let piece = std::mem::replace(&mut self.piece, Vec::with_capacity(PIECE));
         if let Some(later) = &mut self.later {
-            return if self.sender.is_closed() { Err(gone()) } else { later.add(&piece) };
+            return Self::keep(&self.sender, later, &piece);
         }
-        let Some(piece) = self.send(piece.into(), self.patience)? else { return Ok(()) };
-        match self.spool.begin().and_then(|mut later| later.add(&piece).map(|()| later)) {
-            Ok(later) => self.later = Some(later),
-            // Without room there the client must take it, in its time.
-            Err(error) => {
-                tracing::warn!(%error, "an answer waits for its client in its place");
-                if self.send(piece, STALLED)?.is_some() {
-                    return Err(io::Error::new(io::ErrorKind::TimedOut, "the client does not take it"));
+        let mut piece = Bytes::from(piece);
+        if let Some(spool) = self.spool.clone() {
+            let Some(refused) = self.send(piece, self.patience)? else { return Ok(()) };
+            match spool.begin().and_then(|mut later| Ok(later.add(&refused)?.then_some(later))) {
+                Ok(Some(later)) => {
+                    self.later = Some(later);
+                    return Ok(());
+                }
+                Ok(None) => {}
+                Err(error) => {
+                    tracing::warn!(%error, "an answer waits for its client in its place");
+                    self.spool = None;
                 }
             }
+            piece = refused;
         }
-        Ok(())
+        // Without room in a file the client must take it, in its time.
+        self.send(piece, STALLED)?.map_or(Ok(()), |_| Err(stalled("the client does not take it")))
     }
 }
 
@@ -320,7 +371,7 @@ mod tests {
     use super::*;
 
     fn spool(folder: &Path) -> Arc<Spool> {
-        Arc::new(Spool { folder: folder.to_owned(), bytes: AtomicU64::new(0) })
+        Arc::new(Spool { folder: folder.to_owned(), bytes: AtomicU64::new(0), most: MOST_SPOOLED })
     }
 
     fn answer(spool: &Arc<Spool>, body: Vec<u8>) -> (Body, oneshot::Receiver<()>) {
@@ -369,6 +420,24 @@ mod tests {
         while spool.bytes.load(Ordering::Relaxed) > 0 {
             tokio::task::yield_now().await;
         }
+    }
+
+    /// Two answers of which one fits: the other goes on once its client or the first one's reads.
+    #[tokio::test(flavor = "multi_thread")]
+    async fn a_full_spool_delays_answers_and_cuts_none_off() {
+        let folder = tempfile::tempdir().unwrap();
+        let most = 24 * PIECE as u64;
+        let spool = Arc::new(Spool { folder: folder.path().to_owned(), bytes: AtomicU64::new(0), most });
+        let (first, first_made) = answer(&spool, bytes(20));
+        assert!(first_made.await.is_err());
+        let (second, _second_made) = answer(&spool, bytes(20));
+        while spool.bytes.load(Ordering::Relaxed) + (PIECE as u64) < most {
+            tokio::time::sleep(FOR_ROOM).await;
+        }
+        for body in [first, second] {
+            assert!(axum::body::to_bytes(body, usize::MAX).await.unwrap() == bytes(20));
+        }
+        assert_eq!(spool.bytes.load(Ordering::Relaxed), 0, "given back");
     }
 
     #[tokio::test(flavor = "multi_thread")]
