@@ -12,7 +12,7 @@ use super::speed::speed;
 use super::stdout;
 use crate::analysis::result::MeasuredCasing;
 use crate::casing_table;
-use crate::dynamics::findings::{Findings, MaterialInSi};
+use crate::dynamics::findings::{Findings, MaterialInSi, SpinAtSpeed};
 use crate::dynamics::sector::Units;
 use crate::package::calculix::{self, CalculixModel, ImportSummary, Normals};
 use crate::package::raw::{Axis, ManifestMesh, MatrixFormat, RawPackage};
@@ -276,6 +276,18 @@ fn describe(
         (None, Some(reason)) => writeln!(text, "WITHOUT mesh, and so without stress: {reason}")?,
         (None, None) => {}
     }
+    describe_findings(&mut text, findings)?;
+    writeln!(text, "Contact nodes from leading to trailing edge (check order and normals):")?;
+    writeln!(text, "      node          r      theta          z      n_r  n_theta      n_z")?;
+    for point in &summary.contact {
+        let ([r, theta, z], [nr, nt, nz]) = (point.position, point.normal);
+        writeln!(text, "{:>10} {r:10.4} {theta:10.5} {z:10.4} {nr:8.4} {nt:8.4} {nz:8.4}", point.node)?;
+    }
+    Ok(text)
+}
+
+/// Size, materials, K(Ω) and warnings.
+fn describe_findings(text: &mut String, findings: &Findings) -> fmt::Result {
     if let Some(in_si) = &findings.in_si {
         writeln!(
             text,
@@ -289,19 +301,13 @@ fn describe(
             )?;
         }
     }
-    for (speed, finding) in &findings.spin {
-        writeln!(text, "Stiffness at {speed} rad/s: {finding}")?;
+    for SpinAtSpeed { speed_rad_s, finding } in &findings.spin {
+        writeln!(text, "Stiffness at {speed_rad_s} rad/s: {finding}")?;
     }
     for warning in findings.warnings() {
         writeln!(text, "WARNING: {warning}")?;
     }
-    writeln!(text, "Contact nodes from leading to trailing edge (check order and normals):")?;
-    writeln!(text, "      node          r      theta          z      n_r  n_theta      n_z")?;
-    for point in &summary.contact {
-        let ([r, theta, z], [nr, nt, nz]) = (point.position, point.normal);
-        writeln!(text, "{:>10} {r:10.4} {theta:10.5} {z:10.4} {nr:8.4} {nt:8.4} {nz:8.4}", point.node)?;
-    }
-    Ok(text)
+    Ok(())
 }
 
 /// Which strengths each element set has.

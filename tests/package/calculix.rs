@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use faer::c64;
-use rubmap::dynamics::findings::SpinFinding;
+use rubmap::dynamics::findings::{SpinAtSpeed, SpinFinding};
 use rubmap::dynamics::sector::{SectorModel, Units};
 use rubmap::package::calculix::{self, CalculixModel, ImportSummary, Normals};
 use rubmap::package::{self, Limits};
@@ -362,13 +362,13 @@ fn initial_stresses_give_the_stiffness_of_the_undeformed_geometry() {
     let spin = |model: &CalculixModel| package::look_at(calculix::import(model).unwrap().0).unwrap().spin;
     let found = spin(&model);
     println!("{found:?}");
-    for (_, finding) in &found {
+    for SpinAtSpeed { finding, .. } in &found {
         // Stresses are printed with seven digits.
         assert!(matches!(finding, SpinFinding::Undeformed { residual } if *residual < 1e-5), "{finding:?}");
     }
     let finding = |job: &str| {
         let at_speed = vec![(5000.0, folder.join("half")), (10_000.0, folder.join(job))];
-        spin(&CalculixModel { at_speed, ..model.clone() })[1].1
+        spin(&CalculixModel { at_speed, ..model.clone() })[1].finding
     };
     export_at_speed(folder, "no-load", &mesh, &stresses(folder, "spin", 1.0), "");
     let shares = |job: &str| match finding(job) {

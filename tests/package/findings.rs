@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::f64::consts::TAU;
 
 use nalgebra::{DMatrix, Matrix3, Rotation3, Unit, Vector3};
-use rubmap::dynamics::findings::{Findings, SpinFinding};
+use rubmap::dynamics::findings::{Findings, SpinAtSpeed, SpinFinding};
 use rubmap::dynamics::sector::{CyclicMatrix, SectorModel, Units};
 use rubmap::impeller::{ImpellerParameters, MeshDensities, Preset, generate};
 use rubmap::package::raw::{Frame, RawDof, RawMatrix, RawPackage};
@@ -89,7 +89,7 @@ fn rows_in_another_order_are_refused_with_that_order() {
     let mut by_component = good.dofs.clone();
     by_component.sort_by_key(|dof| dof.component);
     for (order, says) in
-        [(by_node(&nodes), "the reverse of dofs.csv"), (by_component, "all components 1 first")]
+        [(by_node(&nodes), "the DOF table, reversed"), (by_component, "all components 1 first")]
     {
         let mut package = good.clone();
         reordered(&mut package, &order);
@@ -137,7 +137,7 @@ fn components_in_another_frame_are_refused_with_that_frame() {
         package
     };
     let sound = cartesian(&|_| true);
-    assert!(matches!(found(&sound).spin[1].1, SpinFinding::Undeformed { residual } if residual < 1e-6));
+    assert!(matches!(found(&sound).spin[1].finding, SpinFinding::Undeformed { residual } if residual < 1e-6));
 
     let says = |package: RawPackage, field: &str, words: &str| {
         let refused = refusal(package);
@@ -166,11 +166,13 @@ fn components_in_another_frame_are_refused_with_that_frame() {
 #[test]
 fn shares_of_stiffening_and_softening_are_told() {
     let good = wheel();
-    for (_, finding) in found(&good).spin {
+    for SpinAtSpeed { finding, .. } in found(&good).spin {
         assert!(matches!(finding, SpinFinding::Undeformed { residual } if residual < 1e-6), "{finding}");
     }
     let shares = |package: &RawPackage| match found(package).spin[..] {
-        [(_, SpinFinding::Shares { stiffening: a, softening: b, .. }), (_, last)] => (a, b, last.to_string()),
+        [SpinAtSpeed { finding: SpinFinding::Shares { stiffening: a, softening: b, .. }, .. }, last] => {
+            (a, b, last.finding.to_string())
+        }
         ref other => panic!("{other:?}"),
     };
     let near = |(a, b, _): &(f64, f64, String), c: f64, d: f64| (a - c).abs() < 1e-4 && (b - d).abs() < 1e-4;
@@ -220,7 +222,7 @@ fn shares_of_stiffening_and_softening_are_told() {
         Units { length: "mm".into(), force: "N".into(), time: "ms".into(), mass: "N·ms²/mm".into() };
     milliseconds.manifest.mesh = None;
     milliseconds.elements = None;
-    for (_, finding) in found(&milliseconds).spin {
+    for SpinAtSpeed { finding, .. } in found(&milliseconds).spin {
         assert!(matches!(finding, SpinFinding::Undeformed { residual } if residual < 1e-6), "{finding}");
     }
 }
@@ -302,13 +304,10 @@ fn shared_models_are_sound() {
         let findings = package::read(&models.join(name), &Limits::default()).unwrap().findings;
         println!("{name}: {findings:?}");
         assert!(findings.warnings().is_empty());
-        for (_, finding) in findings.spin {
+        for SpinAtSpeed { finding, .. } in findings.spin {
             assert!(matches!(finding, SpinFinding::Undeformed { residual } if residual < 1e-3), "{finding}");
         }
     }
     let deformed = package::read(&models.join("impeller-a-nlgeom.zip"), &Limits::default()).unwrap().findings;
-    assert!(
-        deformed.spin.iter().all(|(_, finding)| matches!(finding, SpinFinding::Other { .. })),
-        "{deformed:?}"
-    );
+    assert!(deformed.spin.iter().all(|at| matches!(at.finding, SpinFinding::Other { .. })), "{deformed:?}");
 }

@@ -1,5 +1,6 @@
 //! Shared packages that are wrong in one way each.
 
+use rubmap::dynamics::findings::SpinAtSpeed;
 use rubmap::package::{self, Imported, Limits, PackageError};
 
 use crate::sample::shared_models;
@@ -20,7 +21,7 @@ fn case(name: &str) -> Option<Result<Imported, PackageError>> {
 #[test]
 fn speeds_in_rpm_are_told_as_such() {
     let Some(read) = case("sp_rpm.zip") else { return };
-    for (_, finding) in read.unwrap().findings.spin {
+    for SpinAtSpeed { finding, .. } in read.unwrap().findings.spin {
         assert!(finding.is_wrong_at_speed() && finding.to_string().contains("in rpm"), "{finding}");
     }
 }
@@ -30,7 +31,7 @@ fn nodes_in_the_reverse_order_are_refused() {
     let Some(read) = case("d2_rev.zip") else { return };
     let error = read.map(drop).expect_err("another order");
     assert_eq!(error.field(), Some("/dofs"));
-    assert!(error.to_string().contains("the reverse of dofs.csv"), "{error}");
+    assert!(error.to_string().contains("the DOF table, reversed"), "{error}");
 }
 
 #[test]

@@ -181,15 +181,16 @@ impl ModelFacts {
         }
     }
 
-    /// The facts of a `sector` whose package has these elements, and of which this was found.
+    /// Facts of a package: its sector, elements and findings.
     pub fn of_package(sector: &SectorModel, mesh: Option<&SectorMesh>, findings: &Findings) -> Self {
+        let facts = Self::of(sector);
         Self {
             mesh: mesh.map(|mesh| MeshFacts::of(mesh, sector)),
-            stiffening: Some(with_spin(preliminary_stiffening(sector), &findings.spin)),
+            stiffening: facts.stiffening.map(|found| with_spin(found, &findings.spin)),
             in_si: findings.in_si.clone(),
             digits: findings.digits,
             warnings: findings.warnings(),
-            ..Self::of(sector)
+            ..facts
         }
     }
 

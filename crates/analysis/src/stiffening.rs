@@ -1,7 +1,7 @@
 //! How far K(Ω) can be trusted between the speeds at which it is given, in words.
 
 use crate::result::{PreliminaryStiffening, StiffeningReport, StiffeningVerdict};
-use rubmap_wheel::dynamics::findings::SpinFinding;
+use rubmap_wheel::dynamics::findings::{SpinAtSpeed, SpinFinding};
 use rubmap_wheel::dynamics::reduction::{InterpolationCheck, InterpolationVerdict, MatrixRatios};
 use rubmap_wheel::dynamics::sector::SectorModel;
 
@@ -84,41 +84,40 @@ pub(super) fn stiffening_report(check: &InterpolationCheck, sector: &SectorModel
     StiffeningReport { verdict, linear_ratio, quadratic_ratio, frequency_error, message }
 }
 
-/// Findings about the stiffness at each speed above 0, held against mass and positions.
-type Spin = [(f64, SpinFinding)];
-
 /// Joins what mass and positions say of K(Ω).
-pub(super) fn with_spin(mut found: PreliminaryStiffening, spin: &Spin) -> PreliminaryStiffening {
+pub(super) fn with_spin(mut found: PreliminaryStiffening, spin: &[SpinAtSpeed]) -> PreliminaryStiffening {
     (found.verdict, found.message) = judged(found.verdict, found.message, spin);
     found
 }
 
 /// Joins what mass and positions say of K(Ω) to the report of a reduction.
-pub(super) fn report_with_spin(mut found: StiffeningReport, spin: &Spin) -> StiffeningReport {
+pub(super) fn report_with_spin(mut found: StiffeningReport, spin: &[SpinAtSpeed]) -> StiffeningReport {
     (found.verdict, found.message) = judged(found.verdict, found.message, spin);
     found
 }
 
-fn judged(verdict: StiffeningVerdict, message: String, spin: &Spin) -> (StiffeningVerdict, String) {
+fn judged(verdict: StiffeningVerdict, message: String, spin: &[SpinAtSpeed]) -> (StiffeningVerdict, String) {
     let said = |wanted: &dyn Fn(SpinFinding) -> bool| -> Vec<String> {
-        let at = spin.iter().filter(|(_, finding)| wanted(*finding));
-        at.map(|(speed, finding)| format!("The stiffness at {speed} rad/s is {finding}.")).collect()
+        let at = spin.iter().filter(|at| wanted(at.finding));
+        at.map(|at| format!("The stiffness at {} rad/s is {}.", at.speed_rad_s, at.finding)).collect()
     };
     let wrong = said(&SpinFinding::is_wrong_at_speed);
     if !wrong.is_empty() {
-        return (StiffeningVerdict::Unsound, wrong.join(" "));
+        let wrong = wrong.join(" ");
+        // Also why some speeds are refused, if they are.
+        let message = if verdict == StiffeningVerdict::Sound { wrong } else { format!("{wrong} {message}") };
+        return (StiffeningVerdict::Unsound, message);
     }
     let other = said(&SpinFinding::is_other);
     if !other.is_empty() {
         return (verdict.max(StiffeningVerdict::Suspect), format!("{} {message}", other.join(" ")));
     }
-    let unknown =
-        spin.iter().find(|(_, finding)| matches!(finding, SpinFinding::NotChecked | SpinFinding::Hidden));
-    match unknown {
-        Some((_, finding)) => {
+    let is_unknown = |finding: &SpinFinding| matches!(finding, SpinFinding::NotChecked | SpinFinding::Hidden);
+    match spin.iter().map(|at| at.finding).find(is_unknown) {
+        Some(finding) => {
             (verdict, format!("{message} Whether it is that of the given speeds was {finding}."))
         }
-        None => match spin.iter().rev().find_map(|(_, finding)| finding.residual()) {
+        None => match spin.iter().rev().find_map(|at| at.finding.residual()) {
             Some(residual) => {
                 let held = format!(
                     "By mass and positions it is that of the given speeds (residual {residual:.1e})."

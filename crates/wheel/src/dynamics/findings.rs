@@ -20,7 +20,7 @@ const RPM: f64 = std::f64::consts::TAU / 60.0;
 /// Young's moduli of solids that turn, from rubber to diamond, Pa.
 const USUAL_MODULUS: [f64; 2] = [1e6, 1.3e12];
 
-/// Their densities, from foam to osmium, kg/m³.
+/// Densities of solids, from foam to osmium, kg/m³.
 const USUAL_DENSITY: [f64; 2] = [10.0, 2.3e4];
 
 /// √(E/ρ), from rubber to diamond, m/s.
@@ -35,11 +35,11 @@ const MOST_MASS: f64 = 1.5e5;
 /// Findings about a package.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Findings {
-    /// Each speed above 0 with what its stiffness was found to be.
-    pub spin: Vec<(f64, SpinFinding)>,
+    /// Findings about the stiffness at each speed above 0.
+    pub spin: Vec<SpinAtSpeed>,
     /// Noise of matrices of few digits; none where all digits are there, or no node is free.
     pub digits: Option<DigitNoise>,
-    /// Inner nodes that hardly any of are in balance, if that is so.
+    /// Too few inner nodes in balance, if so.
     pub unbalanced: Option<Unbalanced>,
     /// Size and materials in SI units; none where a unit is not known.
     pub in_si: Option<InSi>,
@@ -54,7 +54,7 @@ impl Findings {
     }
 }
 
-/// Inner nodes hardly any of which a rigid motion leaves without force, and that no known other reading of the rows balances.
+/// Inner nodes of which fewer than a tenth are in balance, in every known reading of the rows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Unbalanced {
     /// Nodes in balance.
@@ -64,7 +64,8 @@ pub struct Unbalanced {
 }
 
 impl Unbalanced {
-    /// Counts that no elastic solid has, if these are such: its nodes are out of balance only beside clamps and supports.
+    /// Returns the counts if fewer than a tenth of ten or more inner nodes are in balance: those of an elastic solid are, but for a few beside
+    /// clamps and supports.
     pub fn of(balanced: usize, inner: usize) -> Option<Self> {
         (inner >= FEWEST_JUDGED && 10 * balanced < inner).then_some(Self { balanced, inner })
     }
@@ -76,6 +77,15 @@ impl Unbalanced {
             self.balanced, self.inner
         )
     }
+}
+
+/// Finding about the stiffness at one speed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SpinAtSpeed {
+    /// Speed, rad/s.
+    pub speed_rad_s: f64,
+    /// Verdict on its stiffness.
+    pub finding: SpinFinding,
 }
 
 /// Verdict on a stiffness at speed.
@@ -100,9 +110,9 @@ pub enum SpinFinding {
         /// Residual of the identity.
         residual: f64,
     },
-    /// No row is free of clamps and cyclic faces.
+    /// Not checked: no row is free of clamps and cyclic faces.
     NotChecked,
-    /// The digits of the matrices do not show it.
+    /// Not checked: round-off of the entries hides the identity.
     Hidden,
 }
 
@@ -112,7 +122,7 @@ impl SpinFinding {
         matches!(self, Self::Shares { .. })
     }
 
-    /// Residual of what is as it must be.
+    /// Residual of a stiffness that passed the check.
     pub fn residual(self) -> Option<f64> {
         match self {
             Self::Undeformed { residual } => Some(residual),
@@ -120,7 +130,7 @@ impl SpinFinding {
         }
     }
 
-    /// Whether it was checked, and is not that of the undeformed geometry.
+    /// Whether it was checked and fits no shares.
     pub fn is_other(self) -> bool {
         matches!(self, Self::Other { .. })
     }
@@ -142,7 +152,7 @@ impl fmt::Display for SpinFinding {
             Self::Other { residual } => write!(
                 f,
                 "NOT that of the undeformed geometry under this speed (residual {residual:.1e}); between the speeds it will be \
-                 wrong (see docs/calculix.md)"
+                 wrong (docs/method.md, Centrifugal stiffening)"
             ),
             Self::NotChecked => f.write_str("not checked, no node is free of clamps and faces"),
             Self::Hidden => f.write_str("not checked, the matrices have too few digits"),
@@ -157,7 +167,7 @@ fn shares(f: &mut fmt::Formatter<'_>, stiffening: f64, softening: f64) -> fmt::R
     }
     if near(stiffening, 1.0) && near(softening, 2.0) {
         return f
-            .write_str("with TWICE the spin softening: the exporting program subtracts Ω²M_spin already");
+            .write_str("with TWICE the spin softening: the exporting program subtracts Ω²M_spin already, do not subtract it again");
     }
     if near(stiffening, 0.0) && near(softening, 1.0) {
         return f.write_str("WITHOUT geometric stiffness: export under the centrifugal pre-stress");
@@ -249,7 +259,7 @@ impl InSi {
         let mut expect = |value: f64, [least, most]: [f64; 2], of: &str, unit: &str, solids: &str| {
             if !(least..=most).contains(&value) {
                 found.push(format!(
-                    "{of} is {value:.3e} {unit}; {solids} from {least} to {most}: check the units"
+                    "{of} is {value:.3e} {unit}; {solids} from {least:e} to {most:e} {unit}: check the value and the units"
                 ));
             }
         };

@@ -1,4 +1,6 @@
-//! What `sector.json` says of materials.
+//! Checks of the materials in `sector.json`.
+
+use std::ops::RangeInclusive;
 
 use rubmap_solid::material::Material;
 use rubmap_wheel::dynamics::sector::Units;
@@ -11,13 +13,13 @@ use crate::package::units;
 /// Largest Young's modulus that a package may have, Pa: a hundred diamonds.
 const STIFFEST: f64 = 1e14;
 
-/// Smallest, Pa: a thousandth of the softest gels.
+/// Smallest Young's modulus that a package may have, Pa: a thousandth of the softest gels.
 const SOFTEST: f64 = 1.0;
 
 /// Largest density that a package may have, kg/m³: fifty times osmium.
 const DENSEST: f64 = 1e6;
 
-/// Smallest, kg/m³: that of air in the thin.
+/// Smallest density that a package may have, kg/m³: a hundredth of air.
 const LIGHTEST: f64 = 1e-2;
 
 /// More sets than any wheel has materials.
@@ -40,8 +42,7 @@ pub(super) fn check(mesh: &ManifestMesh) -> Result<(), PackageError> {
     Ok(())
 }
 
-/// Refuses constants beyond those of any solid; where units are not known, any may be right. Comes after the matrices have had their say,
-/// which tells more.
+/// Refuses constants beyond those of any solid, if the units are known. Runs after the checks of the matrices, whose messages say more.
 pub(crate) fn check_solids(manifest: &Manifest) -> Result<(), PackageError> {
     for (name, material) in manifest.mesh.iter().flat_map(|mesh| &mesh.sets) {
         of_a_solid(material, &manifest.units).map_err(|(field, problem)| {
@@ -57,18 +58,16 @@ fn of_a_solid(material: &Material, units: &Units) -> Result<(), (&'static str, M
         return Ok(());
     };
     if !(SOFTEST..=STIFFEST).contains(&modulus_pa) {
-        return Err((
-            "youngs_modulus",
-            ManifestProblem::NoSolid { value: modulus, in_si: modulus_pa, unit: "Pa" },
-        ));
+        return Err(("youngs_modulus", no_solid(modulus, modulus_pa, SOFTEST..=STIFFEST, "Pa")));
     }
     if !(LIGHTEST..=DENSEST).contains(&density_kg_m3) {
-        return Err((
-            "density",
-            ManifestProblem::NoSolid { value: density, in_si: density_kg_m3, unit: "kg/m³" },
-        ));
+        return Err(("density", no_solid(density, density_kg_m3, LIGHTEST..=DENSEST, "kg/m³")));
     }
     Ok(())
+}
+
+fn no_solid(value: f64, in_si: f64, accepted: RangeInclusive<f64>, unit: &'static str) -> ManifestProblem {
+    ManifestProblem::NoSolid { value, in_si, least: *accepted.start(), most: *accepted.end(), unit }
 }
 
 /// JSON pointer to a set.

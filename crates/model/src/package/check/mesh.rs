@@ -16,7 +16,7 @@ use crate::package::content::SourceLines;
 use crate::package::error::{ArchiveProblem, ManifestProblem, PackageError, TableProblem};
 use crate::package::raw::{Manifest, ManifestMesh, RawElement, RawNode, RawPackage};
 
-/// Nodes without element that a package may always have.
+/// Nodes without an element that are always accepted.
 const MOST_SPARE: usize = 1000;
 
 /// Partners of nodes on the cyclic faces, or [`NONE`].

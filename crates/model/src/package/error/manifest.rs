@@ -266,13 +266,18 @@ pub enum ManifestProblem {
     },
     /// A constant that no solid has by far.
     #[error(
-        "the value is {value:e}, in SI units {in_si:.3e} {unit}, which no solid is near to: check it and the units"
+        "the value is {value:e}, in SI units {in_si:.3e} {unit}, and {least:e} to {most:e} {unit} are accepted, wider than any solid: \
+         correct the value or the units"
     )]
     NoSolid {
         /// Value given.
         value: f64,
         /// Value in SI units.
         in_si: f64,
+        /// Least that is accepted.
+        least: f64,
+        /// Most that is accepted.
+        most: f64,
         /// SI unit.
         unit: &'static str,
     },

@@ -13,7 +13,7 @@ mod order;
 mod rigid;
 mod spin;
 
-use rubmap_wheel::dynamics::findings::{Findings, Unbalanced};
+use rubmap_wheel::dynamics::findings::{Findings, SpinAtSpeed, Unbalanced};
 
 use super::check::layout::Layout;
 use super::error::PackageError;
@@ -29,7 +29,10 @@ pub(super) fn of_matrices(package: &RawPackage, layout: &Layout) -> Result<Findi
     let balance = Balance::of(&body, &body.stated, &package.stiffness[0]);
     order::check(&body, &balance, package, layout)?;
     let at_speed = package.manifest.speeds_rad_s.iter().zip(&package.stiffness).skip(1);
-    let spin = at_speed.map(|(&speed, matrix)| (speed, spin::find(&body, &balance, package, speed, matrix)));
+    let spin = at_speed.map(|(&speed_rad_s, matrix)| SpinAtSpeed {
+        speed_rad_s,
+        finding: spin::find(&body, &balance, package, speed_rad_s, matrix),
+    });
     Ok(Findings {
         spin: spin.collect(),
         digits: digits::find(&body, &balance, package, layout),

@@ -13,57 +13,83 @@ use crate::package::raw::{Frame, RawPackage};
 /// Fewest nodes that another reading must put in balance.
 const FEWEST: usize = 3;
 
-/// Refuses rows that are in balance only in another reading.
+/// Refuses rows that are in balance only in another reading; names the one that balances most nodes.
 pub(super) fn check(
     body: &Body,
     stated: &Balance,
     package: &RawPackage,
     layout: &Layout,
 ) -> Result<(), PackageError> {
-    if body.inner().count() < stated.count() + FEWEST {
+    let inner = body.inner().count();
+    if inner < stated.count() + FEWEST {
         return Ok(());
     }
-    let judge = |field: &str, meant: RowReading, reading: &Reading| {
-        let found = Balance::of(body, reading, &package.stiffness[0]);
-        let changes = || stated.nodes.iter().zip(&found.nodes);
+    let mut best: Option<Candidate> = None;
+    for (field, meant, reading) in readings(body, package, layout) {
+        let balance = Balance::of(body, &reading, &package.stiffness[0]);
+        let changes = || stated.nodes.iter().zip(&balance.nodes);
         let gained = changes().filter(|(before, after)| !**before && **after).count();
         let lost = changes().filter(|(before, after)| **before && !**after).count();
-        if gained < FEWEST.max(lost * 10) {
-            return Ok(());
+        let found = balance.count();
+        if gained >= FEWEST.max(lost * 10) && best.as_ref().is_none_or(|best| found > best.found) {
+            best = Some(Candidate { field, meant, found });
         }
-        let (inner, stated, found) = (body.inner().count(), stated.count(), found.count());
-        let problem = ManifestProblem::RowsOtherwise { reading: meant, stated, found, inner };
+        // No other one balances more.
+        if found == inner {
+            break;
+        }
+    }
+    best.map_or(Ok(()), |Candidate { field, meant, found }| {
+        let problem = ManifestProblem::RowsOtherwise { reading: meant, stated: stated.count(), found, inner };
         Err(PackageError::manifest(field, problem))
-    };
+    })
+}
+
+/// Reading that balances more nodes than the stated one.
+struct Candidate {
+    /// Field of the manifest that says otherwise.
+    field: &'static str,
+    meant: RowReading,
+    /// Nodes in balance.
+    found: usize,
+}
+
+/// Readings of the rows that exports are known for, each with the field of the manifest that says otherwise.
+fn readings<'a>(
+    body: &'a Body,
+    package: &'a RawPackage,
+    layout: &'a Layout,
+) -> impl Iterator<Item = (&'static str, RowReading, Reading)> + 'a {
     let stated_frame = package.manifest.frame;
     let other = match stated_frame {
         Frame::Cartesian => Frame::Cylindrical,
         Frame::Cylindrical => Frame::Cartesian,
     };
     let meant = other.name();
-    judge("/frame", RowReading::OtherFrame { meant }, &body.in_frames(|_| other))?;
-    let faces = body.in_frames(|node| if body.on_face[node] { other } else { stated_frame });
-    judge("/frame", RowReading::FacesInOtherFrame { meant }, &faces)?;
-    if stated_frame == Frame::Cartesian {
+    let faces = move |node: usize| if body.on_face[node] { other } else { stated_frame };
+    let frames = [false, true].into_iter().map(move |faces_alone| match faces_alone {
+        false => ("/frame", RowReading::OtherFrame { meant }, body.in_frames(|_| other)),
+        true => ("/frame", RowReading::FacesInOtherFrame { meant }, body.in_frames(faces)),
+    });
+    let turned = (stated_frame == Frame::Cartesian).then(|| {
         let mut turned = body.stated.clone();
         let axes = layout.frame.turned_global(TAU / package.manifest.sectors as f64);
         for (basis, _) in turned.bases.iter_mut().zip(&layout.low_of).filter(|(_, low)| **low != NONE) {
             *basis = axes;
         }
-        judge("/frame", RowReading::HighFaceTurned, &turned)?;
-    }
-    for (meant, order) in orders(package, layout) {
+        ("/frame", RowReading::HighFaceTurned, turned)
+    });
+    let ordered = orders(package, layout).into_iter().map(|(meant, order)| {
         let mut reading = body.stated.clone();
         for (row, &listed) in order.iter().enumerate() {
             let node = layout.node_of_row[listed as usize] as usize;
             let component = package.dofs[listed as usize].component;
             reading.rows_of_node[node][usize::from(component) - 1] = row as u32;
         }
-        if reading.rows_of_node != body.stated.rows_of_node {
-            judge("/dofs", meant, &reading)?;
-        }
-    }
-    Ok(())
+        ("/dofs", meant, reading)
+    });
+    let ordered = ordered.filter(|(_, _, reading)| reading.rows_of_node != body.stated.rows_of_node);
+    frames.chain(turned).chain(ordered)
 }
 
 /// Rows of the DOF table in the orders that exports have them in.
@@ -90,11 +116,11 @@ fn orders(package: &RawPackage, layout: &Layout) -> Vec<(RowReading, Vec<u32>)> 
     let (listed, table) = (|row: u32| u64::from(listed(row)), |row: u32| u64::from(node(row)));
     vec![
         (RowReading::ByNode, by_node(&listed)),
-        (nodes("the reverse of dofs.csv"), reversed(&listed)),
+        (nodes("the DOF table, reversed"), reversed(&listed)),
         (nodes("ascending ids"), by_node(&id)),
         (nodes("descending ids"), reversed(&id)),
         (nodes("the node table"), by_node(&table)),
-        (grouped("dofs.csv"), by_component(&listed)),
+        (grouped("the DOF table"), by_component(&listed)),
         (grouped("ascending ids"), by_component(&id)),
         (grouped("the node table"), by_component(&table)),
     ]

@@ -25,7 +25,7 @@ pub(super) struct Body {
     positions: Vec<Vector3<f64>>,
     /// Parts of the places normal to the axis, from the axis.
     from_axis: Vec<Vector3<f64>>,
-    pub(super) axis: Vector3<f64>,
+    axis: Vector3<f64>,
     /// Local unit vectors (r, θ, z) of each node.
     cylindrical: Vec<Basis>,
     pub(super) stated: Reading,
@@ -133,21 +133,18 @@ impl Body {
         by_row
     }
 
-    /// Vector of a node, global components, from its rows.
-    pub(super) fn vector(
-        reading: &Reading,
-        node: usize,
-        by_row: &[OfMotions],
-        motion: usize,
-    ) -> Vector3<f64> {
-        let local = Vector3::from(reading.rows_of_node[node].map(|row| by_row[row as usize][motion]));
-        reading.bases[node].tr_mul(&local)
-    }
-
     /// Nodes that have all three components and are on no cyclic face.
     pub(super) fn inner(&self) -> impl Iterator<Item = usize> + '_ {
         let rows = &self.stated.rows_of_node;
         (0..rows.len()).filter(|&node| !self.on_face[node] && !rows[node].contains(&NONE))
+    }
+}
+
+impl Reading {
+    /// Vector of a node, global components, from its rows.
+    pub(super) fn vector(&self, node: usize, by_row: &[OfMotions], motion: usize) -> Vector3<f64> {
+        let local = Vector3::from(self.rows_of_node[node].map(|row| by_row[row as usize][motion]));
+        self.bases[node].tr_mul(&local)
     }
 }
 
@@ -190,10 +187,9 @@ impl Balance {
         let mut residuals = Vec::new();
         for node in body.inner() {
             let rows = reading.rows_of_node[node];
-            let largest =
-                |row: u32| forces[row as usize].iter().fold(0.0, |most: f64, force| most.max(force.abs()));
-            let [force, scale] = [&largest as &dyn Fn(u32) -> f64, &|row| scale[row as usize] * body.size]
-                .map(|of| rows.map(of).into_iter().fold(0.0, f64::max));
+            let largest = |row: u32| forces[row as usize].iter().map(|force| force.abs()).fold(0.0, f64::max);
+            let force = rows.iter().map(|&row| largest(row)).fold(0.0, f64::max);
+            let scale = rows.iter().map(|&row| scale[row as usize] * body.size).fold(0.0, f64::max);
             if force <= IN_BALANCE * scale && scale > 0.0 {
                 nodes[node] = true;
                 residuals.push(force / scale);

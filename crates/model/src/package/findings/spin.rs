@@ -22,10 +22,10 @@ use rubmap_wheel::dynamics::findings::SpinFinding;
 /// Residuals up to this are undeformed geometry; printed stresses of seven digits leave 1e-7.
 const SOUND: f64 = 1e-3;
 
-/// Residuals of the shares that fit best, up to which these shares are what is wrong.
+/// Largest relative residual of the best-fitting shares at which they are reported.
 const FITS: f64 = 0.05;
 
-/// Shares so near to 1 are those of other quadratures for stresses and masses, which the residual tells.
+/// Shares this near to 1 pass: stress and mass may be integrated by different quadratures.
 const NEARLY: f64 = 0.02;
 
 /// Round-off of K(0) beyond this part of the right-hand side hides it.
@@ -34,7 +34,7 @@ const HIDDEN: f64 = 0.03;
 /// Round-off may add so many times its own size to a residual.
 const ROUND_OFF: f64 = 3.0;
 
-/// Shares that are known to so much although round-off hides the rest.
+/// Largest standard deviation at which a share is reported that round-off hides in single rows.
 const KNOWN: f64 = 0.05;
 
 /// Shares that round-off leaves may be this far from 1.
@@ -55,7 +55,7 @@ pub(super) fn find(
     let square = (speed * units::seconds(&package.manifest.units)).powi(2);
     let mut sums = Sums::default();
     for node in (0..balance.nodes.len()).filter(|&node| balance.nodes[node]) {
-        let at = |by_row: &[OfMotions], motion| Body::vector(reading, node, by_row, motion);
+        let at = |by_row: &[OfMotions], motion| reading.vector(node, by_row, motion);
         for motion in 0..MOTIONS {
             let at_rest = at(&balance.forces, motion) / square;
             let found = at(&moved, motion) / square - at_rest;
@@ -78,6 +78,7 @@ struct Sums {
     residual: f64,
     /// Sum of the squared forces of K(0), which should be none.
     noise: f64,
+    /// Number of rows and motions that were added.
     rows: f64,
 }
 
