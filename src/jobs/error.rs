@@ -38,9 +38,9 @@ impl Interruption {
         }
     }
 
-    /// A model cannot be reduced whose matrices were written with few digits, which is the likelier cause.
+    /// A model whose matrices were written with few digits cannot be reduced, probably for that reason.
     pub(super) fn few_digits(error: &ModelError, digits: &DigitNoise) -> Self {
-        let message = format!("{}; probably that is why: {error}", digits.warning());
+        let message = format!("{error}. A likely cause: {}", digits.warning());
         Self::Failed(Failure { cause: FailureCause::Model, message, violations: Vec::new() })
     }
 

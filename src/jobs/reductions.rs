@@ -490,7 +490,9 @@ impl Reductions {
             // From where they are, not from the disk, which may be full.
             let kept = KeptRows::new(&checkpoints, &nodes);
             let reduced = run::prepare(&package.sector, modes_per_speed, memory_bytes, &kept, &monitor);
-            if let (Err(AnalysisError::Model(error)), Some(digits)) = (&reduced, &package.findings.digits) {
+            if let (Err(AnalysisError::Model(error)), Some(digits)) = (&reduced, &package.findings.digits)
+                && error.may_come_of_few_digits()
+            {
                 return Err(Interruption::few_digits(error, digits));
             }
             Ok(reduced.map(|reduced| {

@@ -94,3 +94,16 @@ pub enum ModelError {
         speed_rad_s: f64,
     },
 }
+
+impl ModelError {
+    /// Whether matrices that were written with few digits may be the cause.
+    pub fn may_come_of_few_digits(&self) -> bool {
+        matches!(
+            self,
+            Self::StiffnessNotPositiveDefinite { .. }
+                | Self::ModesNotConverged { .. }
+                | Self::ModesMissed { .. }
+                | Self::DecompositionFailed { .. }
+        )
+    }
+}
