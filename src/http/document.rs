@@ -24,7 +24,7 @@ pub fn document() -> utoipa::openapi::OpenApi {
                 add_forms(&mut operation.responses.responses, forms);
             }
             if operation.request_body.is_some() {
-                let stopped = "The body stopped coming.";
+                let stopped = "The client stopped sending the body.";
                 let answers = &mut operation.responses.responses;
                 answers.entry("408".to_owned()).or_insert_with(|| problem(stopped));
             }

@@ -18,15 +18,18 @@ use crate::store::limits::LimitReached;
 /// Media type of problems.
 pub const MEDIA_TYPE: &str = "application/problem+json";
 
-/// Seconds after which it may be worth to try again: somebody has to make room.
+/// `Retry-After` of a full disk, s: somebody has to make room.
 const FULL_DISK_S: u32 = 60;
-/// The same where jobs have to end, or somebody has to delete something.
+
+/// `Retry-After` of a limit of an owner, s: jobs have to end, or somebody has to delete something.
 const LIMIT_S: u32 = 60;
 
-/// Seconds after which plans and checks that are under way have ended.
+/// `Retry-After` of too many requests being planned, s.
 const PLANS_S: u32 = 1;
-/// The same where a lock or descriptors are to be had again by themselves.
+
+/// `Retry-After` of a locked store and a lack of descriptors, s, which pass by themselves.
 const BUSY_S: u32 = 5;
+
 /// Most items in `errors`; of more, the last one says how many.
 pub(super) const MOST_ITEMS: usize = 20;
 

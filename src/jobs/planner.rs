@@ -57,7 +57,7 @@ impl Planner {
         Ok(Asked { owner: owner.to_owned(), lines: Arc::clone(&self.lines) })
     }
 
-    /// Runs `compute` when it is its turn among the work of `owner`, and he has his among others; not once nobody waits for the result any more.
+    /// Queues `compute` in the line of `owner` and waits for its result; owners take turns. Work whose caller has gone is not begun.
     pub(super) async fn run<T, F>(&self, owner: &str, compute: F) -> Result<T, Panicked>
     where
         T: Send + 'static,

@@ -85,7 +85,7 @@ impl CpuPool {
         receiver.await.map_err(|_| Panicked::of_a_lost_thread())?
     }
 
-    /// Gives it work whose panics are caught in it, to be done in order of arrival.
+    /// Queues work that catches its own panics.
     pub(super) fn give(&self, work: Work) -> Result<(), Panicked> {
         self.sender.send(work).map_err(|_| Panicked::of_a_lost_thread())
     }

@@ -29,7 +29,9 @@ pub enum LimitReached {
         limit: u64,
     },
     /// Too many requests at once.
-    #[error("{limit} requests of yours are being checked or planned, as many as may be at once")]
+    #[error(
+        "{limit} of your requests are already being checked or planned, the most for one owner: wait for some of their answers"
+    )]
     Plans {
         /// Most requests.
         limit: usize,

@@ -153,7 +153,10 @@ pub(crate) fn warnings(scene: &Scene, facts: &ModelFacts, reduced: Option<&Reduc
     let known = found.or(preliminary).filter(|_| scene.centrifugal_stiffening);
     let stiffening =
         known.filter(|(verdict, _)| verdict.warning().is_some()).map(|(_, message)| message.clone());
+    // The report of a reduction has the sentence on digits in its message.
+    let told = |sentence: &String| stiffening.as_ref().is_some_and(|message| message.contains(sentence));
     let digits = reduced.zip(facts.digits).and_then(|(reduced, digits)| reduced.cost_of(digits));
+    let digits = digits.filter(|sentence| !told(sentence));
     facts.warnings.iter().cloned().chain(digits).chain(stiffening).collect()
 }
 

@@ -490,7 +490,9 @@ fn check_work(found: &mut Findings, settings: &CampaignSettings, designs: usize)
         designs * heights <= HEIGHTS,
         &format!("/parameters/{index}/at"),
         format!(
-            "{designs} designs that change measured heights have a table of {heights} heights each, more than {HEIGHTS} in all: ask for              fewer designs, measure at fewer angles, or change the casing by lobes and waves beside the table"
+            "{designs} designs that change measured heights, those that may be added and those of a second model included, have {heights} \
+             heights each, more than {HEIGHTS} together: ask for fewer designs, measure at fewer angles, or change the casing by lobes \
+             and waves beside the table"
         ),
     );
 }
