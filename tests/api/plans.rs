@@ -4,7 +4,12 @@ use rubmap::store::Store;
 use serde_json::{Value, json};
 
 use super::app::{Api, TestApp, modal_analysis_of, sweep_of};
+use super::branches::branches_of;
+use super::campaigns::campaign_of;
+use super::case_studies::case_of;
 use super::model;
+use super::run_ups::run_ups_of;
+use super::studies::study_of;
 
 /// Names of the effects that are on.
 fn effects_on(plan: &Value) -> Vec<&str> {
@@ -156,6 +161,48 @@ async fn a_plan_refuses_what_a_job_does() {
         request["integration"]["kept_modes"] = 1000.into();
     })
     .await;
+    app.stop().await;
+}
+
+/// Every kind bounds the work of checking and planning a request before it begins: what is beyond is refused at its field.
+#[tokio::test]
+async fn every_kind_bounds_the_work_of_its_plan() {
+    let app = TestApp::start().await;
+    let api = &app.api;
+    let model = api.model(model::package(1.0)).await;
+    let mut cases = Vec::new();
+    for (kind, body) in [("sweeps", sweep_of(&model)), ("modal-analyses", modal_analysis_of(&model))] {
+        let mut request = body;
+        request["speeds"] = json!({"from": 300.0, "to": 900.0, "count": 10_001, "unit": "rad_s"});
+        cases.push((kind, request, "/speeds/count"));
+    }
+    let mut request = case_of(&model);
+    request["integration"]["revolutions"] = 50_000.into();
+    request["record"] = json!({"revolutions": [0, 50_000]});
+    cases.push(("case-studies", request, "/record/revolutions"));
+    let mut request = study_of(&model);
+    request["integration"]["revolutions"] = 50_000.into();
+    request["history_revolutions"] = 50_000.into();
+    cases.push(("studies", request, "/grid"));
+    let mut request = branches_of(&model);
+    request["most_points"] = 10_001.into();
+    cases.push(("branches", request, "/most_points"));
+    let mut request = run_ups_of(&model);
+    request["speed"] = json!({"unit": "rad_s", "from": 1000.0, "to": 60_000.0, "rates": [2000.0]});
+    request["angle_tolerance_rad"] = json!(1e-8);
+    cases.push(("run-ups", request, "/speed/rates/0"));
+    let mut request = campaign_of(&model);
+    let angles: Vec<f64> = (0..20_000).map(|k| f64::from(k) * std::f64::consts::TAU / 20_000.0).collect();
+    let heights: Vec<f64> = angles.iter().map(|angle| 0.01 * (2.0 * angle).cos()).collect();
+    request["scene"]["casing"]["measured"] =
+        json!({"angles_rad": angles, "chord": [0.0, 1.0], "heights": [heights, heights]});
+    request["parameters"] = json!([{"name": "height", "at": ["/scene/casing/measured/heights/0/5"], "change": "add", "from": 0.0, "to": 0.01}]);
+    request["design"] = json!({"kind": "latin_hypercube", "size": 26, "seed": 1});
+    cases.push(("campaigns", request, "/parameters/0/at"));
+    for (kind, request, pointer) in cases {
+        let refused = api.post(&format!("/v1/{kind}"), &request).await;
+        assert_eq!(refused.pointers(422, "invalid-request"), [pointer], "{kind}: {}", refused.body);
+    }
     app.stop().await;
 }
 
