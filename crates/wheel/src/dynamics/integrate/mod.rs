@@ -28,8 +28,6 @@ mod tips;
 mod trace;
 mod unknowns;
 
-use pulp::{Simd, WithSimd};
-
 pub use self::bounds::{TipComponent, TipDisplacement};
 pub use self::detail::DetailHistory;
 pub use self::excursion::Excursion;
@@ -59,7 +57,7 @@ impl Simulation<'_> {
     /// If the sample count does not divide the step count, the window or the revolutions of [`Self::detail`] or [`Self::states`]
     /// exceed the run, or an initial mode is not integrated.
     pub fn run(&self, watch: &dyn Fn(f64) -> bool) -> Run {
-        self.dispatch(pulp::Arch::new(), (Stepper::new(self), Beginning::Free), watch)
+        self.run_by(Stepper::new(self), Beginning::Free, watch)
     }
 
     /// Runs the simulation from a state that another motion has come to, instead of [`Self::initial`]: forces that act at its instant are
@@ -70,7 +68,7 @@ impl Simulation<'_> {
     pub fn go_on(&self, from: &Stepped, watch: &dyn Fn(f64) -> bool) -> Run {
         let mut stepper = Stepper::new(self);
         stepper.go_on_from(from);
-        self.dispatch(pulp::Arch::new(), (stepper, Beginning::UnderWay), watch)
+        self.run_by(stepper, Beginning::UnderWay, watch)
     }
 
     /// Runs part of a run from [`Self::initial`], the state where the part begins, with neither window nor detail. Forces that act at that
@@ -81,14 +79,13 @@ impl Simulation<'_> {
     pub fn stretch(&self, part: Part, watch: &dyn Fn(f64) -> bool) -> Stretch {
         assert!(self.steps_per_revolution.is_multiple_of(self.samples_per_revolution));
         let revolutions = part.first_sample as f64 / self.samples_per_revolution as f64;
-        let mut stepper = Stepper::beginning_at(self, revolutions, self.fast_modes_follow());
-        pulp::Arch::new().dispatch(StretchLoop { simulation: self, stepper: &mut stepper, part, watch })
+        Stepper::beginning_at(self, revolutions, self.fast_modes_follow()).stretch(self, part, watch)
     }
 
     /// Runs on vectors of a given kind.
     #[cfg(test)]
     fn run_on(&self, arch: pulp::Arch, watch: &dyn Fn(f64) -> bool) -> Run {
-        self.dispatch(arch, (Stepper::new(self), Beginning::Free), watch)
+        self.run_by(Stepper::new(self).on(arch), Beginning::Free, watch)
     }
 
     /// Runs against a restriction of any shape instead of the casing's lobes.
@@ -96,15 +93,10 @@ impl Simulation<'_> {
     pub(super) fn run_against(&self, restriction: RestrictionTable, watch: &dyn Fn(f64) -> bool) -> Run {
         let mut stepper = Stepper::new(self);
         stepper.replace_restriction(restriction);
-        self.dispatch(pulp::Arch::new(), (stepper, Beginning::Free), watch)
+        self.run_by(stepper, Beginning::Free, watch)
     }
 
-    fn dispatch(
-        &self,
-        arch: pulp::Arch,
-        (mut stepper, beginning): (Stepper, Beginning),
-        watch: &dyn Fn(f64) -> bool,
-    ) -> Run {
+    fn run_by(&self, mut stepper: Stepper, beginning: Beginning, watch: &dyn Fn(f64) -> bool) -> Run {
         assert!(self.steps_per_revolution.is_multiple_of(self.samples_per_revolution));
         assert!(self.window_revolutions <= self.revolutions);
         let recorded = self.detail.map(|detail| detail.revolutions).into_iter().chain(self.states);
@@ -112,42 +104,8 @@ impl Simulation<'_> {
             let (from, to) = recorded.of(self.revolutions, None);
             assert!(from < to && to <= self.revolutions);
         });
-        // Who does not want the run says so again soon.
+        // A refusal is heard again after the first steps.
         watch(0.0);
-        arch.dispatch(Loop { simulation: self, stepper: &mut stepper, beginning, watch })
-    }
-}
-
-/// The loop as a value, so that the whole of it is compiled for the widest vectors of the machine.
-struct Loop<'a> {
-    simulation: &'a Simulation<'a>,
-    stepper: &'a mut Stepper,
-    beginning: Beginning,
-    watch: &'a dyn Fn(f64) -> bool,
-}
-
-impl WithSimd for Loop<'_> {
-    type Output = Run;
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> Run {
-        self.stepper.run(simd, self.simulation, self.beginning, self.watch)
-    }
-}
-
-/// The same of part of a run.
-struct StretchLoop<'a> {
-    simulation: &'a Simulation<'a>,
-    stepper: &'a mut Stepper,
-    part: Part,
-    watch: &'a dyn Fn(f64) -> bool,
-}
-
-impl WithSimd for StretchLoop<'_> {
-    type Output = Stretch;
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> Stretch {
-        self.stepper.stretch(simd, self.simulation, self.part, self.watch)
+        stepper.run(self, beginning, watch)
     }
 }

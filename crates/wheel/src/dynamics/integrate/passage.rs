@@ -15,13 +15,12 @@ use std::f64::consts::TAU;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use faer::{Mat, c64};
-use pulp::{Simd, WithSimd};
 
 use super::passage_error::PassageError;
 use super::recurrence::{Recurrence, Recurrences};
 use super::run::Outcome;
 use super::simulation::Simulation;
-use super::stepper::Stepper;
+use super::stepper::{StepRange, Stepper};
 use super::trace::Trace;
 use super::unknowns::{CasingUnknown, Unknown, casing_unknowns, unknowns};
 #[cfg(test)]
@@ -275,8 +274,13 @@ impl<'a> Passage<'a> {
         self.write(state);
         self.trace.clear();
         self.take(1);
-        let flow = Flow { passage: self };
-        pulp::Arch::new().dispatch(flow).map_err(|ended| match *ended {
+        let range = StepRange {
+            revolution: self.grown,
+            before: 0,
+            steps: self.of.steps,
+            per_revolution: self.simulation.steps_per_revolution,
+        };
+        self.stepper.flow(range, &mut self.trace).map_err(|ended| match *ended {
             Outcome::ContactFailed { error, .. } => PassageError::Contact(error),
             Outcome::Diverged(divergence) => PassageError::Diverged(divergence),
             Outcome::Completed(_) | Outcome::Cancelled => unreachable!("a passage has no end of its own"),
@@ -349,20 +353,5 @@ impl<'a> Passage<'a> {
             let (c, s) = (casing[i - 1], casing[i]);
             (casing[i - 1], casing[i]) = (c * cos + s * sin, s * cos - c * sin);
         }
-    }
-}
-
-/// The steps as a value, compiled for the widest vectors of the machine.
-struct Flow<'a, 'b> {
-    passage: &'a mut Passage<'b>,
-}
-
-impl WithSimd for Flow<'_, '_> {
-    type Output = Result<(), Box<Outcome>>;
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
-        let Passage { simulation, stepper, of, grown, trace, .. } = self.passage;
-        stepper.flow(simd, (*grown, of.steps), simulation, trace)
     }
 }

@@ -6,13 +6,18 @@
 //! Without mass at the contact, the forces of the last instant carry the modes to the next one, where the boundary then
 //! finds its own equilibrium.
 //!
-//! What of this a scene and its scheme have is a [`Motion`], with a loop of its own each: scenes without effects do not
-//! even ask for them.
+//! Whole runs, parts of runs and flows differ in what they make of the steps, the [`Observer`]; the steps themselves are taken in ranges by
+//! one loop, in [`steps`].
 
+mod kernels;
+mod steps;
 mod stretch;
 
 use faer::Mat;
-use pulp::Simd;
+use pulp::Arch;
+
+use self::steps::Observer;
+pub(super) use self::steps::StepRange;
 
 #[cfg(test)]
 use super::super::casing::RestrictionTable;
@@ -21,7 +26,6 @@ use super::super::flexible_casing::CasingMotion;
 use super::super::initial::{InitialMode, Stepped};
 use super::super::oscillators::Oscillators;
 use super::super::oscillators::driven::Drive;
-use super::super::oscillators::rows::Rows;
 use super::super::schemes::Scheme;
 use super::super::statistics::RunStatistics;
 use super::bounds::Bounds;
@@ -30,7 +34,7 @@ use super::obstacle::Obstacle;
 use super::recorder::Recorder;
 use super::repetition::Repetition;
 use super::revolutions::Repeated;
-use super::run::{Divergence, Outcome, Run};
+use super::run::{Outcome, Run};
 use super::simulation::Simulation;
 use super::surroundings::Surroundings;
 use super::trace::Trace;
@@ -39,12 +43,11 @@ use rubmap_numerics::sector_fourier::SectorFourier;
 /// Steps between two looks at progress and cancellation: some tens of milliseconds.
 const WATCHED_STEPS: u64 = 1 << 14;
 
-/// Steps between two looks for motion that has decayed to nothing.
-const QUENCHED_STEPS: u64 = 16;
-
 /// Everything a step changes or reads; built before the loop, nothing is allocated in it.
 #[derive(Debug)]
 pub(super) struct Stepper {
+    /// Vectors to compute on.
+    arch: Arch,
     fourier: SectorFourier,
     oscillators: Oscillators,
     /// What else than contact moves the wheel.
@@ -116,6 +119,7 @@ impl Stepper {
         let effects = drive.is_some() || surroundings.is_some();
         let repetition = simulation.repeats.map(|repeats| Repetition::new(simulation, repeats, &oscillators));
         Self {
+            arch: Arch::new(),
             repetition,
             follow,
             massless: matches!(scheme, Scheme::MasslessBoundary { .. }),
@@ -145,28 +149,24 @@ impl Stepper {
         }
     }
 
-    /// Chooses the loop of the scene and its scheme.
-    #[inline(always)]
-    pub(super) fn run<S: Simd>(
+    /// Runs on vectors of another kind than the widest of the processor.
+    #[cfg(test)]
+    pub(super) fn on(self, arch: Arch) -> Self {
+        Self { arch, ..self }
+    }
+
+    /// Runs `simulation` to its end.
+    pub(super) fn run(
         &mut self,
-        simd: S,
         simulation: &Simulation<'_>,
         beginning: Beginning,
         watch: &dyn Fn(f64) -> bool,
     ) -> Run {
-        let effects = self.is_affected();
         let begun = match beginning {
             Beginning::Free => Ok(()),
-            Beginning::UnderWay if effects => self.take_up::<S, Affected>(simd),
-            Beginning::UnderWay => self.take_up::<S, Massless>(simd),
+            Beginning::UnderWay => self.take_up(Instant::beginning(0)),
         };
-        let ended = match &self.obstacle {
-            _ if begun.is_err() => begun,
-            _ if effects => self.integrate::<S, Affected>(simd, simulation, watch),
-            None => self.integrate::<S, Free>(simd, simulation, watch),
-            Some(_) if self.massless => self.integrate::<S, Massless>(simd, simulation, watch),
-            Some(_) => self.integrate::<S, Completing>(simd, simulation, watch),
-        };
+        let ended = begun.and_then(|()| self.integrate(simulation, watch));
         let outcome = match ended {
             Ok(()) => Outcome::Completed(self.recorder.take()),
             Err(ended) => *ended,
@@ -188,14 +188,11 @@ impl Stepper {
         }
     }
 
-    /// Finds the forces that act when a run takes up a motion.
-    #[inline(always)]
-    fn take_up<S: Simd, M: Motion>(&mut self, simd: S) -> Result<(), Box<Outcome>> {
-        let start = Instant::beginning(0);
-        if self.touches_at::<S, M>(simd, start) {
-            // Of the step before the first: nothing of it counts.
+    /// Finds the forces that act where a run takes up a motion. They are of the step before the first: nothing of them counts.
+    fn take_up(&mut self, start: Instant) -> Result<(), Box<Outcome>> {
+        if self.touches_at(start) {
             let (statistics, energy) = (self.statistics, self.energy);
-            self.solve::<S, M>(simd, start)?;
+            self.solve(start)?;
             (self.statistics, self.energy) = (statistics, energy);
             if let Some(obstacle) = &mut self.obstacle {
                 obstacle.tally.sample(|_, _| 0.0, None);
@@ -204,17 +201,15 @@ impl Stepper {
         Ok(())
     }
 
-    #[inline(always)]
-    fn integrate<S: Simd, M: Motion>(
+    fn integrate(
         &mut self,
-        simd: S,
         simulation: &Simulation<'_>,
         watch: &dyn Fn(f64) -> bool,
     ) -> Result<(), Box<Outcome>> {
         let steps = simulation.steps_per_revolution;
         let sampling = steps / simulation.samples_per_revolution;
         if self.recorder.reads(0, false) {
-            self.read(simd, false);
+            self.read(false);
         }
         let mut end = simulation.revolutions;
         let mut window = end - simulation.window_revolutions..end;
@@ -224,22 +219,12 @@ impl Stepper {
             if windowed && let Some(obstacle) = &mut self.obstacle {
                 obstacle.tally.begin_window();
             }
-            for step in 1..=steps {
-                let now = Instant::new(revolution, step, steps);
-                M::predict(self, simd, now);
-                let open = self.gaps::<S, M>(simd, now);
-                if !open {
-                    self.solve::<S, M>(simd, now)?;
-                }
-                self.statistics.steps += 1;
-                self.quench::<M>();
-                self.look_up(watch, now.revolutions / end as f64)?;
-                if step % sampling == 0 {
-                    M::apply(self, simd);
-                    self.record::<S, M>(simd, now, windowed)?;
-                } else if self.recorder.reads(self.statistics.steps, windowed) {
-                    self.read(simd, windowed);
-                }
+            for before in (0..steps).step_by(sampling) {
+                let range = StepRange { revolution, before, steps: sampling, per_revolution: steps };
+                self.take(range, Observer::Recorder { windowed })?;
+                let now = range.end();
+                self.look_up(watch, range, now.revolutions / end as f64)?;
+                self.record(now, windowed)?;
             }
             self.last_energy = Some(self.mechanical_energy());
             self.recorder.end_revolution(&self.oscillators);
@@ -251,7 +236,7 @@ impl Stepper {
                 window = revolution..end;
                 self.recorder.end_after(repeated);
                 if self.recorder.reads(self.statistics.steps, false) {
-                    self.read(simd, false);
+                    self.read(false);
                 }
             }
         }
@@ -259,75 +244,24 @@ impl Stepper {
         Ok(())
     }
 
-    /// Takes `steps` steps from the state the oscillators are in, the beginning of `revolution`, without recording anything but what
-    /// touches. For scenes whose state is that of the oscillators.
-    #[inline(always)]
-    pub(super) fn flow<S: Simd>(
-        &mut self,
-        simd: S,
-        (revolution, steps): (usize, usize),
-        simulation: &Simulation<'_>,
-        trace: &mut Trace,
-    ) -> Result<(), Box<Outcome>> {
-        match &self.obstacle {
-            _ if self.is_affected() => {
-                self.flow_by::<S, Affected>(simd, (revolution, steps), simulation, trace)
-            }
-            None => self.flow_by::<S, Free>(simd, (revolution, steps), simulation, trace),
-            Some(_) if self.massless => {
-                self.flow_by::<S, Massless>(simd, (revolution, steps), simulation, trace)
-            }
-            Some(_) => self.flow_by::<S, Completing>(simd, (revolution, steps), simulation, trace),
+    /// Takes steps from the state the oscillators are in, without recording anything but what touches. For scenes whose state is that of
+    /// the oscillators.
+    pub(super) fn flow(&mut self, range: StepRange, trace: &mut Trace) -> Result<(), Box<Outcome>> {
+        let start = Instant::beginning(range.revolution);
+        if self.touches_at(start) {
+            self.solve(start)?;
+            self.trace(0, trace);
         }
+        self.take(range, Observer::Trace(trace))?;
+        let revolutions = range.revolution as f64 + range.steps as f64 / range.per_revolution as f64;
+        self.check_bounds(self.oscillators.energy(), revolutions)
     }
 
-    #[inline(always)]
-    fn flow_by<S: Simd, M: Motion>(
-        &mut self,
-        simd: S,
-        (revolution, steps): (usize, usize),
-        simulation: &Simulation<'_>,
-        trace: &mut Trace,
-    ) -> Result<(), Box<Outcome>> {
-        let start = Instant::beginning(revolution);
-        if self.touches_at::<S, M>(simd, start) {
-            self.solve_tracing::<S, M>(simd, start, (0, trace))?;
-        }
-        for step in 1..=steps {
-            let now = Instant::of_any(revolution, step, simulation.steps_per_revolution);
-            M::predict(self, simd, now);
-            if !self.gaps::<S, M>(simd, now) {
-                self.solve_tracing::<S, M>(simd, now, (step, trace))?;
-            }
-        }
-        M::apply(self, simd);
-        let revolutions = revolution as f64 + steps as f64 / simulation.steps_per_revolution as f64;
-        self.check_bounds(simd, self.oscillators.energy(), revolutions)
-    }
-
-    /// Whether forces act from `start` on: they belong to the state there, as those that complete a step do not.
-    #[inline(always)]
-    fn touches_at<S: Simd, M: Motion>(&mut self, simd: S, start: Instant) -> bool {
-        let Self { oscillators, fourier, obstacle, surroundings, .. } = self;
-        let surroundings = M::surroundings(surroundings);
-        let open = obstacle
-            .as_mut()
-            .is_none_or(|obstacle| obstacle.look(simd, oscillators, fourier, (start, surroundings)));
-        !open && self.massless
-    }
-
-    #[inline(always)]
-    fn solve_tracing<S: Simd, M: Motion>(
-        &mut self,
-        simd: S,
-        now: Instant,
-        (step, trace): (usize, &mut Trace),
-    ) -> Result<(), Box<Outcome>> {
-        self.solve::<S, M>(simd, now)?;
+    /// Tells what the last solution has touch at the end of `step`.
+    fn trace(&mut self, step: usize, trace: &mut Trace) {
         if let Some(obstacle) = &self.obstacle {
-            obstacle.trace(step, M::surroundings(&mut self.surroundings), trace);
+            obstacle.trace(step, self.surroundings.as_mut(), trace);
         }
-        Ok(())
     }
 
     pub(super) fn oscillators(&self) -> &Oscillators {
@@ -365,88 +299,13 @@ impl Stepper {
         self.energy = EnergyAudit::starting_at(self.mechanical_energy());
     }
 
-    /// Predicts the gaps (Eq. 9); whether all are open.
-    #[inline(always)]
-    fn gaps<S: Simd, M: Motion>(&mut self, simd: S, now: Instant) -> bool {
-        match &mut self.obstacle {
-            Some(obstacle) if M::TOUCHES => {
-                let surroundings = M::surroundings(&mut self.surroundings);
-                obstacle.predict_gaps(simd, &self.fourier, now, surroundings) >= 0.0
-            }
-            _ => true,
-        }
-    }
-
-    /// Finds the forces that close the gaps (Eqs 9, 10).
-    #[inline(always)]
-    fn solve<S: Simd, M: Motion>(&mut self, simd: S, now: Instant) -> Result<(), Box<Outcome>> {
-        let Self { fourier, oscillators, drive, obstacle: Some(obstacle), surroundings, .. } = self else {
-            return Ok(());
-        };
-        let surroundings = M::surroundings(surroundings);
-        let swing = drive.as_ref().map_or(oscillators.swung(), Drive::swung);
-        let read = |rows: &Rows, out: &mut [f64]| oscillators.project_of(simd, swing, rows, out);
-        let (statistics, work) = (&mut self.statistics, self.energy.effects_mut());
-        obstacle
-            .solve(fourier, now, (surroundings, read), statistics, work)
-            .map_err(|error| Box::new(Outcome::ContactFailed { revolutions: now.revolutions, error }))
-    }
-
-    /// Now and then brings to rest what has decayed to nothing.
-    #[inline(always)]
-    fn quench<M: Motion>(&mut self) {
-        if self.decays && self.statistics.steps.is_multiple_of(QUENCHED_STEPS) {
-            self.oscillators.quench();
-            let surroundings = M::surroundings(&mut self.surroundings);
-            if let Some(casing) = surroundings.and_then(|surroundings| surroundings.casing.as_mut()) {
-                casing.quench();
-            }
-        }
-    }
-
-    /// Now and then asks whether to go on, `done` being the share of work done.
-    #[inline(always)]
-    fn look_up(&self, watch: &dyn Fn(f64) -> bool, done: f64) -> Result<(), Box<Outcome>> {
-        if self.statistics.steps.is_multiple_of(WATCHED_STEPS) && !watch(done) {
+    /// Now and then asks whether to go on, `done` being the share of work done after `range`.
+    fn look_up(&self, watch: &dyn Fn(f64) -> bool, range: StepRange, done: f64) -> Result<(), Box<Outcome>> {
+        let (steps, before) = (self.statistics.steps, self.statistics.steps - range.steps as u64);
+        if steps / WATCHED_STEPS != before / WATCHED_STEPS && !watch(done) {
             return Err(Box::new(Outcome::Cancelled));
         }
         Ok(())
-    }
-
-    /// Holds the state against what contact and energy promise, records it, and ends the run where it left its bounds.
-    #[inline(always)]
-    fn record<S: Simd, M: Motion>(
-        &mut self,
-        simd: S,
-        now: Instant,
-        windowed: bool,
-    ) -> Result<(), Box<Outcome>> {
-        let Self { oscillators, fourier, obstacle, surroundings, statistics, recorder, .. } = self;
-        if M::TOUCHES
-            && let Some(obstacle) = obstacle
-        {
-            let left = obstacle.penetration(simd, oscillators, fourier, now, M::surroundings(surroundings));
-            statistics.largest_penetration = statistics.largest_penetration.max(left);
-            obstacle.end_interval(fourier, recorder.contact_interval(statistics.steps));
-        }
-        let energy = self.mechanical_energy();
-        self.energy.check(energy);
-        self.read(simd, windowed);
-        let force = self.obstacle.as_ref().map(|obstacle| obstacle.force.as_slice());
-        if windowed {
-            self.recorder.look_at_tips(simd, &self.oscillators, &self.fourier, force);
-        }
-        self.recorder.keep_state(self.statistics.steps, &self.oscillators, &self.fourier, force);
-        self.recorder.record(&self.fourier, self.statistics.steps, &self.energy);
-        self.check_bounds(simd, energy, now.revolutions)
-    }
-
-    /// Reads the sensors after the last step.
-    #[inline(always)]
-    fn read<S: Simd>(&mut self, simd: S, windowed: bool) {
-        let force = self.obstacle.as_ref().map(|obstacle| obstacle.force.as_slice());
-        let when = (self.statistics.steps, windowed);
-        self.recorder.read(simd, &self.oscillators, &self.fourier, force, when);
     }
 
     /// z and ż of all modes after `revolutions`, the end; increments are left as free motion would have them.
@@ -483,151 +342,6 @@ impl Stepper {
 
     pub(super) fn flexible_casing_mut(&mut self) -> Option<&mut CasingMotion> {
         self.surroundings.as_mut()?.casing.as_mut()
-    }
-
-    #[inline(always)]
-    fn check_bounds<S: Simd>(&mut self, simd: S, energy: f64, revolutions: f64) -> Result<(), Box<Outcome>> {
-        let force = self.obstacle.as_ref().map_or(&[][..], |obstacle| obstacle.force.as_slice());
-        let tip = match &mut self.bounds {
-            Some(bounds) => bounds.exceeded(simd, &self.oscillators, &self.fourier, energy, force),
-            None => None,
-        };
-        if energy.is_finite() && tip.is_none() {
-            return Ok(());
-        }
-        Err(Box::new(Outcome::Diverged(Divergence {
-            revolutions,
-            tip,
-            energy_growth: self.last_energy.map(|last| energy / last),
-        })))
-    }
-}
-
-/// How contact forces move the wheel, and whether anything else does: decided before the loop, which is compiled for each.
-trait Motion {
-    /// Whether there is anything to touch.
-    const TOUCHES: bool = true;
-    /// Whether there are effects.
-    const EFFECTS: bool = false;
-
-    /// Takes the step that ends `now` (Eq. 8), up to the reading of the gaps, after the forces of the instant before were
-    /// applied, or under them.
-    fn predict<S: Simd>(stepper: &mut Stepper, simd: S, now: Instant);
-
-    /// Applies the forces that complete the step (Eq. 10) at once, instead of with the next prediction.
-    fn apply<S: Simd>(stepper: &mut Stepper, simd: S);
-
-    /// What the loop asks for of the effects on contact.
-    #[inline(always)]
-    fn surroundings(of: &mut Option<Surroundings>) -> Option<&mut Surroundings> {
-        if Self::EFFECTS { of.as_mut() } else { None }
-    }
-}
-
-/// Nothing to touch.
-struct Free;
-
-impl Motion for Free {
-    const TOUCHES: bool = false;
-
-    #[inline(always)]
-    fn predict<S: Simd>(stepper: &mut Stepper, simd: S, _: Instant) {
-        stepper.energy.add(stepper.oscillators.advance(simd));
-    }
-
-    #[inline(always)]
-    fn apply<S: Simd>(_: &mut Stepper, _: S) {}
-}
-
-/// The force that closes a gap completes the step.
-struct Completing;
-
-impl Motion for Completing {
-    #[inline(always)]
-    fn predict<S: Simd>(stepper: &mut Stepper, simd: S, _: Instant) {
-        let Stepper { fourier, oscillators, obstacle: Some(obstacle), energy, .. } = stepper else { return };
-        let (loads, reading) = obstacle.loads_and_reading(None);
-        energy.add(oscillators.complete_and_predict(simd, loads, reading));
-        obstacle.clear_forces(fourier);
-    }
-
-    #[inline(always)]
-    fn apply<S: Simd>(stepper: &mut Stepper, simd: S) {
-        let Stepper { fourier, oscillators, obstacle: Some(obstacle), energy, .. } = stepper else { return };
-        let loads = obstacle.loads(None);
-        energy.add(oscillators.complete(simd, loads));
-        obstacle.clear_forces(fourier);
-    }
-}
-
-/// The force that closes a gap acts from then on, through the next step.
-struct Massless;
-
-impl Motion for Massless {
-    #[inline(always)]
-    fn predict<S: Simd>(stepper: &mut Stepper, simd: S, _: Instant) {
-        let Stepper { fourier, oscillators, obstacle: Some(obstacle), energy, .. } = stepper else { return };
-        let (loads, reading) = obstacle.loads_and_reading(None);
-        energy.add(oscillators.advance_loaded(simd, loads, reading));
-        obstacle.clear_forces(fourier);
-    }
-
-    #[inline(always)]
-    fn apply<S: Simd>(_: &mut Stepper, _: S) {}
-}
-
-/// Any of these under the effects of the scene, each asked for at every step.
-struct Affected;
-
-impl Motion for Affected {
-    const EFFECTS: bool = true;
-
-    #[inline(always)]
-    fn predict<S: Simd>(stepper: &mut Stepper, simd: S, now: Instant) {
-        let Stepper { fourier, oscillators, drive, obstacle, surroundings, energy, massless, .. } = stepper;
-        let work = energy.effects_mut();
-        let Some(obstacle) = obstacle else {
-            let exchange = match drive {
-                Some(drive) => oscillators.advance_driven(simd, drive, None, now.before, None, work),
-                None => oscillators.advance(simd),
-            };
-            return energy.add(exchange);
-        };
-        let (loads, (rows, out)) = obstacle.loads_and_reading(surroundings.as_ref());
-        let exchange = match drive {
-            None if *massless => oscillators.advance_loaded(simd, loads, (rows, out)),
-            None => oscillators.complete_and_predict(simd, loads, (rows, out)),
-            Some(drive) if *massless => {
-                let reading = Some((rows, out));
-                oscillators.advance_driven(simd, drive, Some(loads), now.before, reading, work)
-            }
-            Some(drive) => {
-                let ahead = (loads, now.before);
-                oscillators.complete_and_predict_driven(simd, drive, ahead, (rows, out), work)
-            }
-        };
-        energy.add(exchange);
-        if let Some(casing) = surroundings.as_mut().and_then(|surroundings| surroundings.casing.as_mut()) {
-            energy.add_casing(casing.complete());
-            casing.predict();
-        }
-        obstacle.clear_forces(fourier);
-    }
-
-    #[inline(always)]
-    fn apply<S: Simd>(stepper: &mut Stepper, simd: S) {
-        let Stepper { fourier, oscillators, drive, obstacle, surroundings, energy, massless, .. } = stepper;
-        let Some(obstacle) = obstacle.as_mut().filter(|_| !*massless) else { return };
-        let loads = obstacle.loads(surroundings.as_ref());
-        let exchange = match drive {
-            Some(drive) => oscillators.complete_driven(simd, drive, loads, energy.effects_mut()),
-            None => oscillators.complete(simd, loads),
-        };
-        energy.add(exchange);
-        if let Some(casing) = surroundings.as_mut().and_then(|surroundings| surroundings.casing.as_mut()) {
-            energy.add_casing(casing.complete());
-        }
-        obstacle.clear_forces(fourier);
     }
 }
 

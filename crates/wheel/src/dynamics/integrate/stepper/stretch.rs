@@ -1,25 +1,22 @@
-//! The loop over part of a run.
-
-use pulp::Simd;
+//! Part of a run.
 
 use super::super::instant::Instant;
 use super::super::run::Outcome;
 use super::super::simulation::Simulation;
 use super::super::stretch::{Part, Stretch};
-use super::{Affected, Motion, Stepper};
+use super::Stepper;
+use super::steps::{Observer, StepRange};
 
 impl Stepper {
     /// Takes the steps of `part`, which the stepper was made for.
-    #[inline(always)]
-    pub(in super::super) fn stretch<S: Simd>(
+    pub(in super::super) fn stretch(
         &mut self,
-        simd: S,
         simulation: &Simulation<'_>,
         part: Part,
         watch: &dyn Fn(f64) -> bool,
     ) -> Stretch {
         let mut largest = vec![Vec::with_capacity(part.samples as usize); simulation.sensors.len()];
-        let ended = self.take(simd, (simulation, part, largest.as_mut_slice()), watch);
+        let ended = self.take_part(simulation, part, &mut largest, watch);
         let revolutions =
             (part.first_sample + part.samples) as f64 / simulation.samples_per_revolution as f64;
         let end = self.modes_at_end(simulation, revolutions);
@@ -33,44 +30,39 @@ impl Stepper {
         }
     }
 
-    /// The loop. One is compiled for scenes with and without effects: what they do not have costs a question a step, another loop the compiler
-    /// half a minute.
-    #[inline(always)]
-    fn take<S: Simd>(
+    fn take_part(
         &mut self,
-        simd: S,
-        (simulation, part, largest): (&Simulation<'_>, Part, &mut [Vec<f64>]),
+        simulation: &Simulation<'_>,
+        part: Part,
+        largest: &mut [Vec<f64>],
         watch: &dyn Fn(f64) -> bool,
     ) -> Result<(), Box<Outcome>> {
-        let (steps, samples) = (simulation.steps_per_revolution, simulation.samples_per_revolution);
-        let sampling = steps / samples;
-        let revolution = (part.first_sample / samples as u64) as usize;
-        let before = (part.first_sample % samples as u64) as usize * sampling;
-        let all = part.samples as usize * sampling;
-        let start = match before {
-            0 => Instant::beginning(revolution),
-            step => Instant::new(revolution, step, steps),
+        let (per_revolution, samples) =
+            (simulation.steps_per_revolution, simulation.samples_per_revolution as u64);
+        let sampling = per_revolution / simulation.samples_per_revolution;
+        let range_to = |sample: u64| StepRange {
+            revolution: (sample / samples) as usize,
+            before: (sample % samples) as usize * sampling,
+            steps: sampling,
+            per_revolution,
         };
-        if self.touches_at::<S, Affected>(simd, start) {
+        let first = range_to(part.first_sample);
+        let start = match first.before {
+            0 => Instant::beginning(first.revolution),
+            step => Instant::new(first.revolution, step, per_revolution),
+        };
+        if self.touches_at(start) {
             // Of the step before the first: nothing of it counts.
             let (statistics, energy) = (self.statistics, self.energy);
-            self.solve::<S, Affected>(simd, start)?;
+            self.solve(start)?;
             (self.statistics, self.energy) = (statistics, energy);
         }
-        for step in 1..=all {
-            let now = Instant::of_any(revolution, before + step, steps);
-            Affected::predict(self, simd, now);
-            if !self.gaps::<S, Affected>(simd, now) {
-                self.solve::<S, Affected>(simd, now)?;
-            }
-            self.statistics.steps += 1;
-            self.quench::<Affected>();
-            self.look_up(watch, step as f64 / all as f64)?;
-            if step % sampling == 0 {
-                Affected::apply(self, simd);
-                self.record::<S, Affected>(simd, now, false)?;
-                self.recorder.largest(&self.fourier, largest);
-            }
+        for done in 0..part.samples {
+            let range = range_to(part.first_sample + done);
+            self.take(range, Observer::Recorder { windowed: false })?;
+            self.look_up(watch, range, (done + 1) as f64 / part.samples as f64)?;
+            self.record(range.end(), false)?;
+            self.recorder.largest(&self.fourier, largest);
         }
         Ok(())
     }

@@ -1,0 +1,269 @@
+//! The step loop.
+//!
+//! How contact forces move the wheel and whether effects do is a [`Motion`], with a loop of its own each, compiled for each kind of vectors:
+//! scenes without effects do not even ask for them. What is rare in a step, or no part of its arithmetic, is called from [`super::kernels`].
+
+use pulp::{Simd, WithSimd};
+
+use super::super::instant::Instant;
+use super::super::run::Outcome;
+use super::super::surroundings::Surroundings;
+use super::super::trace::Trace;
+use super::Stepper;
+
+/// Steps between two looks for motion that has decayed to nothing.
+const QUENCHED_STEPS: u64 = 16;
+
+/// Steps that follow each other.
+#[derive(Debug, Clone, Copy)]
+pub(in super::super) struct StepRange {
+    /// Revolution that they are counted from.
+    pub(in super::super) revolution: usize,
+    /// Steps between its beginning and the first of them, fewer than a revolution has.
+    pub(in super::super) before: usize,
+    /// Number of steps; of several revolutions, perhaps.
+    pub(in super::super) steps: usize,
+    pub(in super::super) per_revolution: usize,
+}
+
+impl StepRange {
+    /// The end of the last step.
+    pub(super) fn end(self) -> Instant {
+        Instant::of_any(self.revolution, self.before + self.steps, self.per_revolution)
+    }
+}
+
+/// What is made of steps as they are taken.
+pub(super) enum Observer<'a> {
+    /// Counts them, and reads the sensors after each where that is wanted, in the window of the run or before it.
+    Recorder { windowed: bool },
+    /// Tells what touches, and counts nothing.
+    Trace(&'a mut Trace),
+}
+
+impl Stepper {
+    /// Takes steps, the forces of the last of which are applied.
+    pub(super) fn take(&mut self, range: StepRange, observer: Observer<'_>) -> Result<(), Box<Outcome>> {
+        self.arch.dispatch(Take { stepper: self, range, observer })
+    }
+
+    /// Chooses the loop of the scene and its scheme.
+    #[inline(always)]
+    fn take_on<S: Simd>(
+        &mut self,
+        simd: S,
+        range: StepRange,
+        observer: Observer<'_>,
+    ) -> Result<(), Box<Outcome>> {
+        match &self.obstacle {
+            _ if self.is_affected() => self.take_by::<S, Affected>(simd, range, observer),
+            None => self.take_by::<S, Free>(simd, range, observer),
+            Some(_) if self.massless => self.take_by::<S, Massless>(simd, range, observer),
+            Some(_) => self.take_by::<S, Completing>(simd, range, observer),
+        }
+    }
+
+    #[inline(always)]
+    fn take_by<S: Simd, M: Motion>(
+        &mut self,
+        simd: S,
+        range: StepRange,
+        mut observer: Observer<'_>,
+    ) -> Result<(), Box<Outcome>> {
+        let (mut revolution, mut place) = (range.revolution, range.before);
+        for step in 1..=range.steps {
+            if place == range.per_revolution {
+                (revolution, place) = (revolution + 1, 0);
+            }
+            place += 1;
+            let now = Instant::new(revolution, place, range.per_revolution);
+            M::predict(self, simd, now);
+            let open = self.gaps::<S, M>(simd, now);
+            if !open {
+                self.solve(now)?;
+            }
+            match &mut observer {
+                Observer::Trace(trace) if !open => self.trace(step, trace),
+                Observer::Trace(_) => {}
+                Observer::Recorder { windowed } => {
+                    self.statistics.steps += 1;
+                    self.quench::<M>();
+                    // What the last one leads to is recorded with its forces.
+                    if step < range.steps && self.recorder.reads(self.statistics.steps, *windowed) {
+                        self.read(*windowed);
+                    }
+                }
+            }
+        }
+        M::apply(self, simd);
+        Ok(())
+    }
+
+    /// Predicts the gaps (Eq. 9); whether all are open.
+    #[inline(always)]
+    fn gaps<S: Simd, M: Motion>(&mut self, simd: S, now: Instant) -> bool {
+        match &mut self.obstacle {
+            Some(obstacle) if M::TOUCHES => {
+                let surroundings = M::surroundings(&mut self.surroundings);
+                obstacle.predict_gaps(simd, &self.fourier, now, surroundings) >= 0.0
+            }
+            _ => true,
+        }
+    }
+
+    /// Now and then brings to rest what has decayed to nothing.
+    #[inline(always)]
+    fn quench<M: Motion>(&mut self) {
+        if self.decays && self.statistics.steps.is_multiple_of(QUENCHED_STEPS) {
+            self.oscillators.quench();
+            let surroundings = M::surroundings(&mut self.surroundings);
+            if let Some(casing) = surroundings.and_then(|surroundings| surroundings.casing.as_mut()) {
+                casing.quench();
+            }
+        }
+    }
+}
+
+/// The loop as a value, so that the whole of it is compiled for the widest vectors of the machine.
+struct Take<'a, 'b> {
+    stepper: &'a mut Stepper,
+    range: StepRange,
+    observer: Observer<'b>,
+}
+
+impl WithSimd for Take<'_, '_> {
+    type Output = Result<(), Box<Outcome>>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
+        self.stepper.take_on(simd, self.range, self.observer)
+    }
+}
+
+/// How contact forces move the wheel, and whether anything else does: decided before the loop, which is compiled for each.
+trait Motion {
+    /// Whether there is anything to touch.
+    const TOUCHES: bool = true;
+    /// Whether there are effects.
+    const EFFECTS: bool = false;
+
+    /// Takes the step that ends `now` (Eq. 8), up to the reading of the gaps, after the forces of the instant before were
+    /// applied, or under them.
+    fn predict<S: Simd>(stepper: &mut Stepper, simd: S, now: Instant);
+
+    /// Applies the forces that complete the step (Eq. 10) at once, instead of with the next prediction.
+    fn apply<S: Simd>(stepper: &mut Stepper, simd: S);
+
+    /// Effects on contact that the loop asks for.
+    #[inline(always)]
+    fn surroundings(of: &mut Option<Surroundings>) -> Option<&mut Surroundings> {
+        if Self::EFFECTS { of.as_mut() } else { None }
+    }
+}
+
+/// Nothing to touch.
+struct Free;
+
+impl Motion for Free {
+    const TOUCHES: bool = false;
+
+    #[inline(always)]
+    fn predict<S: Simd>(stepper: &mut Stepper, simd: S, _: Instant) {
+        stepper.energy.add(stepper.oscillators.advance(simd));
+    }
+
+    #[inline(always)]
+    fn apply<S: Simd>(_: &mut Stepper, _: S) {}
+}
+
+/// The force that closes a gap completes the step.
+struct Completing;
+
+impl Motion for Completing {
+    #[inline(always)]
+    fn predict<S: Simd>(stepper: &mut Stepper, simd: S, _: Instant) {
+        let Stepper { fourier, oscillators, obstacle: Some(obstacle), energy, .. } = stepper else { return };
+        let (loads, reading) = obstacle.loads_and_reading(None);
+        energy.add(oscillators.complete_and_predict(simd, loads, reading));
+        obstacle.clear_forces(fourier);
+    }
+
+    #[inline(always)]
+    fn apply<S: Simd>(stepper: &mut Stepper, simd: S) {
+        let Stepper { fourier, oscillators, obstacle: Some(obstacle), energy, .. } = stepper else { return };
+        let loads = obstacle.loads(None);
+        energy.add(oscillators.complete(simd, loads));
+        obstacle.clear_forces(fourier);
+    }
+}
+
+/// The force that closes a gap acts from then on, through the next step.
+struct Massless;
+
+impl Motion for Massless {
+    #[inline(always)]
+    fn predict<S: Simd>(stepper: &mut Stepper, simd: S, _: Instant) {
+        let Stepper { fourier, oscillators, obstacle: Some(obstacle), energy, .. } = stepper else { return };
+        let (loads, reading) = obstacle.loads_and_reading(None);
+        energy.add(oscillators.advance_loaded(simd, loads, reading));
+        obstacle.clear_forces(fourier);
+    }
+
+    #[inline(always)]
+    fn apply<S: Simd>(_: &mut Stepper, _: S) {}
+}
+
+/// Any of these under the effects of the scene, each asked for at every step.
+struct Affected;
+
+impl Motion for Affected {
+    const EFFECTS: bool = true;
+
+    #[inline(always)]
+    fn predict<S: Simd>(stepper: &mut Stepper, simd: S, now: Instant) {
+        let Stepper { fourier, oscillators, drive, obstacle, surroundings, energy, massless, .. } = stepper;
+        let work = energy.effects_mut();
+        let Some(obstacle) = obstacle else {
+            let exchange = match drive {
+                Some(drive) => oscillators.advance_driven(simd, drive, None, now.before, None, work),
+                None => oscillators.advance(simd),
+            };
+            return energy.add(exchange);
+        };
+        let (loads, (rows, out)) = obstacle.loads_and_reading(surroundings.as_ref());
+        let exchange = match drive {
+            None if *massless => oscillators.advance_loaded(simd, loads, (rows, out)),
+            None => oscillators.complete_and_predict(simd, loads, (rows, out)),
+            Some(drive) if *massless => {
+                let reading = Some((rows, out));
+                oscillators.advance_driven(simd, drive, Some(loads), now.before, reading, work)
+            }
+            Some(drive) => {
+                let ahead = (loads, now.before);
+                oscillators.complete_and_predict_driven(simd, drive, ahead, (rows, out), work)
+            }
+        };
+        energy.add(exchange);
+        if let Some(casing) = surroundings.as_mut().and_then(|surroundings| surroundings.casing.as_mut()) {
+            energy.add_casing(casing.complete());
+            casing.predict();
+        }
+        obstacle.clear_forces(fourier);
+    }
+
+    #[inline(always)]
+    fn apply<S: Simd>(stepper: &mut Stepper, simd: S) {
+        let Stepper { fourier, oscillators, drive, obstacle, surroundings, energy, massless, .. } = stepper;
+        let Some(obstacle) = obstacle.as_mut().filter(|_| !*massless) else { return };
+        let loads = obstacle.loads(surroundings.as_ref());
+        let exchange = match drive {
+            Some(drive) => oscillators.complete_driven(simd, drive, loads, energy.effects_mut()),
+            None => oscillators.complete(simd, loads),
+        };
+        energy.add(exchange);
+        if let Some(casing) = surroundings.as_mut().and_then(|surroundings| surroundings.casing.as_mut()) {
+            energy.add_casing(casing.complete());
+        }
+        obstacle.clear_forces(fourier);
+    }
+}
