@@ -491,6 +491,7 @@ impl Reductions {
             let kept = KeptRows::new(&checkpoints, &nodes);
             let reduced = run::prepare(&package.sector, modes_per_speed, memory_bytes, &kept, &monitor);
             if let (Err(AnalysisError::Model(error)), Some(digits)) = (&reduced, &package.findings.digits)
+                && !digits.has_all_digits
                 && error.may_come_of_few_digits()
             {
                 return Err(Interruption::few_digits(error, digits));

@@ -147,6 +147,9 @@ impl Store {
                 return Ok(Err(reached));
             }
         }
+        // A number that is not finite is written as null, and would not be read again.
+        let text = serde_json::to_string(facts)?;
+        serde_json::from_str::<ModelFacts>(&text)?;
         self.reserve.expect_room().await?;
         let (upload, kept) = (upload.to_owned(), target.clone());
         let size_bytes = tokio::task::spawn_blocking(move || keep_file(&upload, &kept))
@@ -171,7 +174,7 @@ impl Store {
         )
         .bind(id)
         .bind(&facts.name)
-        .bind(serde_json::to_string(facts)?)
+        .bind(text)
         .bind(i64::try_from(size_bytes).unwrap_or(i64::MAX))
         .bind(now())
         .execute(&mut *write)

@@ -17,12 +17,12 @@ fn wheel() -> RawPackage {
     generate(&ImpellerParameters { gyroscopic: false, ..small }).unwrap()
 }
 
-fn found(package: &RawPackage) -> Findings {
+pub(crate) fn found(package: &RawPackage) -> Findings {
     package::look_at(package.clone()).unwrap()
 }
 
 /// Every matrix in the axes that `basis` gives each node.
-fn turned(package: &mut RawPackage, basis: impl Fn(u64) -> Matrix3<f64>) {
+pub(crate) fn turned(package: &mut RawPackage, basis: impl Fn(u64) -> Matrix3<f64>) {
     let dofs = package.dofs.clone();
     let mut rows: HashMap<u64, [Option<usize>; 3]> = HashMap::new();
     for (row, dof) in dofs.iter().enumerate() {
@@ -59,7 +59,7 @@ fn turned(package: &mut RawPackage, basis: impl Fn(u64) -> Matrix3<f64>) {
 }
 
 /// Matrix rows moved to where `order` has their DOF, the table as it was.
-fn reordered(package: &mut RawPackage, order: &[RawDof]) {
+pub(crate) fn reordered(package: &mut RawPackage, order: &[RawDof]) {
     let place: HashMap<(u64, u8), u32> =
         order.iter().enumerate().map(|(row, dof)| ((dof.node, dof.component), row as u32)).collect();
     let rows: Vec<u32> = package.dofs.iter().map(|dof| place[&(dof.node, dof.component)]).collect();
@@ -73,7 +73,7 @@ fn reordered(package: &mut RawPackage, order: &[RawDof]) {
     package.manifest.mesh = None;
 }
 
-fn refusal(package: RawPackage) -> PackageError {
+pub(crate) fn refusal(package: RawPackage) -> PackageError {
     package::to_sector(package).map(drop).unwrap_err()
 }
 

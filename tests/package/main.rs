@@ -10,6 +10,7 @@ mod findings;
 #[path = "../properties/fixed.rs"]
 mod fixed;
 mod gyroscopic;
+mod joints;
 mod mesh;
 mod npz;
 mod sample;

@@ -66,6 +66,9 @@ impl ReducedSector {
 
     /// A sentence about what few digits of the stiffness matrix may change of the lowest frequency at rest, if that can be told.
     pub(crate) fn cost_of(&self, digits: DigitNoise) -> Option<String> {
+        if digits.has_all_digits {
+            return None;
+        }
         let lowest = |harmonic| natural_frequencies(harmonic, 0.0, false).ok()?.first().copied();
         let lowest_hz = self.wheel.harmonics.iter().filter_map(lowest).reduce(f64::min)? / TAU;
         let percent = 100.0 * digits.change_of(lowest_hz);

@@ -8,6 +8,9 @@ use serde::{Deserialize, Serialize};
 /// Shares of stiffening and softening below this are none.
 const NONE: f64 = 1e-3;
 
+/// Most nodes that a sentence names.
+const SHOWN: usize = 8;
+
 /// Fewest inner nodes of which it is said that they are out of balance.
 const FEWEST_JUDGED: usize = 10;
 
@@ -41,6 +44,12 @@ pub struct Findings {
     pub digits: Option<DigitNoise>,
     /// Too few inner nodes in balance, if so.
     pub unbalanced: Option<Unbalanced>,
+    /// Too few pairs of face nodes in balance, if so.
+    pub open_joint: Option<OpenJoint>,
+    /// Mass that differs by direction, if so.
+    pub uneven_mass: Option<UnevenMass>,
+    /// Contact nodes and normals that no blade tip has.
+    pub odd_contact: OddContact,
     /// Size and materials in SI units; none where a unit is not known.
     pub in_si: Option<InSi>,
 }
@@ -50,6 +59,9 @@ impl Findings {
     pub fn warnings(&self) -> Vec<String> {
         let digits = self.digits.iter().map(DigitNoise::warning);
         let unbalanced = self.unbalanced.iter().map(Unbalanced::warning);
+        let unbalanced = unbalanced.chain(self.open_joint.iter().map(OpenJoint::warning));
+        let unbalanced = unbalanced.chain(self.uneven_mass.iter().map(UnevenMass::warning));
+        let unbalanced = unbalanced.chain(self.odd_contact.warnings());
         unbalanced.chain(digits).chain(self.in_si.iter().flat_map(InSi::warnings)).collect()
     }
 }
@@ -76,6 +88,93 @@ impl Unbalanced {
              alone: check that the DOF table lists the rows as the matrices have them, and `frame`, `axis` and positions",
             self.balanced, self.inner
         )
+    }
+}
+
+/// Pairs of nodes on the cyclic faces of which fewer than a tenth are in balance, although most nodes inside the sector are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct OpenJoint {
+    /// Pairs in balance.
+    balanced: usize,
+    /// Pairs with three components.
+    pairs: usize,
+}
+
+impl OpenJoint {
+    /// Returns the counts if fewer than a tenth of ten or more `pairs` are in balance, and more than half of the `inner` nodes are.
+    pub fn of(balanced: usize, pairs: usize, balanced_inner: usize, inner: usize) -> Option<Self> {
+        let fits = pairs < FEWEST_JUDGED || 10 * balanced >= pairs || 2 * balanced_inner <= inner;
+        (!fits).then_some(Self { balanced, pairs })
+    }
+
+    fn warning(&self) -> String {
+        format!(
+            "with the sectors joined, rigid motions of the wheel make forces at all but {} of {} pairs of nodes on the cyclic faces, where an \
+             elastic solid has them beside clamps and supports alone: check that the rows of the high face are those of its nodes, in their \
+             order, frame and sign, and that the part of one face is not in both diagonal blocks",
+            self.balanced, self.pairs
+        )
+    }
+}
+
+/// Nodes whose mass is not the same in all directions.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct UnevenMass {
+    /// Nodes of which this is so.
+    pub uneven: usize,
+    /// Nodes with three components.
+    pub nodes: usize,
+}
+
+impl UnevenMass {
+    fn warning(&self) -> String {
+        format!(
+            "the mass at {} of {} nodes is not the same in all directions, where that of a solid is: check that the rows of the mass matrix \
+             are in the order and frame of those of the stiffness",
+            self.uneven, self.nodes
+        )
+    }
+}
+
+/// Contact nodes and normals that no blade tip has, by the ids of the nodes.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct OddContact {
+    /// Nodes at which the line from leading to trailing edge doubles back.
+    pub doubling_back: Vec<u64>,
+    /// Nodes whose normal is opposite to that of the node before.
+    pub flipped: Vec<u64>,
+    /// Nodes whose normal runs along the line.
+    pub along_tip: Vec<u64>,
+    /// Nodes whose normal runs around the axis.
+    pub around_axis: Vec<u64>,
+}
+
+impl OddContact {
+    fn warnings(&self) -> impl Iterator<Item = String> + '_ {
+        let of = [
+            (
+                &self.doubling_back,
+                "the line of contact nodes doubles back at",
+                "list them from leading to trailing edge",
+            ),
+            (&self.flipped, "contact normals turn over at", "let all point from the blade to the casing"),
+            (
+                &self.along_tip,
+                "contact normals run along the line of contact nodes at",
+                "let each be that of its node",
+            ),
+            (
+                &self.around_axis,
+                "contact normals run around the axis at",
+                "let them point from the tip to the casing",
+            ),
+        ];
+        of.into_iter().filter(|(nodes, ..)| !nodes.is_empty()).map(|(nodes, what, advice)| {
+            let shown: Vec<String> = nodes.iter().take(SHOWN).map(u64::to_string).collect();
+            let more = if nodes.len() > SHOWN { ", …" } else { "" };
+            let node = if nodes.len() == 1 { "node" } else { "nodes" };
+            format!("{what} {node} {}{more}: {advice}", shown.join(", "))
+        })
     }
 }
 
@@ -204,6 +303,9 @@ pub struct DigitNoise {
     pub residual: f64,
     /// Change that it may make to the square of an angular frequency, rad²/s².
     pub square_rad2_s2: f64,
+    /// Whether the entries have all digits, so that the forces have another cause.
+    #[serde(default)]
+    pub has_all_digits: bool,
 }
 
 impl DigitNoise {
@@ -215,6 +317,14 @@ impl DigitNoise {
     /// A sentence about it.
     pub fn warning(&self) -> String {
         let at = |frequency_hz: f64| 100.0 * self.change_of(frequency_hz);
+        if self.has_all_digits {
+            return format!(
+                "rigid motions leave forces of {:.1e} of the entries of the stiffness matrix at rest, which has all digits, so that double \
+                 precision would leave 1e-14: check that it is the matrix at rest, without springs to ground, and that positions are those \
+                 of the undeformed model",
+                self.residual
+            );
+        }
         format!(
             "the stiffness matrix at rest has few digits: rigid motions leave forces of {:.1e} of its entries, where double precision \
              leaves 1e-14. This may change a frequency of 100 Hz by {:.2} % and one of 1000 Hz by {:.4} %: export all digits",

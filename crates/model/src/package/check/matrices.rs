@@ -19,6 +19,13 @@ pub(super) fn check(package: &mut RawPackage) -> Result<(), PackageError> {
     for (matrix, name) in package.stiffness.iter_mut().zip(&names.stiffness) {
         check_one(matrix, symmetric, dofs).map_err(|problem| PackageError::matrix(name, problem))?;
     }
+    check_values(&package.mass).map_err(|problem| PackageError::matrix(&names.mass, problem))?;
+    for (matrix, name) in package.stiffness.iter().zip(&names.stiffness) {
+        check_values(matrix).map_err(|problem| PackageError::matrix(name, problem))?;
+    }
+    if let (Some(matrix), Some(name)) = (package.stiffness.first(), names.stiffness.first()) {
+        check_diagonal(matrix).map_err(|problem| PackageError::matrix(name, problem))?;
+    }
     match (&names.gyroscopic, &mut package.gyroscopic) {
         (Some(name), Some(matrix)) => {
             check_one(matrix, Mirror::Skew, dofs).map_err(|problem| PackageError::matrix(name, problem))
@@ -31,6 +38,34 @@ pub(super) fn check(package: &mut RawPackage) -> Result<(), PackageError> {
             Err(PackageError::archive("the gyroscopic matrix".to_owned(), ArchiveProblem::Surplus))
         }
         (None, None) => Ok(()),
+    }
+}
+
+/// Magnitudes of largest entries that are accepted: beyond, their squares would leave the range of numbers.
+const RANGE: [f64; 2] = [1e-60, 1e60];
+
+/// Negative entries of a diagonal up to this part of its largest one are round-off.
+const ROUND_OFF: f64 = 1e-9;
+
+fn check_values(matrix: &RawMatrix) -> Result<(), MatrixProblem> {
+    let largest = matrix.entries.iter().map(|entry| entry.2.abs()).fold(0.0, f64::max);
+    let [least, most] = RANGE;
+    match largest {
+        0.0 => Err(MatrixProblem::AllZero),
+        largest if !(least..=most).contains(&largest) => {
+            Err(MatrixProblem::OutOfRange { largest, least, most })
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Checks the sign of the diagonal of the stiffness at rest.
+fn check_diagonal(matrix: &RawMatrix) -> Result<(), MatrixProblem> {
+    let diagonal = || matrix.entries.iter().filter(|entry| entry.0 == entry.1);
+    let largest = diagonal().map(|entry| entry.2.abs()).fold(0.0, f64::max);
+    match diagonal().find(|entry| entry.2 < -ROUND_OFF * largest) {
+        Some(&(row, _, value)) => Err(MatrixProblem::NegativeDiagonal { row: u64::from(row) + 1, value }),
+        None => Ok(()),
     }
 }
 

@@ -12,6 +12,13 @@ const MOST_SECTORS: usize = 1000;
 /// More contact nodes along one chord than any blade needs; the reduced matrices grow with the square.
 const MOST_CONTACT_NODES: usize = 200;
 
+/// Lowest and highest of highest speeds that are accepted, rad/s.
+const LOWEST: f64 = 1e-3;
+const HIGHEST: f64 = 1e7;
+
+/// Least distance of two speeds, as a part of the highest.
+const APART: f64 = 1e-3;
+
 /// Checks name, counts, units, axis and speeds; returns the axis.
 ///
 /// Three speeds need not be equally spaced: the polynomial passes through any three (docs/method.md, Centrifugal
@@ -61,6 +68,18 @@ pub(crate) fn check(manifest: &Manifest) -> Result<AxisFrame, PackageError> {
                 return wrong(&field, ManifestProblem::SpeedsNotAscending { previous, value: *speed });
             }
             _ => {}
+        }
+    }
+    if let [_, middle, highest] = speeds[..] {
+        if !(LOWEST..=HIGHEST).contains(&highest) {
+            let problem = ManifestProblem::SpeedOutOfRange { value: highest, least: LOWEST, most: HIGHEST };
+            return wrong("/speeds_rad_s/2", problem);
+        }
+        for (k, [previous, value]) in [[0.0, middle], [middle, highest]].into_iter().enumerate() {
+            if value - previous < APART * highest {
+                let problem = ManifestProblem::SpeedsTooClose { previous, value, highest };
+                return wrong(&format!("/speeds_rad_s/{}", k + 1), problem);
+            }
         }
     }
     if manifest.stiffness.len() != speeds.len() {

@@ -114,6 +114,29 @@ pub enum ManifestProblem {
         /// The speed that is not larger.
         value: f64,
     },
+    /// Speeds that no polynomial tells apart.
+    #[error(
+        "{value:?} rad/s is too near to {previous:?} rad/s, of {highest:?} rad/s in all: K(Ω) is interpolated between three speeds that must \
+         differ by a thousandth of the highest at least"
+    )]
+    SpeedsTooClose {
+        /// The speed before.
+        previous: f64,
+        /// The speed that is not far enough from it.
+        value: f64,
+        /// The highest speed.
+        highest: f64,
+    },
+    /// Speed that no wheel has.
+    #[error("the highest speed is {value:e} rad/s; {least:e} to {most:e} rad/s are accepted")]
+    SpeedOutOfRange {
+        /// Value given.
+        value: f64,
+        /// Lowest highest speed that is accepted.
+        least: f64,
+        /// Highest speed that is accepted.
+        most: f64,
+    },
     /// Not one stiffness per speed.
     #[error(
         "{matrices} stiffness matrices are named for {speeds} speeds; name one per speed, in the same order"
@@ -264,6 +287,32 @@ pub enum ManifestProblem {
         /// Nodes inside the sector with three components.
         inner: usize,
     },
+    /// High face that fits the low one only if its rows are read otherwise.
+    #[error(
+        "with the sectors joined, rigid motions of the wheel make forces at cyclic faces that nothing holds: {stated} of {pairs} pairs of \
+         nodes are in balance as the rows are stated, {found} if {reading}"
+    )]
+    FacesOtherwise {
+        /// Reading that puts more pairs in balance.
+        reading: FaceReading,
+        /// Pairs in balance as stated.
+        stated: usize,
+        /// Pairs in balance in the other reading.
+        found: usize,
+        /// Pairs with three components.
+        pairs: usize,
+    },
+    /// High face without stiffness.
+    #[error(
+        "the stiffness at rest has no entry in the rows of the high face, so that the sectors are not joined: export the sector with its own \
+         nodes on both faces"
+    )]
+    SectorsApart,
+    /// High face whose own block is in one of mass and stiffness alone.
+    #[error(
+        "one of mass and stiffness at rest has entries of the high face against itself, and the other has none: export both in the same way"
+    )]
+    BlocksDisagree,
     /// A constant that no solid has by far.
     #[error(
         "the value is {value:e}, in SI units {in_si:.3e} {unit}, and {least:e} to {most:e} {unit} are accepted, wider than any solid: \
@@ -448,6 +497,58 @@ pub enum RowReading {
         /// Order of the nodes.
         order: &'static str,
     },
+}
+
+/// Way to read the rows of the high face.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FaceReading {
+    /// The low face has the part of the high one already.
+    Twice,
+    /// Components in the other frame.
+    OtherFrame {
+        /// Name of that frame.
+        meant: &'static str,
+    },
+    /// All components with the other sign.
+    OtherSign,
+    /// One component with the other sign.
+    OtherSignOf {
+        /// Component, from 1.
+        component: usize,
+    },
+    /// Components along axes turned with the sector.
+    Turned,
+    /// Nodes in another order.
+    OtherOrder {
+        /// The order.
+        order: &'static str,
+    },
+}
+
+impl fmt::Display for FaceReading {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Twice => f.write_str(
+                "the block of the high face against itself is left out, whose part is in that of the low face already: export the sector \
+                 alone, not cut out of the matrices of the wheel",
+            ),
+            Self::OtherFrame { meant } => write!(
+                f,
+                "the components of the nodes on the high face alone are {meant}: export all nodes in one frame"
+            ),
+            Self::OtherSign => f.write_str("the rows of the high face have the other sign: export them as those of all nodes"),
+            Self::OtherSignOf { component } => {
+                write!(f, "component {component} of the nodes on the high face has the other sign: export all nodes in one frame")
+            }
+            Self::Turned => f.write_str(
+                "the components of the nodes on the high face are along axes turned by a sector: export all nodes in one frame",
+            ),
+            Self::OtherOrder { order } => write!(
+                f,
+                "the nodes of the high face are in the order {order}: list the rows of the DOF table as the matrices have them"
+            ),
+        }
+    }
 }
 
 impl fmt::Display for RowReading {

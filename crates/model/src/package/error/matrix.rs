@@ -66,6 +66,29 @@ pub enum MatrixProblem {
         /// Rows of the matrix.
         size: usize,
     },
+    /// Nothing but zeros.
+    #[error("all entries are zero")]
+    AllZero,
+    /// Numbers whose squares a computer cannot hold.
+    #[error("the largest entry is {largest:e}; {least:e} to {most:e} are accepted: choose other units")]
+    OutOfRange {
+        /// Largest magnitude of an entry.
+        largest: f64,
+        /// Least that is accepted.
+        least: f64,
+        /// Most that is accepted.
+        most: f64,
+    },
+    /// Diagonal entry of a matrix that cannot have such.
+    #[error(
+        "the diagonal entry ({row}, {row}) is {value:e}; no stiffness and no mass is negative there: check the sign of the matrix"
+    )]
+    NegativeDiagonal {
+        /// Row.
+        row: u64,
+        /// Entry.
+        value: f64,
+    },
     /// NaN, infinity or overflow.
     #[error("entry ({row}, {column}) is not a finite number")]
     NotFinite {

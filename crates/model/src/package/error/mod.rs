@@ -7,7 +7,7 @@ mod npz;
 mod table;
 
 pub use archive::ArchiveProblem;
-pub use manifest::{Components, ManifestProblem, RowReading, TurnFit};
+pub use manifest::{Components, FaceReading, ManifestProblem, RowReading, TurnFit};
 pub use matrix::MatrixProblem;
 pub use npz::{ExpectedShape, NpzProblem};
 pub use table::TableProblem;

@@ -9,12 +9,15 @@ use rubmap_wheel::dynamics::findings::DigitNoise;
 
 use super::rigid::{Balance, Body, MOTIONS, forces};
 use crate::package::check::layout::Layout;
-use crate::package::raw::RawPackage;
+use crate::package::raw::{RawMatrix, RawPackage};
 use crate::package::units;
 
 /// The estimate is so many times what independent errors give: equal entries are rounded alike. Wheels with blades of 0.3 to 3 mm
 /// (`tests/package/findings.rs`) change by 0.05 to 6 times as much as is said then.
 const SAFETY: f64 = 4.0;
+
+/// Entries whose digits are counted.
+const LOOKED_AT: usize = 1000;
 
 /// Relative forces below this are those of ten digits and more.
 const ALL_DIGITS: f64 = 1e-10;
@@ -46,7 +49,23 @@ pub(super) fn find(
     };
     let largest = (0..MOTIONS).map(square).filter(|square| square.is_finite()).fold(0.0, f64::max);
     let seconds = units::seconds(&package.manifest.units);
-    Some(DigitNoise { residual: balance.residual, square_rad2_s2: largest / (seconds * seconds) })
+    Some(DigitNoise {
+        residual: balance.residual,
+        square_rad2_s2: largest / (seconds * seconds),
+        has_all_digits: has_all_digits(&package.stiffness[0]),
+    })
+}
+
+/// Whether fewer than half of the entries are numbers of at most ten digits or of single precision.
+fn has_all_digits(stiffness: &RawMatrix) -> bool {
+    let values = stiffness.entries.iter().map(|entry| entry.2).filter(|value| *value != 0.0);
+    let step = stiffness.entries.len().div_ceil(LOOKED_AT).max(1);
+    let looked_at: Vec<f64> = values.step_by(step).collect();
+    let is_short = |value: &&f64| {
+        let decimal = format!("{value:.9e}").parse().is_ok_and(|rounded: f64| rounded == **value);
+        decimal || f64::from(**value as f32) == **value
+    };
+    2 * looked_at.iter().filter(is_short).count() < looked_at.len()
 }
 
 /// Amplitude of each node in a mode of the blade: from 1 at the contact nodes down to 0 at half their line's length from them.

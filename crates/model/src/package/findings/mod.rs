@@ -5,10 +5,14 @@
 //!                                              └──▶ M, K(Ω) ──▶ share of stiffening and softening
 //! ```
 //!
-//! Rows that are in balance only if they are read in another order or frame are refused ([`order`]).
+//! Rows that are in balance only if they are read in another order or frame are refused ([`order`]), and so are high faces that fit the low
+//! ones only otherwise ([`faces`]).
 
+mod contact;
 mod digits;
+mod faces;
 pub(super) mod in_si;
+mod mass;
 mod order;
 mod rigid;
 mod spin;
@@ -28,6 +32,7 @@ pub(super) fn of_matrices(package: &RawPackage, layout: &Layout) -> Result<Findi
     let body = Body::of(package, layout);
     let balance = Balance::of(&body, &body.stated, &package.stiffness[0]);
     order::check(&body, &balance, package, layout)?;
+    let open_joint = faces::check(&body, &balance, package, layout)?;
     let at_speed = package.manifest.speeds_rad_s.iter().zip(&package.stiffness).skip(1);
     let spin = at_speed.map(|(&speed_rad_s, matrix)| SpinAtSpeed {
         speed_rad_s,
@@ -37,6 +42,9 @@ pub(super) fn of_matrices(package: &RawPackage, layout: &Layout) -> Result<Findi
         spin: spin.collect(),
         digits: digits::find(&body, &balance, package, layout),
         unbalanced: Unbalanced::of(balance.count(), body.inner().count()),
+        open_joint,
+        uneven_mass: mass::find(&body, package),
+        odd_contact: contact::find(&body, package, layout),
         in_si: None,
     })
 }

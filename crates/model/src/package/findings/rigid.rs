@@ -75,6 +75,12 @@ impl Body {
         }
     }
 
+    /// Vector from the axis, normal to it, to the middle of the sector.
+    pub(super) fn middle_from_axis(&self) -> Vector3<f64> {
+        let place = self.from_axis.iter().zip(&self.positions).next();
+        place.map_or_else(Vector3::zeros, |(from_axis, position)| from_axis - self.in_plane(*position))
+    }
+
     /// Rows as stated, components of each node in the frame that is given.
     pub(super) fn in_frames(&self, frame: impl Fn(usize) -> Frame) -> Reading {
         let basis = |node: usize| match frame(node) {
@@ -119,6 +125,11 @@ impl Body {
 
     pub(super) fn in_plane(&self, vector: Vector3<f64>) -> Vector3<f64> {
         vector - self.axis * vector.dot(&self.axis)
+    }
+
+    /// Part of a vector at a node along the circumference.
+    pub(super) fn around(&self, node: usize, vector: Vector3<f64>) -> f64 {
+        self.cylindrical[node].row(1).transpose().dot(&vector)
     }
 
     fn by_row(&self, reading: &Reading, vector: impl Fn(usize, usize) -> Vector3<f64>) -> Vec<OfMotions> {
