@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{self, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
 use axum::body::{Body, Bytes};
@@ -44,6 +44,8 @@ const MOST_SPOOLED: u64 = 4 << 30;
 #[derive(Debug, Clone)]
 pub struct LargeAnswers {
     turns: Arc<Semaphore>,
+    /// Answers that wait for a turn.
+    waiting: Arc<AtomicUsize>,
     spool: Arc<Spool>,
 }
 
@@ -53,6 +55,7 @@ pub struct LargeAnswers {
 pub(super) struct Leave {
     _turn: Option<OwnedSemaphorePermit>,
     _memory: Allowance,
+    waiting: Arc<AtomicUsize>,
     spool: Arc<Spool>,
 }
 
@@ -60,7 +63,7 @@ impl LargeAnswers {
     /// No more than `most` at once; what waits for slow clients lies in `folder`.
     pub fn new(most: usize, folder: &Path) -> Self {
         let spool = Spool { folder: folder.to_owned(), bytes: AtomicU64::new(0), most: MOST_SPOOLED };
-        Self { turns: Arc::new(Semaphore::new(most)), spool: Arc::new(spool) }
+        Self { turns: Arc::new(Semaphore::new(most)), waiting: Arc::default(), spool: Arc::new(spool) }
     }
 
     /// Bytes that wait for slow clients.
@@ -70,9 +73,32 @@ impl LargeAnswers {
 
     /// Waits until an answer may be made that takes `bytes` of memory meanwhile.
     pub(super) async fn leave(&self, jobs: &Jobs, bytes: u64) -> Leave {
+        let waits = Waits::among(&self.waiting);
         // Refused only once the semaphore is closed, which nobody does.
         let turn = Arc::clone(&self.turns).acquire_owned().await.ok();
-        Leave { _turn: turn, _memory: jobs.answer_memory(bytes).await, spool: Arc::clone(&self.spool) }
+        drop(waits);
+        Leave {
+            _turn: turn,
+            _memory: jobs.answer_memory(bytes).await,
+            waiting: Arc::clone(&self.waiting),
+            spool: Arc::clone(&self.spool),
+        }
+    }
+}
+
+/// One of those that wait for a turn, counted until it is dropped: also where the client has gone.
+struct Waits<'a>(&'a AtomicUsize);
+
+impl<'a> Waits<'a> {
+    fn among(waiting: &'a AtomicUsize) -> Self {
+        waiting.fetch_add(1, Ordering::Relaxed);
+        Self(waiting)
+    }
+}
+
+impl Drop for Waits<'_> {
+    fn drop(&mut self) {
+        self.0.fetch_sub(1, Ordering::Relaxed);
     }
 }
 
@@ -117,8 +143,9 @@ pub(super) fn written(
     let (end, rest) = oneshot::channel();
     tokio::task::spawn_blocking(move || {
         let spool = Some(Arc::clone(&leave.spool));
-        let mut pieces =
-            Pieces { sender, piece: Vec::with_capacity(PIECE), patience: PATIENCE, spool, later: None };
+        let waiting = Arc::clone(&leave.waiting);
+        let piece = Vec::with_capacity(PIECE);
+        let mut pieces = Pieces { sender, piece, patience: PATIENCE, waiting, spool, later: None };
         let made = write(&mut pieces).and_then(|()| pieces.flush());
         drop(leave);
         let end_of_it = match (made, pieces.later.take()) {
@@ -260,6 +287,8 @@ struct Pieces {
     piece: Vec<u8>,
     /// Time for which the client will still be waited for before the rest goes to a file.
     patience: Duration,
+    /// Answers that wait for a turn: while there are any, no client is waited for.
+    waiting: Arc<AtomicUsize>,
     /// None once a file could not be made.
     spool: Option<Arc<Spool>>,
     later: Option<Later>,
@@ -327,7 +356,9 @@ impl Write for Pieces {
         }
         let mut piece = Bytes::from(piece);
         if let Some(spool) = self.spool.clone() {
-            let Some(refused) = self.send(piece, self.patience)? else { return Ok(()) };
+            let others_wait = self.waiting.load(Ordering::Relaxed) > 0;
+            let patience = if others_wait { Duration::ZERO } else { self.patience };
+            let Some(refused) = self.send(piece, patience)? else { return Ok(()) };
             match spool.begin().and_then(|mut later| Ok(later.add(&refused)?.then_some(later))) {
                 Ok(Some(later)) => {
                     self.later = Some(later);
@@ -376,7 +407,12 @@ mod tests {
 
     fn answer(spool: &Arc<Spool>, body: Vec<u8>) -> (Body, oneshot::Receiver<()>) {
         let (done, made) = oneshot::channel();
-        let leave = Leave { _turn: None, _memory: Allowance::default(), spool: Arc::clone(spool) };
+        let leave = Leave {
+            _turn: None,
+            _memory: Allowance::default(),
+            waiting: Arc::default(),
+            spool: Arc::clone(spool),
+        };
         let response = written(leave, ZIP, move |pieces| {
             pieces.write_all(&body)?;
             pieces.flush()?;
@@ -443,7 +479,8 @@ mod tests {
     #[tokio::test(flavor = "multi_thread")]
     async fn what_breaks_off_is_not_taken_for_whole() {
         let folder = tempfile::tempdir().unwrap();
-        let leave = Leave { _turn: None, _memory: Allowance::default(), spool: spool(folder.path()) };
+        let spool = spool(folder.path());
+        let leave = Leave { _turn: None, _memory: Allowance::default(), waiting: Arc::default(), spool };
         let response = written(leave, ZIP, |pieces| {
             pieces.write_all(&bytes(1))?;
             Err(io::Error::other("a defect"))
