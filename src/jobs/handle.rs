@@ -161,7 +161,12 @@ impl Jobs {
                 let case = engine.planner.run(&whose.owner, resolve).await?.map_err(refused)?;
                 (JobRequest::CaseStudy(Box::new(case)), Some(facts))
             }
-            Submission::ModelGeneration(parameters) => (JobRequest::ModelGeneration(parameters), None),
+            Submission::ModelGeneration(parameters) => {
+                let planned = parameters.clone();
+                let plan = engine.planner.run(&whose.owner, move || plan_generation(&planned)).await?;
+                plan.map_err(|error| refused(vec![violation(&error)]))?;
+                (JobRequest::ModelGeneration(parameters), None)
+            }
         };
         let speeds = request.speeds();
         let model = request.model().unwrap_or_default().to_owned();

@@ -10,6 +10,9 @@ use crate::package::units;
 /// Most degrees of freedom of a sector, clamped ones included: the pre-stress alone then fills tens of gigabytes.
 const MOST_DOF: f64 = 2e6;
 
+/// Most sectors: no wheel has more blades.
+const MOST_SECTORS: f64 = 1000.0;
+
 impl ImpellerParameters {
     /// Refuses parameters from which no impeller can be built.
     ///
@@ -29,6 +32,7 @@ impl ImpellerParameters {
             problem: problem.into(),
         })?;
         at_least("sectors", self.sectors, 3, "must be at least 3")?;
+        inside("sectors", self.sectors as f64, 3.0..=MOST_SECTORS, "must be at most 1000")?;
         positive("bore_radius", self.bore_radius)?;
         let rule = "must be greater than `bore_radius`";
         above("inlet_hub_radius", self.inlet_hub_radius, self.bore_radius, rule)?;
