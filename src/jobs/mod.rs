@@ -1,9 +1,9 @@
 //! What a job means: how it is prepared, computed speed by speed, finished, cancelled and resumed.
 //!
 //! ```text
-//! POST ─ Jobs::submit ─→ jobs table ─→ queue `prepare` ─→ prepare: reduction, check
+//! POST ─ Jobs::submit ─→ jobs table ─→ line `prepare`  ─→ prepare: reduction, check
 //!                                                             │ one task per speed
-//!                                      queue `speeds`  ←──────┘
+//!                                      line `speeds`   ←──────┘
 //!                                      ↑      └─→ speed: run, commit its row ─→ the last one: finish
 //!                                      └─────────── more speeds, with `refine` ←──────────────┘
 //! ```
@@ -11,11 +11,12 @@
 //! A sweep up or down has one task out at a time: each speed queues the next once it is committed, with the state that the next
 //! one starts from.
 //!
-//! The unit of work is one speed of one job; a modal analysis and the generation of a model are one unit each. Tasks are carried by `apalis`; the tables of [`crate::store`] are what is
+//! The unit of work is one speed of one job; a modal analysis and the generation of a model are one unit each. On one machine tasks wait in memory, where owners take turns (`turns`);
+//! machines that share a database share queues there, carried by `apalis`. The tables of [`crate::store`] are what is
 //! true. A handler looks there first, so a task that runs twice, or somewhere else, does no harm.
 //!
-//! Handlers are async and wait; what computes runs on the threads of a `pool::CpuPool`. The two queues hand their
-//! work to the same threads in order of arrival, and the queue of speeds has no more tasks out than there are threads:
+//! Handlers are async and wait; what computes runs on the threads of a `pool::CpuPool`. Both lines give their
+//! work to the same threads in order of arrival, and the line of speeds has no more tasks out than there are threads:
 //! a small job is never more than a few speeds away from its turn. A reduction may take minutes of one thread: of the
 //! large ones only one runs at a time (`memory`), so that with two threads or more the other jobs go on.
 
@@ -44,6 +45,8 @@ mod plans;
 mod pool;
 mod prepare;
 mod progress;
+#[cfg(feature = "cluster")]
+mod queue_workers;
 mod reductions;
 mod run_ups;
 #[cfg(feature = "cluster")]

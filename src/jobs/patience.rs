@@ -57,6 +57,7 @@ async fn in_time<T>(
 }
 
 /// Pushes a task until the queue takes it, which it does at once unless memory is short.
+#[cfg(feature = "cluster")]
 pub(super) async fn until_taken<P: Future<Output = Result<(), StoreError>>>(push: impl Fn() -> P) {
     while let Err(error) = in_time(LONGEST_WRITE, push()).await {
         tracing::error!(%error, "the queue failed");

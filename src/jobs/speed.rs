@@ -12,8 +12,8 @@ use crate::analysis::resolved::ResolvedSweep;
 use crate::analysis::result::{Point, SpeedResult, Validity, ValidityVerdict};
 use crate::analysis::run;
 use crate::store::jobs::JobRequest;
-use crate::store::queue::RunSpeed;
 use crate::store::results::PackedSpeed;
+use crate::store::tasks::RunSpeed;
 
 /// Computes a speed and commits it; the one that finds itself last finishes the job.
 pub(super) async fn run(engine: &Engine, RunSpeed { job: id, speed }: RunSpeed) -> Result<(), Interruption> {

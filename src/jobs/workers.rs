@@ -1,14 +1,14 @@
-//! The workers that take tasks from the queues, from start to stop.
+//! Workers that take tasks as their turn comes, from start to stop.
 
+use std::hash::Hash;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::time::Duration;
 
-use apalis::prelude::{BoxDynError, Data, WorkerBuilder, WorkerBuilderExt, WorkerError};
-use futures::{FutureExt, future::BoxFuture};
 use tokio::task::JoinHandle;
 use tokio::time::MissedTickBehavior;
 use tokio_util::sync::CancellationToken;
+use tokio_util::task::TaskTracker;
 
 use super::computing::{MOST_CRASHES, pause};
 use super::engine::Engine;
@@ -16,13 +16,13 @@ use super::handle::Jobs;
 use super::memory::Memory;
 use super::pool::CpuPool;
 use super::progress::PendingReports;
-#[cfg(feature = "cluster")]
-use super::share;
-use super::tasks::{self, Kind, Tasks};
+use super::tasks::{Line, OwnTasks, Tasks};
 use super::{error, prepare, speed};
-use crate::store::jobs::Unfinished;
+#[cfg(feature = "cluster")]
+use super::{queue_workers, share};
+use crate::store::jobs::{JobId, Unfinished};
 use crate::store::limits::Limits;
-use crate::store::queue::{PrepareJob, RunSpeed};
+use crate::store::tasks::RunSpeed;
 use crate::store::{Store, StoreError};
 
 /// How long tasks may take to notice that the service stops: those that compute look many times a second.
@@ -63,41 +63,36 @@ impl Runner {
         let pool = |name, size| CpuPool::start(name, size, threads);
         let pools = (pool("compute", threads)?, pool("import", threads)?, pool("plan", 1)?);
         let memory = Memory::new(settings.memory_bytes);
-        let tasks = Tasks::of(&store, threads).await?;
+        let tasks = Tasks::of(&store, threads);
         let engine = Engine::new(store.clone(), tasks, pools, memory, settings.limits);
         if let Err(error) = store.count_crashes().await {
             // Counted at the next start.
             tracing::warn!(%error, "could not count what the last service ended under");
         }
+        #[cfg_attr(not(feature = "cluster"), expect(unused_mut, reason = "there are no others"))]
         let mut helpers = vec![
             tokio::spawn(record_progress(store.clone(), Arc::clone(&engine.reports))),
             tokio::spawn(keep_house(Arc::clone(&engine), settings.keep_days)),
         ];
-        match &engine.tasks {
+        let stop = CancellationToken::new();
+        let workers = match &engine.tasks {
             Tasks::Own(_) => {
                 store.restart_outdated().await?;
                 resume(&engine).await?;
-                let engine = Arc::clone(&engine);
-                helpers.push(tokio::spawn(async move { engine.tasks.hand_out().await }));
+                let of = || (Arc::clone(&engine), stop.clone());
+                let ((a, b), (c, d)) = (of(), of());
+                engine.counters.queues.fetch_add(2, Ordering::Relaxed);
+                vec![
+                    tokio::spawn(work_off(a, b, |tasks| &tasks.preparations, prepare_job)),
+                    tokio::spawn(work_off(c, d, |tasks| &tasks.speeds, run_speed)),
+                ]
             }
             #[cfg(feature = "cluster")]
-            Tasks::Shared(_) => helpers.extend(share::start(&engine, settings.workers > 0)),
-        }
-        let stop = CancellationToken::new();
-        let mut workers = Vec::new();
-        if settings.workers > 0 {
-            for (queue, work) in [("prepare", prepare_jobs as StartWorker), ("speeds", run_speeds)] {
-                for &kind in engine.tasks.kinds() {
-                    let start = {
-                        let (engine, stop) = (Arc::clone(&engine), stop.clone());
-                        move |name| work((name, kind), Arc::clone(&engine), threads, stop.clone())
-                    };
-                    engine.counters.queues.fetch_add(1, Ordering::Relaxed);
-                    let queue = format!("{queue}-{kind:?}");
-                    workers.push(tokio::spawn(supervise(queue, Arc::clone(&engine), stop.clone(), start)));
-                }
+            Tasks::Shared(_) => {
+                helpers.extend(share::start(&engine, settings.workers > 0));
+                if settings.workers > 0 { queue_workers::start(&engine, threads, &stop) } else { Vec::new() }
             }
-        }
+        };
         Ok(Self { engine, stop, workers, helpers })
     }
 
@@ -126,7 +121,7 @@ impl Runner {
         }
         self.engine.store.stop_marking();
         self.helpers.iter().for_each(JoinHandle::abort);
-        self.engine.tasks.close().await;
+        self.engine.tasks.give_back().await;
     }
 }
 
@@ -178,108 +173,48 @@ async fn keep_house(engine: Arc<Engine>, keep_days: Option<u32>) {
     }
 }
 
-/// Starts a worker of this name for such tasks, with so many threads.
-type StartWorker =
-    fn((String, Kind), Arc<Engine>, usize, CancellationToken) -> BoxFuture<'static, Result<(), WorkerError>>;
-
-/// A worker that hands the tasks of a source to a handler until it is told to stop; a macro, because the types of sources share nothing
-/// that can be written down.
-macro_rules! worker {
-    ($name:expr, $source:expr, $concurrency:expr, $engine:expr, $stop:expr, $handler:expr) => {
-        WorkerBuilder::new($name)
-            .backend($source)
-            .concurrency($concurrency)
-            .data($engine)
-            .build($handler)
-            .run_until(stopped($stop))
-            .boxed()
-    };
-}
-
-fn prepare_jobs(
-    (name, kind): (String, Kind),
+/// Takes tasks of one kind as their turn comes, and does their work beside each other, until it is told to stop.
+async fn work_off<T, F>(
     engine: Arc<Engine>,
-    threads: usize,
     stop: CancellationToken,
-) -> BoxFuture<'static, Result<(), WorkerError>> {
-    async fn handle(task: PrepareJob, engine: Data<Arc<Engine>>) -> Result<(), BoxDynError> {
-        let engine = Arc::clone(&engine);
-        outliving(async move {
-            let place = engine.tasks.preparing(task.job);
-            let wanted = engine.attend(task.job, || prepare::prepare(&engine, task.job)).await;
-            drop(place);
-            if !wanted {
-                engine.take_up_again(task.job).await;
-            }
-        })
-        .await
-    }
-    let most = tasks::preparations_at_once(threads);
-    match (&Arc::clone(&engine).tasks, kind) {
-        (Tasks::Own(tasks), _) => worker!(name, tasks.preparations(), 4 * most, engine, stop, handle),
-        #[cfg(feature = "cluster")]
-        (Tasks::Shared(tasks), kind) => {
-            worker!(tasks.name(&name), tasks.preparations(kind), most, engine, stop, handle)
-        }
-    }
-}
-
-fn run_speeds(
-    (name, kind): (String, Kind),
-    engine: Arc<Engine>,
-    threads: usize,
-    stop: CancellationToken,
-) -> BoxFuture<'static, Result<(), WorkerError>> {
-    async fn handle(task: RunSpeed, engine: Data<Arc<Engine>>) -> Result<(), BoxDynError> {
-        let engine = Arc::clone(&engine);
-        outliving(async move {
-            let place = engine.tasks.running(task);
-            let wanted = engine.attend(task.job, || speed::run(&engine, task)).await;
-            drop(place);
-            if !wanted {
-                engine.take_up_again(task.job).await;
-            }
-        })
-        .await
-    }
-    match (&Arc::clone(&engine).tasks, kind) {
-        (Tasks::Own(tasks), _) => worker!(name, tasks.speeds(), threads, engine, stop, handle),
-        #[cfg(feature = "cluster")]
-        (Tasks::Shared(tasks), kind) => {
-            worker!(tasks.name(&name), tasks.speeds(kind), threads, engine, stop, handle)
-        }
-    }
-}
-
-/// Does the work of a task to its end, even if the worker that has it is replaced: `apalis` gives one up, with all that it waits for, as
-/// soon as its backend cannot be reached.
-async fn outliving(work: impl Future<Output = ()> + Send + 'static) -> Result<(), BoxDynError> {
-    Ok(tokio::spawn(work).await?)
-}
-
-async fn stopped(stop: CancellationToken) -> Result<(), WorkerError> {
-    stop.cancelled().await;
-    Ok(())
-}
-
-/// Keeps a worker of `queue` going: one that its backend lets down is replaced, under a name not used before, because
-/// `apalis` refuses a name that was seen alive a moment ago.
-async fn supervise<F>(queue: String, engine: Arc<Engine>, stop: CancellationToken, worker: F)
-where
-    F: Fn(String) -> BoxFuture<'static, Result<(), WorkerError>>,
+    line: fn(&OwnTasks) -> &Line<T>,
+    work: fn(Arc<Engine>, JobId, T) -> F,
+) where
+    T: Copy + Eq + Hash,
+    F: Future<Output = ()> + Send + 'static,
 {
-    for generation in 0.. {
-        engine.counters.workers.fetch_add(1, Ordering::Relaxed);
-        let ended = worker(format!("{queue}-{generation}")).await;
-        engine.counters.workers.fetch_sub(1, Ordering::Relaxed);
-        if stop.is_cancelled() {
-            break;
-        }
-        match ended {
-            Ok(()) => tracing::error!(queue, "worker ended; starting another"),
-            Err(error) => tracing::error!(queue, %error, "worker ended; starting another"),
-        }
-        tokio::time::sleep(Duration::from_secs(1)).await;
+    let Some(tasks) = engine.tasks.own() else { return };
+    let running = TaskTracker::new();
+    engine.counters.workers.fetch_add(1, Ordering::Relaxed);
+    loop {
+        tokio::select! {
+            () = stop.cancelled() => break,
+            (job, task) = line(tasks).next() => running.spawn(work(Arc::clone(&engine), job, task)),
+        };
+    }
+    engine.counters.workers.fetch_sub(1, Ordering::Relaxed);
+    running.close();
+    running.wait().await;
+}
+
+/// Prepares a job.
+pub(super) async fn prepare_job(engine: Arc<Engine>, job: JobId, (): ()) {
+    let place = engine.tasks.preparing(job);
+    let wanted = engine.attend(job, || prepare::prepare(&engine, job)).await;
+    drop(place);
+    if !wanted {
+        engine.take_up_again(job).await;
+    }
+}
+
+/// Computes a speed of a job.
+pub(super) async fn run_speed(engine: Arc<Engine>, job: JobId, speed: u32) {
+    let task = RunSpeed { job, speed };
+    let place = engine.tasks.running(task);
+    let wanted = engine.attend(job, || speed::run(&engine, task)).await;
+    drop(place);
+    if !wanted {
+        engine.take_up_again(job).await;
     }
 }
 

@@ -39,9 +39,6 @@ pub enum StoreError {
         /// The last that this program knows.
         known: i64,
     },
-    /// The queue's tables refused.
-    #[error("queue: {0}")]
-    Queue(#[from] apalis_sqlite::Error),
     /// The tables of the queue that machines share refused.
     #[cfg(feature = "cluster")]
     #[error("queue: {0}")]
@@ -136,7 +133,6 @@ impl StoreError {
                 | sqlx::Error::PoolClosed
                 | sqlx::Error::WorkerCrashed,
             )
-            | Self::Queue(_)
             | Self::Unseen => true,
             #[cfg(feature = "cluster")]
             Self::SharedQueue(_) => true,

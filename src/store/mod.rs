@@ -31,12 +31,12 @@ pub mod limits;
 #[cfg(feature = "cluster")]
 pub mod machines;
 pub mod marks;
+mod migrations;
 pub mod models;
 mod objects;
 mod packages;
 mod packed;
 mod postgres;
-pub mod queue;
 mod readiness;
 pub mod reductions;
 mod refusal;
@@ -51,6 +51,7 @@ pub mod states;
 pub mod status;
 mod stored_sensor;
 mod stress;
+pub mod tasks;
 #[cfg(test)]
 mod testing;
 mod time;

@@ -1,10 +1,10 @@
 //! A PostgreSQL server: opened, and its tables brought up to date.
 
 use sqlx::any::{AnyConnectOptions, AnyPoolOptions, install_default_drivers};
-use sqlx::migrate::Migrator;
 use sqlx::{AnyConnection, AnyPool, Connection, Executor};
 
 use super::error::StoreError;
+use super::migrations::POSTGRES;
 use super::session;
 #[cfg(feature = "cluster")]
 use super::shared_queue;
@@ -13,9 +13,6 @@ use super::upgrade::{Part, Upgrade};
 
 /// Connections of one process. A server has a hundred for all, unless told otherwise.
 const CONNECTIONS: u32 = 8;
-
-/// What made the tables, one after the other.
-static MIGRATIONS: Migrator = sqlx::migrate!("migrations/postgres");
 
 /// Opens the database at `url` and brings its tables up to date, while other processes that want the same wait.
 pub(super) async fn open(url: &str) -> Result<AnyPool, StoreError> {
@@ -36,7 +33,7 @@ pub(super) async fn open(url: &str) -> Result<AnyPool, StoreError> {
 pub async fn migrate(url: &str) -> Result<Vec<Upgrade>, StoreError> {
     // Of its own: its end gives up the lock that keeps others waiting, however it ends.
     let mut connection = connect(url).await?;
-    let ours = Part { name: "jobs and results", history: "_sqlx_migrations", migrations: &MIGRATIONS };
+    let ours = Part { name: "jobs and results", history: "_sqlx_migrations", migrations: &POSTGRES };
     #[cfg_attr(not(feature = "cluster"), expect(unused_mut, reason = "there is no other part"))]
     let mut upgrades = vec![ours.bring_up_to_date(&mut connection).await?];
     #[cfg(feature = "cluster")]

@@ -17,9 +17,9 @@ use sqlx::{AssertSqlSafe, Executor, PgPool};
 use super::claims::Claim;
 use super::error::StoreError;
 use super::jobs::job::JobId;
-use super::queue::{PrepareJob, RunSpeed};
 use super::session;
 use super::sqlite::PATIENCE;
+use super::tasks::{PrepareJob, RunSpeed};
 use crate::analysis::run::REVISION;
 
 /// Time between two signs of life of a worker, and how many may be missing before others get its tasks. Said here, because what

@@ -5,13 +5,16 @@ use std::path::Path;
 use std::time::Duration;
 
 use sqlx::any::{AnyConnectOptions, AnyPoolOptions, install_default_drivers};
-use sqlx::migrate::{MigrateError, Migrator};
+use sqlx::migrate::MigrateError;
+#[cfg(test)]
+use sqlx::migrate::Migrator;
 use sqlx::sqlite::{
     SqliteAutoVacuum, SqliteConnectOptions, SqliteConnection, SqliteJournalMode, SqliteSynchronous,
 };
 use sqlx::{AnyConnection, AnyPool, ConnectOptions, Connection};
 
 use super::error::StoreError;
+use super::migrations::SQLITE;
 use super::packages::count_packages;
 
 /// Name of the database in its folder.
@@ -23,9 +26,6 @@ const READERS: u32 = 8;
 /// How long a statement waits for a lock that another program holds (a backup, `vacuum`), and a request for a connection. The
 /// first is also sqlx's own choice, which connections have that are opened by their address.
 pub(super) const PATIENCE: Duration = Duration::from_secs(5);
-
-/// What made the tables, one after the other.
-static MIGRATIONS: Migrator = sqlx::migrate!("migrations/sqlite");
 
 /// Opens the database in `folder` for readers and for the one that writes, and brings its tables up to date.
 ///
@@ -107,7 +107,7 @@ async fn bring_up_to_date(folder: &Path) -> Result<(), StoreError> {
         .busy_timeout(PATIENCE)
         .connect()
         .await?;
-    MIGRATIONS.run(&mut connection).await.map_err(|error| match error {
+    SQLITE.run(&mut connection).await.map_err(|error| match error {
         MigrateError::VersionMissing(found) => {
             StoreError::NewerTables { part: "the data folder", found, known: known_version() }
         }
@@ -120,7 +120,7 @@ async fn bring_up_to_date(folder: &Path) -> Result<(), StoreError> {
 
 /// The version that this program brings tables to.
 pub(super) fn known_version() -> i64 {
-    MIGRATIONS.iter().map(|migration| migration.version).max().unwrap_or_default()
+    SQLITE.iter().map(|migration| migration.version).max().unwrap_or_default()
 }
 
 /// The version of the tables of `database`, which has some.
@@ -160,7 +160,7 @@ mod tests {
         let file = folder.path().join("rubmap.sqlite");
         let options = SqliteConnectOptions::new().filename(file).create_if_missing(true).foreign_keys(true);
         let pool = SqlitePool::connect_with(options).await.unwrap();
-        let older = MIGRATIONS.iter().filter(|migration| migration.version < version).cloned().collect();
+        let older = SQLITE.iter().filter(|migration| migration.version < version).cloned().collect();
         Migrator::with_migrations(older).run(&pool).await.unwrap();
         sqlx::query(
             "insert into jobs (id, kind, status, model, modes_per_speed, facts, request, speeds, created_at,

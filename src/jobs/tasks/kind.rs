@@ -1,33 +1,22 @@
-//! What distinguishes tasks from each other.
+//! Kinds of tasks that machines share.
 
-#[cfg(feature = "cluster")]
 use crate::analysis::run::vectors;
-use crate::store::jobs::JobId;
 
-/// Which tasks a worker takes.
+/// Tasks that a worker takes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::jobs) enum Kind {
-    /// Of jobs that any processor may compute.
+    /// Tasks of jobs that any processor may compute.
     Any,
-    /// Of jobs that belong to processors with the vectors of this one.
-    #[cfg(feature = "cluster")]
+    /// Tasks of jobs that belong to processors with the vectors of this one.
     OfThisProcessor,
 }
 
-#[cfg(feature = "cluster")]
 impl Kind {
+    /// All kinds, each with workers of its own.
+    pub(in crate::jobs) const ALL: [Self; 2] = [Self::Any, Self::OfThisProcessor];
+
     /// The vectors that a processor must have; none where any will do.
     pub(super) fn vectors(self) -> Option<String> {
         (self == Self::OfThisProcessor).then(vectors)
     }
-}
-
-/// A job, as far as its tasks go.
-#[derive(Debug, Clone, Copy)]
-pub(in crate::jobs) struct Whose<'a> {
-    pub(in crate::jobs) owner: &'a str,
-    pub(in crate::jobs) job: JobId,
-    /// Whether only processors with the vectors of this one may take its speeds.
-    #[cfg(feature = "cluster")]
-    pub(in crate::jobs) one_kind: bool,
 }

@@ -1,21 +1,28 @@
 //! Tasks on their way to the workers: those of this process, or of all machines that share a database.
 
+#[cfg(feature = "cluster")]
 mod awake;
+#[cfg(feature = "cluster")]
 mod kind;
 mod own;
 mod place;
 #[cfg(feature = "cluster")]
 mod shared;
+mod whose;
 
 use self::place::Place;
+use crate::store::Store;
 use crate::store::jobs::JobId;
-use crate::store::queue::{Queue, RunSpeed};
-use crate::store::{Store, StoreError};
+use crate::store::tasks::RunSpeed;
 
-pub(super) use self::kind::{Kind, Whose};
-pub(super) use self::own::{OwnTasks, preparations_at_once};
+#[cfg(feature = "cluster")]
+pub(super) use self::kind::Kind;
+#[cfg(feature = "cluster")]
+pub(super) use self::own::preparations_at_once;
+pub(super) use self::own::{Line, OwnTasks};
 #[cfg(feature = "cluster")]
 pub(super) use self::shared::SharedTasks;
+pub(super) use self::whose::Whose;
 
 /// Tasks on their way to the workers.
 #[derive(Debug)]
@@ -28,23 +35,23 @@ pub(super) enum Tasks {
 }
 
 impl Tasks {
-    /// Those of this process, with so many threads that compute, unless the store is shared.
-    pub(super) async fn of(store: &Store, threads: usize) -> Result<Self, StoreError> {
+    /// Tasks of this process, with so many threads that compute, unless the store is shared.
+    pub(super) fn of(store: &Store, threads: usize) -> Self {
         #[cfg(feature = "cluster")]
         if let Some(queue) = store.shared_queue() {
-            return Ok(Self::Shared(SharedTasks::new(queue.clone())));
+            return Self::Shared(SharedTasks::new(queue.clone()));
         }
         #[cfg(not(feature = "cluster"))]
         let _ = store;
-        Ok(Self::Own(OwnTasks::new(Queue::create().await?, threads)))
+        Self::Own(OwnTasks::new(threads))
     }
 
-    /// Kinds of tasks there are, each with workers of its own.
-    pub(super) fn kinds(&self) -> &'static [Kind] {
+    /// Tasks of this process alone, if they are.
+    pub(super) fn own(&self) -> Option<&OwnTasks> {
         match self {
-            Self::Own(_) => &[Kind::Any],
+            Self::Own(tasks) => Some(tasks),
             #[cfg(feature = "cluster")]
-            Self::Shared(_) => &[Kind::Any, Kind::OfThisProcessor],
+            Self::Shared(_) => None,
         }
     }
 
@@ -53,28 +60,10 @@ impl Tasks {
         !matches!(self, Self::Own(_))
     }
 
-    /// Hands out tasks, one after the other ends; of shared ones that is done where they are.
-    pub(super) async fn hand_out(&self) {
-        match self {
-            Self::Own(tasks) => tasks.hand_out().await,
-            #[cfg(feature = "cluster")]
-            Self::Shared(_) => {}
-        }
-    }
-
     /// Gives others what this process has of tasks that are shared.
     pub(super) async fn give_back(&self) {
         match self {
             Self::Own(_) => {}
-            #[cfg(feature = "cluster")]
-            Self::Shared(tasks) => tasks.give_back().await,
-        }
-    }
-
-    /// Ends it: this process takes no more tasks, and others get those that it has.
-    pub(super) async fn close(&self) {
-        match self {
-            Self::Own(tasks) => tasks.close().await,
             #[cfg(feature = "cluster")]
             Self::Shared(tasks) => tasks.give_back().await,
         }

@@ -8,14 +8,15 @@ use apalis_postgres::PostgresStorage;
 use tokio::sync::Notify;
 
 use super::awake::Awake;
-use super::kind::{Kind, Whose};
+use super::kind::Kind;
+use super::whose::Whose;
 use crate::analysis::run::vectors;
 use crate::jobs::patience::until_taken;
 use crate::store::StoreError;
 use crate::store::jobs::JobId;
 use crate::store::machines::WorkerProcess;
-use crate::store::queue::{PrepareJob, RunSpeed};
 use crate::store::shared_queue::SharedQueue;
+use crate::store::tasks::{PrepareJob, RunSpeed};
 
 /// How often a queue is asked for tasks without having been told of any.
 const IDLE_POLL: Duration = Duration::from_secs(2);
