@@ -15,7 +15,7 @@ use super::legs::Legs;
 use super::problem::Problem;
 use super::results::{check_sensor, find, swept, wrong_kind};
 use super::state::AppState;
-use super::submit::{self, Receipt};
+use super::submit;
 use crate::analysis::request::BranchesRequest;
 use crate::analysis::result::{BranchLeg, Branches, BranchesPlan};
 use crate::jobs::Submission;
@@ -46,20 +46,7 @@ type BranchesBody = Labelled<BranchesRequest>;
             },
             "contact": {}
         }
-    })),
-    responses(
-        (status = 202, description = "The job is accepted.", body = Receipt,
-            headers(("Location" = String, description = "Path of the job."))),
-        (status = 400, description = "The body is not JSON; `errors` has line and column.", body = Problem,
-            content_type = "application/problem+json"),
-        (status = 413, description = "The body is too large.", body = Problem,
-            content_type = "application/problem+json"),
-        (status = 415, description = "The body is not declared as application/json.", body = Problem,
-            content_type = "application/problem+json"),
-        (status = 422, description = "A field is unknown, missing or impossible, the model is unknown (`errors` \
-            points at each), or the idempotency key belongs to another request.", body = Problem,
-            content_type = "application/problem+json"),
-    ))]
+    })))]
 pub(super) async fn create_branches(
     state: State<AppState>,
     whose: Principal,
@@ -79,14 +66,6 @@ pub(super) async fn create_branches(
     request_body = BranchesBody,
     responses(
         (status = 200, description = "The plan.", body = BranchesPlan),
-        (status = 400, description = "The body is not JSON; `errors` has line and column.", body = Problem,
-            content_type = "application/problem+json"),
-        (status = 413, description = "The body is too large.", body = Problem,
-            content_type = "application/problem+json"),
-        (status = 415, description = "The body is not declared as application/json.", body = Problem,
-            content_type = "application/problem+json"),
-        (status = 422, description = "As for `POST /v1/branches`.", body = Problem,
-            content_type = "application/problem+json"),
     ))]
 pub(super) async fn plan_branches(
     State(state): State<AppState>,
@@ -116,10 +95,6 @@ pub(super) struct BranchesQuery {
     params(("id" = String, Path, description = "Id of branches."), BranchesQuery, DownloadQuery),
     responses(
         (status = 200, description = "The branches.", body = Branches),
-        (status = 400, description = "A parameter is not valid.", body = Problem,
-            content_type = "application/problem+json"),
-        (status = 404, description = "There is no such job.", body = Problem,
-            content_type = "application/problem+json"),
         (status = 409, description = "The job is of another kind, or has no point yet.", body = Problem,
             content_type = "application/problem+json"),
     ))]

@@ -15,7 +15,7 @@ use super::labels::Labelled;
 use super::problem::{Problem, excerpt};
 use super::results::{find, wrong_kind};
 use super::state::AppState;
-use super::submit::{self, Receipt};
+use super::submit;
 use crate::analysis::request::CampaignRequest;
 use crate::analysis::result::{Campaign, CampaignPlan};
 use crate::analysis::run;
@@ -59,14 +59,6 @@ type CampaignBody = Labelled<CampaignRequest>;
         "threshold": {"parameter": "clearance", "probability": 0.95, "within": 0.01}
     })),
     responses(
-        (status = 202, description = "The job is accepted.", body = Receipt,
-            headers(("Location" = String, description = "Path of the job."))),
-        (status = 400, description = "The body is not JSON; `errors` has line and column.", body = Problem,
-            content_type = "application/problem+json"),
-        (status = 413, description = "The body is too large.", body = Problem,
-            content_type = "application/problem+json"),
-        (status = 415, description = "The body is not declared as application/json.", body = Problem,
-            content_type = "application/problem+json"),
         (status = 422, description = "A field is unknown, missing or impossible, also of a single design, the model is unknown \
             (`errors` points at each), or the idempotency key belongs to another request.", body = Problem,
             content_type = "application/problem+json"),
@@ -90,14 +82,6 @@ pub(super) async fn create_campaign(
     request_body = CampaignBody,
     responses(
         (status = 200, description = "The plan.", body = CampaignPlan),
-        (status = 400, description = "The body is not JSON; `errors` has line and column.", body = Problem,
-            content_type = "application/problem+json"),
-        (status = 413, description = "The body is too large.", body = Problem,
-            content_type = "application/problem+json"),
-        (status = 415, description = "The body is not declared as application/json.", body = Problem,
-            content_type = "application/problem+json"),
-        (status = 422, description = "As for `POST /v1/campaigns`.", body = Problem,
-            content_type = "application/problem+json"),
     ))]
 pub(super) async fn plan_campaign(
     State(state): State<AppState>,
@@ -124,10 +108,6 @@ pub(super) struct CampaignQuery {
     params(("id" = String, Path, description = "Id of a campaign."), CampaignQuery, DownloadQuery),
     responses(
         (status = 200, description = "The campaign.", body = Campaign),
-        (status = 400, description = "A parameter is not valid.", body = Problem,
-            content_type = "application/problem+json"),
-        (status = 404, description = "There is no such job.", body = Problem,
-            content_type = "application/problem+json"),
         (status = 409, description = "The job is of another kind.", body = Problem,
             content_type = "application/problem+json"),
     ))]

@@ -12,7 +12,7 @@ use super::problem::{Kind, Problem};
 use super::results::{find, sweep};
 use super::state::AppState;
 use super::stream;
-use super::submit::{self, Receipt};
+use super::submit;
 use crate::analysis::request::{CaseStudyRequest, HistoriesRequest, HistorySpeeds};
 use crate::analysis::resolved::ResolvedSweep;
 use crate::analysis::run;
@@ -43,20 +43,7 @@ type CaseStudyBody = Labelled<CaseStudyRequest>;
             "contact": {}
         },
         "record": {"revolutions": [0, 10], "quantities": ["displacement", "velocity", "contact_force", "contact", "energy"]}
-    })),
-    responses(
-        (status = 202, description = "The job is accepted.", body = Receipt,
-            headers(("Location" = String, description = "Path of the job."))),
-        (status = 400, description = "The body is not JSON; `errors` has line and column.", body = Problem,
-            content_type = "application/problem+json"),
-        (status = 413, description = "The body is too large.", body = Problem,
-            content_type = "application/problem+json"),
-        (status = 415, description = "The body is not declared as application/json.", body = Problem,
-            content_type = "application/problem+json"),
-        (status = 422, description = "A field is unknown, missing or impossible, the model is unknown (`errors` \
-            points at each), or the idempotency key belongs to another request.", body = Problem,
-            content_type = "application/problem+json"),
-    ))]
+    })))]
 pub(super) async fn create_case_study(
     state: State<AppState>,
     whose: Principal,
@@ -80,17 +67,7 @@ pub(super) async fn create_case_study(
     ),
     request_body(content = HistoriesRequest, example = json!({"speeds": "critical"})),
     responses(
-        (status = 202, description = "The job is accepted.", body = Receipt,
-            headers(("Location" = String, description = "Path of the job."))),
-        (status = 400, description = "The body is not JSON; `errors` has line and column.", body = Problem,
-            content_type = "application/problem+json"),
-        (status = 404, description = "There is no such job.", body = Problem,
-            content_type = "application/problem+json"),
         (status = 409, description = "The job is not a sweep, or not successful.", body = Problem,
-            content_type = "application/problem+json"),
-        (status = 413, description = "The body is too large.", body = Problem,
-            content_type = "application/problem+json"),
-        (status = 415, description = "The body is not declared as application/json.", body = Problem,
             content_type = "application/problem+json"),
         (status = 422, description = "A field is unknown or impossible, the model is gone (`errors` points at each), or the \
             idempotency key belongs to another request.", body = Problem, content_type = "application/problem+json"),

@@ -38,8 +38,6 @@ impl FromRequest<AppState> for CsvBody {
     request_body(content = CasingTable, content_type = "text/csv"),
     responses(
         (status = 200, description = "The shape, and what stands out of it.", body = MeasuredCasing),
-        (status = 413, description = "The body is too large.", body = Problem,
-            content_type = "application/problem+json"),
         (status = 415, description = "The body is not declared as text/csv.", body = Problem,
             content_type = "application/problem+json"),
         (status = 422, description = "The table cannot be read: `errors` has the line of each.", body = Problem,

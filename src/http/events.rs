@@ -60,8 +60,6 @@ struct JobEvent {
     responses(
         (status = 200, description = "The job, each time that it has changed.", body = JobEvent,
             content_type = "text/event-stream"),
-        (status = 404, description = "There is no such job.", body = Problem,
-            content_type = "application/problem+json"),
     ))]
 pub(super) async fn follow_job(
     state: State<AppState>,

@@ -64,8 +64,6 @@ pub(super) enum StaticPart {
     params(("id" = String, Path, description = "Id of a case study or sweep."), FieldsQuery, ShownQuery, DownloadQuery),
     responses(
         (status = 200, description = "The field."),
-        (status = 400, description = "A parameter is not valid.", body = Problem,
-            content_type = "application/problem+json"),
         (status = 404, description = "There is no such job, its model is deleted, or no state was recorded of that speed.",
             body = Problem, content_type = "application/problem+json"),
         (status = 409, description = "The job has no states, is not finished, or its reduction is gone.",

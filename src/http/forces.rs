@@ -50,8 +50,6 @@ enum Drawn {
     params(("id" = String, Path, description = "Id of a sweep."), ForcesQuery, DownloadQuery),
     responses(
         (status = 200, description = "The map.", body = ForceMap),
-        (status = 404, description = "There is no such job.", body = Problem,
-            content_type = "application/problem+json"),
         (status = 409, description = "The job is not a sweep.", body = Problem,
             content_type = "application/problem+json"),
     ))]

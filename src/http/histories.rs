@@ -74,8 +74,6 @@ pub(super) enum HistoriesBody {
     params(("id" = String, Path, description = "Id of a case study, sweep or study."), HistoriesQuery, DownloadQuery),
     responses(
         (status = 200, description = "The histories.", body = HistoriesBody),
-        (status = 400, description = "A parameter is not valid.", body = Problem,
-            content_type = "application/problem+json"),
         (status = 404, description = "There is no such job, or nothing was recorded of that speed.", body = Problem,
             content_type = "application/problem+json"),
         (status = 409, description = "The job has no histories, is not finished, or ended without this result.",

@@ -60,8 +60,6 @@ pub(super) struct JobList {
 #[utoipa::path(get, path = "/v1/jobs", operation_id = "list_jobs", tag = "jobs", params(JobQuery),
     responses(
         (status = 200, description = "A page of jobs, newest first.", body = JobList),
-        (status = 400, description = "A parameter is not valid.", body = Problem,
-            content_type = "application/problem+json"),
     ))]
 pub(super) async fn list_jobs(
     state: State<AppState>,
@@ -99,8 +97,6 @@ fn tell_phase(state: &AppState, job: &mut JobHead) {
     params(("id" = String, Path, description = "Id of the job.")),
     responses(
         (status = 200, description = "The job.", body = JobDetail),
-        (status = 404, description = "There is no such job.", body = Problem,
-            content_type = "application/problem+json"),
     ))]
 pub(super) async fn get_job(
     state: State<AppState>,
@@ -132,12 +128,6 @@ pub(super) async fn detail(state: &AppState, mut job: Job) -> Result<JobDetail, 
     request_body(content((LabelPatch = "application/merge-patch+json"), (LabelPatch = "application/json"))),
     responses(
         (status = 200, description = "The job as it is called now.", body = JobDetail),
-        (status = 400, description = "The body is not JSON; `errors` has line and column.", body = Problem,
-            content_type = "application/problem+json"),
-        (status = 404, description = "There is no such job.", body = Problem,
-            content_type = "application/problem+json"),
-        (status = 413, description = "The body is too large.", body = Problem,
-            content_type = "application/problem+json"),
         (status = 415, description = "The body is not declared as JSON.", body = Problem,
             content_type = "application/problem+json"),
         (status = 422, description = "A field is unknown or impossible: `errors` points at it.", body = Problem,
@@ -164,8 +154,6 @@ pub(super) async fn label_job(
     params(("id" = String, Path, description = "Id of the job.")),
     responses(
         (status = 200, description = "The job, which is set aside.", body = JobDetail),
-        (status = 404, description = "There is no such job.", body = Problem,
-            content_type = "application/problem+json"),
         (status = 409, description = "The job has ended.", body = Problem,
             content_type = "application/problem+json"),
     ))]
@@ -184,8 +172,6 @@ pub(super) async fn pause_job(
     params(("id" = String, Path, description = "Id of the job.")),
     responses(
         (status = 200, description = "The job, which waits for its turn or is computed.", body = JobDetail),
-        (status = 404, description = "There is no such job.", body = Problem,
-            content_type = "application/problem+json"),
         (status = 409, description = "The job has ended.", body = Problem,
             content_type = "application/problem+json"),
     ))]
@@ -233,8 +219,6 @@ pub(super) struct DeletionQuery {
         (status = 200, description = "The job had not ended and is dismissed, or is only to be cancelled and has ended.",
             body = JobDetail),
         (status = 204, description = "The job had ended; it is gone with its results."),
-        (status = 404, description = "There is no such job.", body = Problem,
-            content_type = "application/problem+json"),
     ))]
 pub(super) async fn delete_job(
     state: State<AppState>,

@@ -38,10 +38,6 @@ const DRAWN_MEMORY: u64 = 3;
     params(("id" = String, Path, description = "Id of a sweep."), MapQuery, DownloadQuery),
     responses(
         (status = 200, description = "The map.", body = MapBody),
-        (status = 400, description = "A parameter is not valid.", body = Problem,
-            content_type = "application/problem+json"),
-        (status = 404, description = "There is no such job.", body = Problem,
-            content_type = "application/problem+json"),
         (status = 409, description = "The job is not a sweep.", body = Problem,
             content_type = "application/problem+json"),
     ))]

@@ -33,10 +33,6 @@ pub(super) struct MeshQuery {
     params(("id" = String, Path, description = "Id of the model."), MeshQuery, DownloadQuery),
     responses(
         (status = 200, description = "The mesh."),
-        (status = 400, description = "A parameter is not valid.", body = Problem,
-            content_type = "application/problem+json"),
-        (status = 404, description = "There is no such model.", body = Problem,
-            content_type = "application/problem+json"),
     ))]
 pub(super) async fn get_mesh(
     state: State<AppState>,

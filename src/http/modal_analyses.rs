@@ -9,7 +9,7 @@ use super::idempotency::IdempotencyKey;
 use super::labels::Labelled;
 use super::problem::Problem;
 use super::state::AppState;
-use super::submit::{self, Receipt};
+use super::submit;
 use crate::analysis::request::ModalAnalysisRequest;
 use crate::analysis::run::ModalAnalysisPlan;
 use crate::jobs::Submission;
@@ -29,20 +29,7 @@ type ModalAnalysisBody = Labelled<ModalAnalysisRequest>;
         "superharmonics": [1, 2, 3],
         "lobes": 2,
         "speeds": {"from": 0.0, "to": 36000.0, "count": 37, "unit": "rpm"}
-    })),
-    responses(
-        (status = 202, description = "The job is accepted.", body = Receipt,
-            headers(("Location" = String, description = "Path of the job."))),
-        (status = 400, description = "The body is not JSON; `errors` has line and column.", body = Problem,
-            content_type = "application/problem+json"),
-        (status = 413, description = "The body is too large.", body = Problem,
-            content_type = "application/problem+json"),
-        (status = 415, description = "The body is not declared as application/json.", body = Problem,
-            content_type = "application/problem+json"),
-        (status = 422, description = "A field is unknown, missing or impossible, the model is unknown (`errors` \
-            points at each), or the idempotency key belongs to another request.", body = Problem,
-            content_type = "application/problem+json"),
-    ))]
+    })))]
 pub(super) async fn create_modal_analysis(
     state: State<AppState>,
     whose: Principal,
@@ -61,14 +48,6 @@ pub(super) async fn create_modal_analysis(
     request_body(content = ModalAnalysisBody),
     responses(
         (status = 200, description = "The plan.", body = ModalAnalysisPlan),
-        (status = 400, description = "The body is not JSON; `errors` has line and column.", body = Problem,
-            content_type = "application/problem+json"),
-        (status = 413, description = "The body is too large.", body = Problem,
-            content_type = "application/problem+json"),
-        (status = 415, description = "The body is not declared as application/json.", body = Problem,
-            content_type = "application/problem+json"),
-        (status = 422, description = "A field is unknown, missing or impossible, or the model is unknown: `errors` points \
-            at each.", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(super) async fn plan_modal_analysis(
     state: State<AppState>,

@@ -199,14 +199,6 @@ pub(super) async fn create_model(
     request_body(content = GenerationBody),
     responses(
         (status = 200, description = "The plan.", body = GenerationPlan),
-        (status = 400, description = "The body is not JSON; `errors` has line and column.", body = Problem,
-            content_type = "application/problem+json"),
-        (status = 413, description = "The body is too large.", body = Problem,
-            content_type = "application/problem+json"),
-        (status = 415, description = "The body is not declared as application/json.", body = Problem,
-            content_type = "application/problem+json"),
-        (status = 422, description = "A parameter is unknown or impossible: `errors` points at it.", body = Problem,
-            content_type = "application/problem+json"),
     ))]
 pub(super) async fn plan_model_generation(
     state: State<AppState>,
@@ -250,8 +242,6 @@ fn too_large(limit: u64) -> Problem {
 #[utoipa::path(get, path = "/v1/models", operation_id = "list_models", tag = "models", params(ModelQuery),
     responses(
         (status = 200, description = "A page of models, newest first.", body = ModelList),
-        (status = 400, description = "A parameter is not valid.", body = Problem,
-            content_type = "application/problem+json"),
     ))]
 pub(super) async fn list_models(
     state: State<AppState>,
@@ -281,8 +271,6 @@ pub(super) async fn list_models(
     params(("id" = String, Path, description = "Id of the model.")),
     responses(
         (status = 200, description = "The model.", body = ModelDetail),
-        (status = 404, description = "There is no such model.", body = Problem,
-            content_type = "application/problem+json"),
     ))]
 pub(super) async fn get_model(
     state: State<AppState>,
@@ -303,12 +291,6 @@ pub(super) async fn get_model(
     request_body(content((LabelPatch = "application/merge-patch+json"), (LabelPatch = "application/json"))),
     responses(
         (status = 200, description = "The model as it is called now.", body = ModelDetail),
-        (status = 400, description = "The body is not JSON; `errors` has line and column.", body = Problem,
-            content_type = "application/problem+json"),
-        (status = 404, description = "There is no such model.", body = Problem,
-            content_type = "application/problem+json"),
-        (status = 413, description = "The body is too large.", body = Problem,
-            content_type = "application/problem+json"),
         (status = 415, description = "The body is not declared as JSON.", body = Problem,
             content_type = "application/problem+json"),
         (status = 422, description = "A field is unknown or impossible: `errors` points at it.", body = Problem,
@@ -333,8 +315,6 @@ pub(super) async fn label_model(
     params(("id" = String, Path, description = "Id of the model.")),
     responses(
         (status = 204, description = "The model is gone."),
-        (status = 404, description = "There is no such model.", body = Problem,
-            content_type = "application/problem+json"),
         (status = 409, description = "Unfinished jobs need the model.", body = Problem,
             content_type = "application/problem+json"),
     ))]

@@ -85,10 +85,6 @@ pub(super) struct ModesBody {
     params(("id" = String, Path, description = "Id of the model."), ModesQuery, ShownQuery, DownloadQuery),
     responses(
         (status = 200, description = "The mode, or the list.", body = ModesBody),
-        (status = 400, description = "A parameter is not valid.", body = Problem,
-            content_type = "application/problem+json"),
-        (status = 404, description = "There is no such model.", body = Problem,
-            content_type = "application/problem+json"),
         (status = 409, description = "The model has no such reduction.", body = Problem,
             content_type = "application/problem+json"),
         (status = 422, description = "The wheel has no modes at that speed.", body = Problem,

@@ -6,6 +6,7 @@ use axum::response::IntoResponse;
 use utoipa::OpenApi;
 
 use super::state::AppState;
+use super::submit::Receipt;
 
 /// All that the document says beside its paths.
 #[derive(OpenApi)]
@@ -23,6 +24,7 @@ use super::state::AppState;
             the service's, and with 408 if its body stops coming. Every answer has an `X-Request-Id`, which is the client's \
             own if it sent one of 1 to 64 visible ASCII characters, and under which the service's log has the request.",
     ),
+    components(schemas(Receipt)),
     tags(
         (name = "models", description = "Impeller sectors."),
         (name = "jobs", description = "Computations on them."),

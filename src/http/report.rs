@@ -41,10 +41,6 @@ const MAP_MEMORY: u64 = 3;
     params(("id" = String, Path, description = "Id of a sweep or of a modal analysis."), SensorQuery),
     responses(
         (status = 200, description = "The page.", body = String, content_type = "text/html"),
-        (status = 400, description = "A parameter is not valid.", body = Problem,
-            content_type = "application/problem+json"),
-        (status = 404, description = "There is no such job.", body = Problem,
-            content_type = "application/problem+json"),
         (status = 409, description = "The job is neither a sweep nor a modal analysis, or it is not successful.",
             body = Problem, content_type = "application/problem+json"),
     ))]

@@ -78,10 +78,6 @@ impl RankQuery {
     params(("id" = String, Path, description = "Id of a sweep."), SensorQuery, RankQuery, DownloadQuery),
     responses(
         (status = 200, description = "The table.", body = CriticalSpeeds),
-        (status = 400, description = "A parameter is not valid.", body = Problem,
-            content_type = "application/problem+json"),
-        (status = 404, description = "There is no such job.", body = Problem,
-            content_type = "application/problem+json"),
         (status = 409, description = "The job is not a sweep, not finished, or ended without this result.",
             body = Problem, content_type = "application/problem+json"),
     ))]
@@ -145,8 +141,6 @@ impl FrameWord {
     params(("id" = String, Path, description = "Id of a modal analysis."), CampbellQuery, DownloadQuery),
     responses(
         (status = 200, description = "The Campbell data.", body = Campbell),
-        (status = 404, description = "There is no such job.", body = Problem,
-            content_type = "application/problem+json"),
         (status = 409, description = "The job is not a modal analysis, not finished, or ended without this result.",
             body = Problem, content_type = "application/problem+json"),
     ))]

@@ -15,7 +15,7 @@ use super::legs::Legs;
 use super::problem::{Kind, Problem};
 use super::results::{check_sensor, find, swept, wrong_kind};
 use super::state::AppState;
-use super::submit::{self, Receipt};
+use super::submit;
 use crate::analysis::request::RunUpRequest;
 use crate::analysis::resolved::ResolvedRunUps;
 use crate::analysis::result::{RunUpLeg, RunUpPlan, RunUps, Spectrogram};
@@ -51,20 +51,7 @@ type RunUpBody = Labelled<RunUpRequest>;
             "contact": {}
         },
         "limit": 0.5
-    })),
-    responses(
-        (status = 202, description = "The job is accepted.", body = Receipt,
-            headers(("Location" = String, description = "Path of the job."))),
-        (status = 400, description = "The body is not JSON; `errors` has line and column.", body = Problem,
-            content_type = "application/problem+json"),
-        (status = 413, description = "The body is too large.", body = Problem,
-            content_type = "application/problem+json"),
-        (status = 415, description = "The body is not declared as application/json.", body = Problem,
-            content_type = "application/problem+json"),
-        (status = 422, description = "A field is unknown, missing or impossible, the model is unknown (`errors` \
-            points at each), or the idempotency key belongs to another request.", body = Problem,
-            content_type = "application/problem+json"),
-    ))]
+    })))]
 pub(super) async fn create_run_ups(
     state: State<AppState>,
     whose: Principal,
@@ -84,14 +71,6 @@ pub(super) async fn create_run_ups(
     request_body = RunUpBody,
     responses(
         (status = 200, description = "The plan.", body = RunUpPlan),
-        (status = 400, description = "The body is not JSON; `errors` has line and column.", body = Problem,
-            content_type = "application/problem+json"),
-        (status = 413, description = "The body is too large.", body = Problem,
-            content_type = "application/problem+json"),
-        (status = 415, description = "The body is not declared as application/json.", body = Problem,
-            content_type = "application/problem+json"),
-        (status = 422, description = "As for `POST /v1/run-ups`.", body = Problem,
-            content_type = "application/problem+json"),
     ))]
 pub(super) async fn plan_run_ups(
     State(state): State<AppState>,
@@ -121,10 +100,6 @@ pub(super) struct RunUpsQuery {
     params(("id" = String, Path, description = "Id of run-ups."), RunUpsQuery, DownloadQuery),
     responses(
         (status = 200, description = "The run-ups.", body = RunUps),
-        (status = 400, description = "A parameter is not valid.", body = Problem,
-            content_type = "application/problem+json"),
-        (status = 404, description = "There is no such job.", body = Problem,
-            content_type = "application/problem+json"),
         (status = 409, description = "The job is of another kind, or has no frame yet.", body = Problem,
             content_type = "application/problem+json"),
     ))]
@@ -185,10 +160,6 @@ pub(super) enum Over {
     params(("id" = String, Path, description = "Id of run-ups."), SpectrogramQuery, DownloadQuery),
     responses(
         (status = 200, description = "The spectrogram.", body = Spectrogram),
-        (status = 400, description = "A parameter is not valid.", body = Problem,
-            content_type = "application/problem+json"),
-        (status = 404, description = "There is no such job.", body = Problem,
-            content_type = "application/problem+json"),
         (status = 409, description = "The job is of another kind, or has no frame of this run yet.", body = Problem,
             content_type = "application/problem+json"),
     ))]

@@ -51,8 +51,6 @@ pub(super) enum ViewWord {
     params(("id" = String, Path, description = "Id of the model."), SectionQuery, DownloadQuery),
     responses(
         (status = 200, description = "The sector.", body = SectorGeometry),
-        (status = 404, description = "There is no such model.", body = Problem,
-            content_type = "application/problem+json"),
     ))]
 pub(super) async fn get_section(
     state: State<AppState>,

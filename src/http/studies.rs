@@ -13,7 +13,7 @@ use super::labels::Labelled;
 use super::problem::Problem;
 use super::results::{find, wrong_kind};
 use super::state::AppState;
-use super::submit::{self, Receipt};
+use super::submit;
 use crate::analysis::request::StudyRequest;
 use crate::analysis::resolved::ResolvedStudy;
 use crate::analysis::result::Quantity;
@@ -77,20 +77,7 @@ pub(super) enum Over {
             "schemes": ["exact_modal", "massless_boundary", "central_differences"]
         },
         "history_revolutions": 3
-    })),
-    responses(
-        (status = 202, description = "The job is accepted.", body = Receipt,
-            headers(("Location" = String, description = "Path of the job."))),
-        (status = 400, description = "The body is not JSON; `errors` has line and column.", body = Problem,
-            content_type = "application/problem+json"),
-        (status = 413, description = "The body is too large.", body = Problem,
-            content_type = "application/problem+json"),
-        (status = 415, description = "The body is not declared as application/json.", body = Problem,
-            content_type = "application/problem+json"),
-        (status = 422, description = "A field is unknown, missing or impossible, the model is unknown (`errors` \
-            points at each), or the idempotency key belongs to another request.", body = Problem,
-            content_type = "application/problem+json"),
-    ))]
+    })))]
 pub(super) async fn create_study(
     state: State<AppState>,
     whose: Principal,
@@ -109,10 +96,6 @@ pub(super) async fn create_study(
     params(("id" = String, Path, description = "Id of a study."), WorkPrecisionQuery, DownloadQuery),
     responses(
         (status = 200, description = "Errors and times of every setting.", body = WorkPrecision),
-        (status = 400, description = "A parameter is not valid.", body = Problem,
-            content_type = "application/problem+json"),
-        (status = 404, description = "There is no such job.", body = Problem,
-            content_type = "application/problem+json"),
         (status = 409, description = "The job is not a study, not finished, or ended without this result.",
             body = Problem, content_type = "application/problem+json"),
     ))]

@@ -9,7 +9,7 @@ use super::idempotency::IdempotencyKey;
 use super::labels::Labelled;
 use super::problem::Problem;
 use super::state::AppState;
-use super::submit::{self, Receipt};
+use super::submit;
 use crate::analysis::request::SweepRequest;
 use crate::analysis::run::SweepPlan;
 use crate::jobs::Submission;
@@ -48,20 +48,7 @@ type SweepBody = Labelled<SweepRequest>;
             {"contact_node": 9, "sector": 0, "component": "radial"}
         ],
         "max_engine_order": 24
-    })),
-    responses(
-        (status = 202, description = "The job is accepted.", body = Receipt,
-            headers(("Location" = String, description = "Path of the job."))),
-        (status = 400, description = "The body is not JSON; `errors` has line and column.", body = Problem,
-            content_type = "application/problem+json"),
-        (status = 413, description = "The body is too large.", body = Problem,
-            content_type = "application/problem+json"),
-        (status = 415, description = "The body is not declared as application/json.", body = Problem,
-            content_type = "application/problem+json"),
-        (status = 422, description = "A field is unknown, missing or impossible, the model is unknown (`errors` \
-            points at each), or the idempotency key belongs to another request.", body = Problem,
-            content_type = "application/problem+json"),
-    ))]
+    })))]
 pub(super) async fn create_sweep(
     state: State<AppState>,
     whose: Principal,
@@ -82,14 +69,6 @@ pub(super) async fn create_sweep(
     request_body(content = SweepBody),
     responses(
         (status = 200, description = "The plan.", body = SweepPlan),
-        (status = 400, description = "The body is not JSON; `errors` has line and column.", body = Problem,
-            content_type = "application/problem+json"),
-        (status = 413, description = "The body is too large.", body = Problem,
-            content_type = "application/problem+json"),
-        (status = 415, description = "The body is not declared as application/json.", body = Problem,
-            content_type = "application/problem+json"),
-        (status = 422, description = "A field is unknown, missing or impossible, or the model is unknown: `errors` points \
-            at each.", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(super) async fn plan_sweep(
     state: State<AppState>,

@@ -20,10 +20,6 @@ use crate::tokens::Principal;
     params(("id" = String, Path, description = "Id of a sweep."), RankQuery, DownloadQuery),
     responses(
         (status = 200, description = "The table.", body = WheelCriticalSpeeds),
-        (status = 400, description = "A parameter is not valid.", body = Problem,
-            content_type = "application/problem+json"),
-        (status = 404, description = "There is no such job.", body = Problem,
-            content_type = "application/problem+json"),
         (status = 409, description = "The job is not a sweep, not finished, ended without this result, or is of an earlier version.",
             body = Problem, content_type = "application/problem+json"),
     ))]

@@ -195,7 +195,11 @@ async fn the_contract_names_the_forms_that_a_route_has() {
         ("/v1/jobs/{id}/fields", &sweep, "speed=0&engine_order=2"),
     ] {
         let parameters = contract["paths"][route]["get"]["parameters"].as_array().unwrap();
-        let format = parameters.iter().find(|parameter| parameter["name"] == "format").unwrap();
+        let referred = |part: &'_ Value| match part["$ref"].as_str() {
+            Some(path) => contract.pointer(&path[1..]).unwrap().clone(),
+            None => part.clone(),
+        };
+        let format = parameters.iter().map(referred).find(|parameter| parameter["name"] == "format").unwrap();
         let named = format["schema"]["enum"].as_array().unwrap();
         for form in ["json", "csv", "npz", "svg", "png", "plotly", "vtu", "vtp", "pvd"] {
             let asked = format!("{}?format={form}&{query}", route.replace("{id}", id));

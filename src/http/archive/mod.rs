@@ -46,8 +46,6 @@ pub(super) struct ArchiveZip(Vec<u8>);
     params(("id" = String, Path, description = "Id of a job.")),
     responses(
         (status = 200, description = "The archive.", body = ArchiveZip, content_type = "application/zip"),
-        (status = 404, description = "There is no such job.", body = Problem,
-            content_type = "application/problem+json"),
         (status = 409, description = "The job is not successful, generated a model, is a case study, or its model is deleted.", body = Problem,
             content_type = "application/problem+json"),
     ))]

@@ -34,6 +34,7 @@ impl Contract {
                     contract.bodies.entry(name.to_owned()).or_insert_with(|| Shape::of(body, schemas));
                 }
                 let parameters = operation["parameters"].as_array().into_iter().flatten();
+                let parameters = parameters.map(|parameter| referred(parameter, document));
                 let parameters = parameters.filter(|parameter| parameter["in"] == "query");
                 let parameters = parameters.map(|parameter| Parameter {
                     name: parameter["name"].as_str().unwrap_or_default().to_owned(),
@@ -50,4 +51,10 @@ impl Contract {
     pub(crate) fn body(&self, name: &str) -> Option<&Shape> {
         self.bodies.get(name)
     }
+}
+
+/// The part of `document` that a reference leads to; what is no reference is itself.
+fn referred<'a>(part: &'a Value, document: &'a Value) -> &'a Value {
+    let path = part["$ref"].as_str().and_then(|path| path.strip_prefix('#'));
+    path.and_then(|path| document.pointer(path)).unwrap_or(part)
 }
