@@ -182,17 +182,19 @@ async fn a_cancelled_generation_leaves_nothing() {
 }
 
 #[tokio::test]
-async fn parameters_that_only_the_mesh_shows_to_be_impossible_fail_the_job() {
+async fn parameters_that_only_the_mesh_shows_to_be_impossible_are_refused() {
     let app = TestApp::start().await;
     let mut parameters = coarse();
     // Blades thicker than the passage between them.
     parameters["root_thickness"] = json!(200.0);
     parameters["tip_thickness"] = json!(200.0);
-    let answer = app.api.post("/v1/models", &parameters).await;
-    let job = app.api.finish(&answer.text("/id")).await;
-    assert_eq!(job["status"], "failed", "{job}");
-    assert_eq!(job["error"]["type"], "urn:rubmap:problem:invalid-request", "{job}");
-    assert!(job["error"]["detail"].as_str().unwrap().contains("thickness"), "{job}");
+    for path in ["/v1/models/plan", "/v1/models"] {
+        let refused = app.api.post(path, &parameters).await;
+        assert_eq!(refused.pointers(422, "invalid-request").len(), 1, "{path}: {}", refused.body);
+        assert!(refused.body["detail"].as_str().unwrap().contains("thickness"), "{path}: {}", refused.body);
+    }
+    parameters["sectors"] = json!(1_000_000_000_000_000_000u64);
+    assert_eq!(app.api.post("/v1/models", &parameters).await.pointers(422, "invalid-request"), ["/sectors"]);
     app.stop().await;
 }
 

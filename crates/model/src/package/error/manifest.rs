@@ -308,11 +308,6 @@ pub enum ManifestProblem {
          nodes on both faces"
     )]
     SectorsApart,
-    /// High face whose own block is in one of mass and stiffness alone.
-    #[error(
-        "one of mass and stiffness at rest has entries of the high face against itself, and the other has none: export both in the same way"
-    )]
-    BlocksDisagree,
     /// A constant that no solid has by far.
     #[error(
         "the value is {value:e}, in SI units {in_si:.3e} {unit}, and {least:e} to {most:e} {unit} are accepted, wider than any solid: \

@@ -44,9 +44,6 @@ pub(super) fn check(
         let problem = ManifestProblem::SectorsApart;
         return Err(PackageError::manifest("/cyclic", problem));
     }
-    if joint.has_high_block(stiffness) != joint.has_high_block(&package.mass) {
-        return Err(PackageError::manifest("/cyclic", ManifestProblem::BlocksDisagree));
-    }
     let stated = joint.balanced(&inner.forces, &body.stated, stiffness);
     let count = |balanced: &[bool]| balanced.iter().filter(|one| **one).count();
     if count(&stated) + FEWEST > joint.pairs.len() {
@@ -109,12 +106,6 @@ impl Joint {
         !stiffness.entries.iter().any(|&(row, column, value)| {
             value != 0.0 && (of_high(row) != of_high(column) || (of_high(row) && of_high(column)))
         })
-    }
-
-    /// Whether the high face has a block against itself.
-    fn has_high_block(&self, matrix: &RawMatrix) -> bool {
-        let both = |row: u32, column: u32| self.is_high[row as usize] && self.is_high[column as usize];
-        matrix.entries.iter().any(|&(row, column, value)| value != 0.0 && both(row, column))
     }
 
     /// The matrix without its block of the high face against itself.
