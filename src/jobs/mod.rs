@@ -1,4 +1,4 @@
-//! What a job means: how it is prepared, computed speed by speed, finished, cancelled and resumed.
+//! Life of a job: how it is prepared, computed speed by speed, finished, cancelled and resumed.
 //!
 //! ```text
 //! POST ─ Jobs::submit ─→ jobs table ─→ line `prepare`  ─→ prepare: reduction, check
@@ -40,6 +40,7 @@ mod machine;
 mod memory;
 mod modal_analysis;
 mod patience;
+mod perform;
 mod planner;
 mod plans;
 mod pool;

@@ -11,8 +11,8 @@ use tokio::task::JoinHandle;
 use tokio_util::sync::CancellationToken;
 
 use super::engine::Engine;
+use super::perform::{prepare_job, run_speed};
 use super::tasks::{Kind, Tasks, preparations_at_once};
-use super::workers::{prepare_job, run_speed};
 use crate::store::tasks::{PrepareJob, RunSpeed};
 
 /// Starts a worker for each queue and kind of tasks, with so many threads.

@@ -12,20 +12,20 @@ use tokio_util::task::TaskTracker;
 
 use super::computing::{MOST_CRASHES, pause};
 use super::engine::Engine;
+use super::error;
 use super::handle::Jobs;
 use super::memory::Memory;
+use super::perform::{prepare_job, run_speed};
 use super::pool::CpuPool;
 use super::progress::PendingReports;
 use super::tasks::{Line, OwnTasks, Tasks};
-use super::{error, prepare, speed};
 #[cfg(feature = "cluster")]
 use super::{queue_workers, share};
 use crate::store::jobs::{JobId, Unfinished};
 use crate::store::limits::Limits;
-use crate::store::tasks::RunSpeed;
 use crate::store::{Store, StoreError};
 
-/// How long tasks may take to notice that the service stops: those that compute look many times a second.
+/// Time that tasks may take to notice that the service stops: those that compute look many times a second.
 const LAST_TASKS: Duration = Duration::from_secs(1);
 
 /// Time between two writes of a job's progress. Each is a flush of the disk, and nobody looks more often.
@@ -34,20 +34,20 @@ const BETWEEN_PROGRESS: Duration = Duration::from_secs(1);
 /// Time between two looks for jobs that have been kept long enough, and for what a full disk has kept from being cleaned up.
 const BETWEEN_CLEANINGS: Duration = Duration::from_secs(60);
 
-/// How the runner is set up.
+/// Settings of the runner.
 #[derive(Debug, Clone)]
 pub struct Settings {
-    /// Threads that compute; 0 where others do, of a database that is shared.
+    /// Number of threads that compute; 0 where other processes of a shared database do.
     pub workers: usize,
-    /// Memory that computations, uploads and large downloads may take together; `None` for no limit.
+    /// Memory in bytes that computations, uploads and large downloads may take together; `None` for no limit.
     pub memory_bytes: Option<u64>,
     /// Days after which finished jobs are deleted; `None` keeps them.
     pub keep_days: Option<u32>,
-    /// What one owner may have.
+    /// Limits on what one owner may have.
     pub limits: Limits,
 }
 
-/// The running workers.
+/// Runner: the running workers.
 #[derive(Debug)]
 pub struct Runner {
     engine: Arc<Engine>,
@@ -96,7 +96,7 @@ impl Runner {
         Ok(Self { engine, stop, workers, helpers })
     }
 
-    /// The handle for `http`.
+    /// Handle for `http`.
     pub fn jobs(&self) -> Jobs {
         Jobs::new(Arc::clone(&self.engine))
     }
@@ -104,7 +104,7 @@ impl Runner {
     /// Ends running computations without finishing their jobs, which the next start resumes.
     pub async fn stop(self) {
         self.stop.cancel();
-        // Before they end, which would be taken for having done what they had.
+        // Tasks are given back before they end, which would be taken for having done what they had.
         self.engine.tasks.give_back().await;
         self.engine.stopping.store(true, Ordering::Relaxed);
         let mut workers = self.workers;
@@ -116,7 +116,7 @@ impl Runner {
             }
         };
         if tokio::time::timeout(LAST_TASKS, ended).await.is_err() {
-            // They wait for something; what they have finished is kept.
+            // The workers still wait for something; what they have finished is stored.
             workers.iter().for_each(JoinHandle::abort);
         }
         self.engine.store.stop_marking();
@@ -125,7 +125,7 @@ impl Runner {
     }
 }
 
-/// Has all unfinished jobs prepared: at once, or later those that the service died under again and again.
+/// Prepares all unfinished jobs: at once, or later those under which the service died again and again.
 async fn resume(engine: &Arc<Engine>) -> Result<(), StoreError> {
     for Unfinished { id, owner, crashes } in engine.store.unfinished_jobs().await? {
         if crashes >= MOST_CRASHES && engine.fail(id, &error::crashed(crashes)).await.is_ok() {
@@ -151,7 +151,7 @@ async fn resume(engine: &Arc<Engine>) -> Result<(), StoreError> {
 async fn keep_house(engine: Arc<Engine>, keep_days: Option<u32>) {
     let mut interval = tokio::time::interval(BETWEEN_CLEANINGS);
     interval.set_missed_tick_behavior(MissedTickBehavior::Delay);
-    // The first comes at once.
+    // The first tick comes at once.
     interval.tick().await;
     loop {
         let cleaned = async {
@@ -195,27 +195,6 @@ async fn work_off<T, F>(
     engine.counters.workers.fetch_sub(1, Ordering::Relaxed);
     running.close();
     running.wait().await;
-}
-
-/// Prepares a job.
-pub(super) async fn prepare_job(engine: Arc<Engine>, job: JobId, (): ()) {
-    let place = engine.tasks.preparing(job);
-    let wanted = engine.attend(job, || prepare::prepare(&engine, job)).await;
-    drop(place);
-    if !wanted {
-        engine.take_up_again(job).await;
-    }
-}
-
-/// Computes a speed of a job.
-pub(super) async fn run_speed(engine: Arc<Engine>, job: JobId, speed: u32) {
-    let task = RunSpeed { job, speed };
-    let place = engine.tasks.running(task);
-    let wanted = engine.attend(job, || speed::run(&engine, task)).await;
-    drop(place);
-    if !wanted {
-        engine.take_up_again(job).await;
-    }
 }
 
 /// Writes the latest progress to the store, now and then.

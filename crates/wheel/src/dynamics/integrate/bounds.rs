@@ -1,14 +1,14 @@
-//! The guard against divergence: linear structural theory is void long before a tip moves by a tenth of the wheel's radius.
+//! Guard against divergence: linear structural theory is void long before a tip moves by a tenth of the wheel's radius.
 //!
-//! Contact bounds a tip along its normal only, so every component of every contact node is looked at. That takes a
-//! projection, which the energy spares: with ω²z²(1 − ω²B/4) ≤ 2E of every mode ([`super::super::schemes`]),
+//! Contact bounds a tip along its normal only, so every component of every contact node is checked. That takes a projection, which the
+//! energy spares: with ω²z²(1 − ω²B/4) ≤ 2E of every mode ([`super::super::schemes`]),
 //!
 //! ```text
 //! (dᵀu)² ≤ 2E · Σ_i w_i² Σ_m |dᵀφ_m|² / (ω_m²(1 − ω_m²B_m/4))
 //! ```
 //!
-//! and no tip of a wheel with few sectors is near its bound in a run that is sound. Of many sectors the energy of all might be in
-//! one tip: then the sum of the amplitudes in all nodal diameters is looked at, and tip by tip only what that does not bound.
+//! and no tip of a wheel with few sectors is near its bound in a run that is sound. With many sectors the energy of all might be in one
+//! tip: then the sum of the amplitudes in all nodal diameters is checked, and tip by tip only what that does not bound.
 
 use std::fmt;
 
@@ -25,13 +25,13 @@ use rubmap_numerics::sector_fourier::SectorFourier;
 /// Component of a displacement at a contact node.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TipComponent {
-    /// Along r.
+    /// Component along r.
     Radial,
-    /// Along θ.
+    /// Component along θ.
     Tangential,
-    /// Along z.
+    /// Component along z.
     Axial,
-    /// Along the outward normal.
+    /// Component along the outward normal.
     Normal,
 }
 
@@ -46,20 +46,20 @@ impl fmt::Display for TipComponent {
     }
 }
 
-/// All of them, in the order of the rows of a node.
+/// Components of a node, in the order of its rows.
 const COMPONENTS: [TipComponent; 4] =
     [TipComponent::Normal, TipComponent::Radial, TipComponent::Tangential, TipComponent::Axial];
 
-/// A tip that moved.
+/// Displacement of a tip.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TipDisplacement {
-    /// How far, length; not finite if numbers overflowed.
+    /// Size of the displacement, length; not finite if numbers overflowed.
     pub displacement: f64,
-    /// Contact node.
+    /// Index of the contact node.
     pub contact_node: usize,
-    /// Sector.
+    /// Index of the sector.
     pub sector: usize,
-    /// Along what.
+    /// Component of the displacement.
     pub component: TipComponent,
 }
 
@@ -100,7 +100,7 @@ impl Bounds {
         }
     }
 
-    /// The tip that moved most, if that is beyond the bound or no number. `force` is that on the contact nodes in Fourier
+    /// Largest displacement of a tip, if it is beyond the bound or not a number. `force` is that on the contact nodes in Fourier
     /// coordinates, `[column][node]`.
     #[inline(always)]
     pub(super) fn exceeded<S: Simd>(
@@ -125,7 +125,7 @@ impl Bounds {
         (!largest.displacement.is_finite() || largest.displacement > self.reach).then_some(largest)
     }
 
-    /// The tip that moved most; the first whose displacement is no number, if any.
+    /// Largest displacement of a tip; the first that is not a number, if any.
     #[inline(never)]
     fn largest(&self, fourier: &SectorFourier) -> TipDisplacement {
         let stride = self.rows.stride;

@@ -1,34 +1,34 @@
-//! From steps to samples without aliasing (docs/method.md, Sampling).
+//! Decimation from steps to samples without aliasing (docs/method.md, Sampling).
 //!
-//! A sample is a weighted mean of the steps around it, the weights a windowed sinc (Kaiser): orders up to an eighth of the
-//! samples of a revolution pass within 2e-5, orders from seven eighths on, which would fold onto them, are taken down by 94 dB. What
-//! lies between folds onto orders that nobody asked for. The window is taken as periodic, as its Fourier transform takes it, so
-//! that nothing is delayed and nothing beyond it is needed.
+//! A sample is a weighted mean of the steps around it, the weights a windowed sinc (Kaiser): orders up to an eighth of the samples of a
+//! revolution pass within 2e-5, orders from seven eighths on, which would fold onto them, are taken down by 94 dB. Orders in between fold
+//! onto orders that nobody asked for. The window is taken as periodic, as its Fourier transform takes it, so that nothing is delayed and
+//! nothing beyond it is needed.
 
 use std::f64::consts::PI;
 
-/// Intervals between samples that the weights reach on either side.
+/// Number of intervals between samples that the weights reach on either side.
 const REACH: usize = 4;
 
 /// Kaiser's β for 94 dB, which takes the transition band that [`REACH`] intervals give: three quarters of the sampling rate.
 const SHAPE: f64 = 0.1102 * (94.0 - 8.7);
 
-/// Adds steps up to samples.
+/// Accumulator of steps into samples.
 #[derive(Debug)]
 pub(super) struct Decimation {
-    /// `[step within an interval][sample]`: weights on the samples from `REACH` − 1 intervals before to `REACH` after its beginning.
+    /// Weights on the samples from `REACH` − 1 intervals before to `REACH` after the beginning of an interval, `[step within an interval][sample]`.
     weights: Vec<[f64; 2 * REACH]>,
-    /// Numbers that are read at a step.
+    /// Number of values that are read at a step.
     width: usize,
     samples: usize,
-    /// `[sample][number]`
+    /// Weighted sums, `[sample][number]`.
     sums: Vec<f64>,
-    /// Steps added.
+    /// Number of steps added.
     steps: usize,
 }
 
 impl Decimation {
-    /// Of `width` numbers a step, `interval` steps a sample, to `samples` in all.
+    /// Decimation of `width` numbers a step, `interval` steps a sample, to `samples` in all.
     pub(super) fn new(width: usize, interval: usize, samples: usize) -> Self {
         let weight = |step: usize, sample: usize| {
             kernel(sample as f64 - (REACH - 1) as f64 - step as f64 / interval as f64)
@@ -41,7 +41,7 @@ impl Decimation {
         Self { weights, width, samples, sums: vec![0.0; width * samples], steps: 0 }
     }
 
-    /// To so many samples instead, before any step is added.
+    /// Reduces the number of samples to `samples`, before any step is added.
     pub(super) fn shorten(&mut self, samples: usize) {
         self.samples = samples;
         self.sums.truncate(self.width * samples);
@@ -65,13 +65,13 @@ impl Decimation {
         }
     }
 
-    /// All samples of the number of this index.
+    /// Samples of the number with index `number`.
     pub(super) fn line(&self, number: usize) -> Vec<f64> {
         self.sums.iter().skip(number).step_by(self.width).copied().collect()
     }
 }
 
-/// sinc, cut by Kaiser's window, `intervals` from its middle.
+/// Weight sinc, cut by Kaiser's window, `intervals` from its middle.
 fn kernel(intervals: f64) -> f64 {
     let share = intervals / REACH as f64;
     if share.abs() >= 1.0 {
@@ -87,7 +87,7 @@ fn kernel(intervals: f64) -> f64 {
     sinc * bessel(SHAPE * (1.0 - share * share).sqrt()) / bessel(SHAPE)
 }
 
-/// I₀ by its series.
+/// Bessel function I₀ by its series.
 fn bessel(x: f64) -> f64 {
     let mut term = 1.0;
     let mut sum = 1.0;
@@ -105,7 +105,7 @@ mod tests {
     use super::*;
     use rubmap_numerics::spectrum::amplitudes;
 
-    /// Samples of a tone of this order (and one more number, which is its double), 3 revolutions of 64.
+    /// Samples of a tone of order `order` (and one more number, which is its double), 3 revolutions of 64.
     fn sampled(order: f64, interval: usize) -> Decimation {
         let (samples, revolutions) = (64, 3);
         let mut decimation = Decimation::new(2, interval, samples * revolutions);

@@ -5,27 +5,27 @@ use super::revolutions::Repeated;
 use super::simulation::{Detail, Simulation};
 use super::tally::ContactInterval;
 
-/// What was recorded of them.
+/// Histories recorded of chosen revolutions.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct DetailHistory {
-    /// `[sensor][sample]`: (u⁺ − u⁻)/2h of the steps beside the sample; at the end of the run, which no step follows,
+    /// Velocities `[sensor][sample]`: (u⁺ − u⁻)/2h of the steps beside the sample; at the end of the run, which no step follows,
     /// (3u − 4u⁻ + u⁻⁻)/2h.
     pub velocity: Vec<Vec<f64>>,
-    /// `[sector · contact nodes + contact node][sample]`: force, mean over the interval that the sample ends.
+    /// Forces `[sector · contact nodes + contact node][sample]`, mean over the interval that the sample ends.
     pub force: Vec<Vec<f64>>,
-    /// `[sample]`: nodes in contact, mean over the interval.
+    /// Number of nodes in contact at each sample, mean over the interval.
     pub nodes_in_contact: Vec<f64>,
-    /// `[sample]`: length of the contact lines that touches, mean over the interval.
+    /// Length of the contact lines that touches at each sample, mean over the interval.
     pub contact_length: Vec<f64>,
-    /// `[sample]`: the audit so far.
+    /// Energy audit so far at each sample.
     pub energy: Vec<EnergyAudit>,
 }
 
-/// Records it.
+/// Recorder of a [`DetailHistory`].
 #[derive(Debug)]
 pub(super) struct DetailRecorder {
     detail: Detail,
-    /// Whole revolutions after which it begins and ends.
+    /// Whole revolutions after which recording begins and ends.
     revolutions: (usize, usize),
     steps_per_revolution: usize,
     sampling: usize,
@@ -37,7 +37,7 @@ pub(super) struct DetailRecorder {
 }
 
 impl DetailRecorder {
-    /// `interval` as the tally of the run fills it; of no pairs where nothing can be touched.
+    /// Recorder whose `interval` the tally of the run fills; of no pairs where nothing can be touched.
     pub(super) fn new(simulation: &Simulation<'_>, detail: Detail, interval: ContactInterval) -> Self {
         let revolutions = detail.revolutions.of(simulation.revolutions, None);
         let samples = simulation.samples_per_revolution * (revolutions.1 - revolutions.0);
@@ -63,7 +63,7 @@ impl DetailRecorder {
         }
     }
 
-    /// The run ends because its motion repeats.
+    /// Takes note that the run ends because its motion repeats.
     pub(super) fn end_after(&mut self, repeated: Repeated) {
         self.revolutions = self.detail.revolutions.of(0, Some(repeated));
     }
@@ -75,7 +75,7 @@ impl DetailRecorder {
         end(from) < step && step <= end(to) && step.is_multiple_of(self.sampling as u64)
     }
 
-    /// Whether the displacements of the sensors after this step are wanted, because a sample is beside it.
+    /// Whether the displacements of the sensors after this step are needed, because a sample is beside it.
     pub(super) fn reads(&self, step: u64) -> bool {
         self.detail.velocity
             && (self.holds(step)
@@ -84,13 +84,13 @@ impl DetailRecorder {
                 || self.closes(step))
     }
 
-    /// Whether the last sample has this step two before it.
+    /// Whether the last sample is two steps after this one.
     fn closes(&self, step: u64) -> bool {
         let end = (self.revolutions.1 * self.steps_per_revolution) as u64;
         step + 2 == end
     }
 
-    /// Displacements of the sensors after `step`, every wanted one in turn.
+    /// Reads the displacements of the sensors after `step`; called for every needed step in turn.
     #[inline(always)]
     pub(super) fn read(&mut self, step: u64, displacement: impl Fn(usize) -> f64) {
         self.last.rotate_right(1);
@@ -105,7 +105,7 @@ impl DetailRecorder {
         }
     }
 
-    /// Where contact between this sample and the last one is wanted.
+    /// Interval of contact to fill between this sample and the last one, where it is asked for.
     #[inline(always)]
     pub(super) fn interval(&mut self, step: u64) -> Option<&mut ContactInterval> {
         let wanted = self.detail.contact || self.detail.forces;
@@ -132,7 +132,7 @@ impl DetailRecorder {
         }
     }
 
-    /// Ends the run after so many steps.
+    /// Ends the run after `steps` steps.
     pub(super) fn end(mut self, steps: u64) -> DetailHistory {
         if self.detail.velocity && self.holds(steps) {
             let [now, before, earlier] = &self.last;

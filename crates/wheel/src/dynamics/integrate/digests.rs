@@ -1,4 +1,4 @@
-//! The bits of scenes without effects, on every kind of vectors of this machine: what an effect may never change.
+//! Digests of scenes without effects, on every kind of vectors of this machine: bits that an effect may never change.
 
 use faer::{Mat, c64};
 use pulp::Arch;
@@ -107,9 +107,9 @@ fn digests(arch: Arch) -> Vec<String> {
         .collect()
 }
 
-/// Stored when there were no effects but the casing, contact and damping, and once more when spectra were no longer taken from single
-/// steps; displacements have kept their bits. Vectors of another width add up in another
-/// order, so each kind has its own; on a machine that has none of them there is nothing to compare with.
+/// Digests stored when there were no effects but the casing, contact and damping, and once more when spectra were no longer taken from
+/// single steps; displacements have kept their bits. Vectors of another width add up in another order, so each kind has its own; on a
+/// machine that has none of them there is nothing to compare with.
 #[test]
 fn scenes_without_effects_keep_their_bits() {
     let stored: [(&str, [&str; 9]); 3] = [
@@ -168,8 +168,8 @@ fn scenes_without_effects_keep_their_bits() {
     }
 }
 
-/// Digest of all digests on scalars, by revision: what is computed again where it was stored, and what is not. With revision 3 only scenes
-/// with effects got other numbers, with revision 4 reduced wheels, with revision 5 tilted casings.
+/// Digest of all digests on scalars, by revision, to tell stored results that are computed again from those that are not. With revision 3
+/// only scenes with effects got other numbers, with revision 4 reduced wheels, with revision 5 tilted casings.
 const REVISIONS: [(u32, &str); 5] =
     [(1, "26adde97b1eb"), (2, "c9e231fca210"), (3, "c9e231fca210"), (4, "c9e231fca210"), (5, "c9e231fca210")];
 

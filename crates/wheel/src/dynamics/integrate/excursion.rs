@@ -1,4 +1,4 @@
-//! How far the tips went at once: what linear theory is judged by.
+//! Excursion of the tips at single instants, by which linear theory is judged.
 
 use std::f64::consts::PI;
 
@@ -6,26 +6,26 @@ use super::super::direction::COMPONENTS;
 use super::super::sector::ContactNode;
 use super::simulation::Simulation;
 
-/// Largest over the window, all blades and contact nodes, at the instants of [`TipMotion`](super::TipMotion); mean included.
+/// Largest excursions over the window, of all blades and contact nodes, at the instants of [`TipMotion`](super::TipMotion); mean included.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Excursion {
     /// Displacement of a contact node, length.
     pub displacement: f64,
-    /// Its tangential component.
+    /// Tangential component of the displacement, length.
     pub tangential: f64,
-    /// Rotation of the line between two neighbouring contact nodes, rad: the difference of their displacements across it over its
+    /// Rotation of the line between two neighbouring contact nodes, rad: the difference of their displacements across the line over its
     /// length. 0 with one contact node.
     pub rotation: f64,
-    /// How far the same contact nodes of two neighbouring blades came closer in the tangential direction, over the distance between
-    /// them. 0 of a single blade.
+    /// Approach of the same contact nodes of two neighbouring blades in the tangential direction, over the distance between them. 0 of a
+    /// single blade.
     pub approach: f64,
 }
 
-/// Watches them.
+/// Recorder of an [`Excursion`].
 #[derive(Debug)]
 pub(super) struct ExcursionTally {
-    /// Unit vector and length of every segment of the contact line, in (r, θ, z) components: those of neighbouring nodes are taken
-    /// for the same, as far as the line does not run around the axis.
+    /// Unit vector and length of every segment of the contact line, in (r, θ, z) components: the components of neighbouring nodes count as
+    /// the same, as far as the line does not run around the axis.
     segments: Vec<([f64; COMPONENTS], f64)>,
     /// Distance between the same node of neighbouring blades; empty of a single blade.
     apart: Vec<f64>,
@@ -51,7 +51,7 @@ impl ExcursionTally {
         }
     }
 
-    /// Looks at an instant, `[sector][contact node][component]`.
+    /// Updates the largest excursions by an instant, `[sector][contact node][component]`.
     pub(super) fn look(&mut self, now: &[f64]) {
         let blade = (self.segments.len() + 1) * COMPONENTS;
         let found = &mut self.found;

@@ -1,29 +1,29 @@
-//! Where a step ends.
+//! Instants at which steps end.
 
-/// The end of a step.
+/// End of a step.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Instant {
-    /// Its place in the revolution, 0 being where the revolution began.
+    /// Number of the step in the revolution, 0 being where the revolution began.
     pub(super) step: usize,
-    /// Since the start, this one and that of the step before.
+    /// Revolutions since the start, at this instant and at that of the step before.
     pub(super) revolutions: f64,
     pub(super) before: f64,
 }
 
 impl Instant {
-    /// The beginning of a revolution.
+    /// Beginning of a revolution.
     pub(super) fn beginning(revolution: usize) -> Self {
         Self { step: 0, revolutions: revolution as f64, before: revolution as f64 }
     }
 
-    /// The same of any step after the beginning of `revolution`, of which there may be several revolutions.
+    /// End of any step after the beginning of `revolution`, also of one several revolutions later.
     #[inline(always)]
     pub(super) fn of_any(revolution: usize, step: usize, steps: usize) -> Self {
         let before = (step - 1) / steps;
         Self::new(revolution + before, step - before * steps, steps)
     }
 
-    /// The end of `step`, counted from 1, of the `steps` of a revolution.
+    /// End of `step`, counted from 1, of the `steps` of a revolution.
     #[inline(always)]
     pub(super) fn new(revolution: usize, step: usize, steps: usize) -> Self {
         let after = |step: usize| revolution as f64 + step as f64 / steps as f64;

@@ -1,4 +1,4 @@
-//! Time integration with contact (Eqs 8–10): what a run is given and what it returns. The loop is in `stepper`.
+//! Time integration with contact (Eqs 8–10): inputs and results of a run. The loop is in `stepper`.
 
 mod bounds;
 mod decimation;
@@ -20,6 +20,7 @@ mod run;
 mod simulation;
 mod states;
 mod step_flexibility;
+mod step_range;
 mod stepper;
 mod stretch;
 mod surroundings;
@@ -60,7 +61,7 @@ impl Simulation<'_> {
         self.run_by(Stepper::new(self), Beginning::Free, watch)
     }
 
-    /// Runs the simulation from a state that another motion has come to, instead of [`Self::initial`]: forces that act at its instant are
+    /// Runs the simulation from a state that another motion has reached, instead of [`Self::initial`]: forces that act at its instant are
     /// part of it.
     ///
     /// # Panics

@@ -26,14 +26,14 @@ use rubmap_numerics::complementarity::active_set::ActiveSetSolver;
 use rubmap_numerics::complementarity::{ComplementarityError, ContactOperator, any_below};
 use rubmap_numerics::sector_fourier::SectorFourier;
 
-/// Penetration that the ridge of a singular W may leave, relative to clearance and restriction. Nodes that W cannot tell
-/// apart but that agree keep to a thousandth of it; where they contradict each other no forces help.
+/// Largest penetration that the ridge of a singular W may leave, relative to clearance and restriction. Nodes that W cannot tell apart but
+/// that agree keep to a thousandth of it; where they contradict each other no forces help.
 const LEFT: f64 = 1e-6;
 
-/// Wheels of so many sectors have all of them transformed: to look which are far would cost as much.
+/// Number of sectors up to which all are transformed: finding the far ones would cost as much.
 const ALL_TRANSFORMED: usize = 16;
 
-/// Sectors transformed together: as many sums as are in flight at once.
+/// Number of sectors transformed together: as many sums as are in flight at once.
 const TOGETHER: usize = 4;
 
 #[derive(Debug)]
@@ -44,30 +44,30 @@ pub(super) struct Obstacle {
     residual: ResidualDisplacement,
     ramp_revolutions: f64,
     pub(super) restriction: Option<RestrictionTable>,
-    /// p = 0 of a circular casing.
+    /// Heights p = 0 of a circular casing.
     unrestricted: Vec<f64>,
-    /// c_k, padded with +∞.
+    /// Clearances c_k, padded with +∞.
     clearance: Vec<f64>,
     tolerance: f64,
-    /// Most penetration that may be left where W is singular.
+    /// Largest penetration that may be left where W is singular.
     most_left: f64,
     step_s: f64,
     /// Normal displacements of the integrated modes, `[Fourier column][node]`.
     harmonic: Vec<f64>,
-    /// No nᵀu is larger in any sector.
+    /// Upper bounds of nᵀu in any sector.
     amplitude_sums: Vec<f64>,
-    /// Of far sectors what they are at least.
+    /// Predicted gaps: exact for near sectors, lower bounds for far ones.
     predicted_gap: Vec<f64>,
-    /// Sectors that no displacement the wheel has anywhere would bring to the casing.
+    /// Whether a sector is far: no displacement that the wheel has anywhere would bring it to the casing.
     is_far: Vec<bool>,
-    /// The others.
+    /// Sectors that are not far.
     near: Vec<usize>,
     /// Contact nodes with a force on any sector.
     loaded: Vec<usize>,
     is_loaded: Vec<bool>,
-    /// Along what [`Surroundings::applied`] says, `[Fourier column][row]`.
+    /// Forces along the directions of [`Surroundings::applied`], `[Fourier column][row]`.
     pub(super) force: Vec<f64>,
-    /// Rows of a node there, and numbers of a column.
+    /// Number of rows of a node in `force`, and of numbers in a column.
     force_rows: usize,
     force_stride: usize,
     pub(super) tally: ContactTally,
@@ -135,7 +135,7 @@ impl Obstacle {
         Loads { rows: applied(&self.rows, surroundings), loaded: &self.loaded, force: &self.force }
     }
 
-    /// The same, and the normal displacements to be read: rows and where their values go.
+    /// Forces of the last solution, and the normal displacements to be read: rows and where their values go.
     #[inline(always)]
     pub(super) fn loads_and_reading<'a>(
         &'a mut self,
@@ -145,9 +145,9 @@ impl Obstacle {
         (Loads { rows: applied(rows, surroundings), loaded, force }, (rows, harmonic))
     }
 
-    /// g_p = c − p − nᵀu of all sectors. Returns the smallest if it is negative, otherwise a number that is not.
+    /// Predicts the gaps g_p = c − p − nᵀu of all sectors. Returns the smallest if it is negative, otherwise a number that is not.
     ///
-    /// Of far sectors, where c − p is not below the most that nᵀu can be in any sector, only c − p less that is kept.
+    /// A far sector, where c − p is not below the upper bound of nᵀu in any sector, gets c − p less that bound.
     #[inline(always)]
     pub(super) fn predict_gaps<S: Simd>(
         &mut self,
@@ -178,8 +178,7 @@ impl Obstacle {
         self.near_gaps(simd, fourier, (now.step, growth, shift))
     }
 
-    /// Writes what the gaps of a sector are at least, at a step, growth of the restriction and shift of all gaps. Returns the
-    /// smallest.
+    /// Writes the lower bounds of the gaps of a sector, at a step, growth of the restriction and shift of all gaps. Returns the smallest.
     #[inline(always)]
     fn least_gaps<S: Simd>(
         &mut self,
@@ -228,7 +227,7 @@ impl Obstacle {
         simd.reduce_min_f64s(smallest)
     }
 
-    /// Writes the gaps of some sectors, transformed together so that their sums do not wait for each other; the smallest.
+    /// Writes the gaps of some sectors, transformed together so that their sums do not wait for each other; returns the smallest.
     #[inline(always)]
     fn gaps_of<S: Simd, const R: usize>(
         &mut self,
@@ -284,7 +283,7 @@ impl Obstacle {
         self.near.extend(0..fourier.sectors());
     }
 
-    /// Whether a solution is none of the true gaps: forces act in a far sector, or seem to close it.
+    /// Whether a solution is not one of the true gaps: forces act in a far sector, or seem to close it.
     fn reaches_far(&self, active: &[usize], gap: &[f64]) -> bool {
         active.iter().any(|&index| self.is_far[self.delassus.place(index).0])
             || gap
@@ -293,11 +292,11 @@ impl Obstacle {
                 .any(|(gap, far)| *far && any_below(gap, 0.0))
     }
 
-    /// Contact forces of the predicted gaps (Eqs 9, 10) and what they add to the statistics.
+    /// Solves for the contact forces of the predicted gaps (Eqs 9, 10) and adds to the statistics.
     ///
-    /// Where all forces are in near sectors and all far ones remain open, the true gaps of these, which are larger, have the same
-    /// solution; it is the only one where W is a P-matrix. Otherwise all gaps are transformed and solved for. `read` is what rows swing by
-    /// in the step without forces.
+    /// Where all forces are in near sectors and all far ones remain open, the true gaps of the far sectors, which are larger, have the same
+    /// solution; it is the only one where W is a P-matrix. Otherwise all gaps are transformed and solved for. `read` gives the swing of
+    /// rows in the step without forces.
     #[inline(always)]
     pub(super) fn solve(
         &mut self,
@@ -372,7 +371,7 @@ impl Obstacle {
         Ok(())
     }
 
-    /// Predicts the gaps of a state that no step led to; whether all are open.
+    /// Predicts the gaps of a state that no step led to; returns whether all are open.
     #[inline(always)]
     pub(super) fn look<S: Simd>(
         &mut self,
@@ -386,7 +385,7 @@ impl Obstacle {
         self.predict_gaps(simd, fourier, now, surroundings) >= 0.0
     }
 
-    /// Adds to `trace` what the last solution has touch at the end of `step`; for a rigid casing without coating.
+    /// Adds to `trace` the nodes that the last solution has in contact at the end of `step`; for a rigid casing without coating.
     pub(super) fn trace(&self, step: usize, surroundings: Option<&mut Surroundings>, trace: &mut Trace) {
         let law = surroundings.map_or(&Law::Plain, |surroundings| &surroundings.law);
         let (active, symmetric) = (law.solution(&self.solver).active, !matches!(law, Law::General(_)));
@@ -394,7 +393,7 @@ impl Obstacle {
         trace.touch(step, places, (|i, j| self.delassus.entry(active[i], active[j]), symmetric));
     }
 
-    /// Largest penetration of the state as it is `now`, the instant of the last gaps.
+    /// Largest penetration of the state at `now`, the instant of the last gaps.
     #[inline(always)]
     pub(super) fn penetration<S: Simd>(
         &mut self,
@@ -421,7 +420,7 @@ impl Obstacle {
         tally.sample(outward, seen);
     }
 
-    /// No forces, until the next solution.
+    /// Clears the forces, until the next solution.
     #[inline(always)]
     pub(super) fn clear_forces(&mut self, fourier: &SectorFourier) {
         for &row in &self.loaded {
@@ -434,7 +433,7 @@ impl Obstacle {
     }
 }
 
-/// c − p, the restriction by its growth and height, and the `at`-th vector of what shifts it.
+/// Room c − p, the restriction by its growth and height, plus the `at`-th vector of the shift.
 #[inline(always)]
 fn room<S: Simd>(
     simd: S,
@@ -450,7 +449,7 @@ fn room<S: Simd>(
     }
 }
 
-/// What contact forces act along where the normals are `rows`.
+/// Rows along which contact forces act, where the normals are `rows`.
 #[inline(always)]
 fn applied<'a>(rows: &'a Rows, surroundings: Option<&'a Surroundings>) -> &'a Rows {
     match surroundings {
@@ -459,7 +458,7 @@ fn applied<'a>(rows: &'a Rows, surroundings: Option<&'a Surroundings>) -> &'a Ro
     }
 }
 
-/// W of the scheme, with what the effects make of it.
+/// Contact operator W of the scheme, with the contributions of the effects.
 fn delassus(
     simulation: &Simulation<'_>,
     oscillators: &Oscillators,
@@ -485,7 +484,7 @@ fn delassus(
     delassus
 }
 
-/// The smallest of 0 and `values`, whose number is a multiple of the lanes; lane by lane, so that it vectorises.
+/// Smallest of 0 and `values`, whose number is a multiple of the lanes; lane by lane, so that it vectorises.
 #[inline(always)]
 fn lowest(values: &[f64]) -> f64 {
     let mut lanes = [0.0f64; LANES];

@@ -1,4 +1,4 @@
-//! The flow of a scene over the shortest time after which it looks the same, as a map of the wheel's state.
+//! Return map of a scene: its flow over the shortest time after which it looks the same, as a map of the wheel's state.
 //!
 //! Seen from a wheel of N sectors a casing of m lobes looks the same after 1/lcm(m, N) of a revolution, but for the number of each
 //! sector: where sector s is then, sector s + b was. A motion with the symmetry of the scene comes back to itself under
@@ -7,9 +7,9 @@
 //! P(x) = T_b⁻¹ flow(x),   (T_b u)_s = u_{s+b}:   z_i → e^{jibα} z_i,   1/lcm(m, N) = b/N modulo 1/m
 //! ```
 //!
-//! and one without it under the flow over one lobe, or some. What effects leave of this is in [`recurrence`](super::recurrence). The
-//! unknowns are ωz and d/h of every mode that remembers, real and imaginary parts, and of the waves of an elastic casing in the fixed frame: their
-//! squares are twice the energies.
+//! and one without it under the flow over one lobe, or some. The times that effects leave are in [`recurrence`](super::recurrence). The
+//! unknowns are ωz and d/h of every mode that remembers, real and imaginary parts, and of the waves of an elastic casing in the fixed
+//! frame: their squares are twice the energies.
 
 use std::f64::consts::TAU;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -20,7 +20,8 @@ use super::passage_error::PassageError;
 use super::recurrence::{Recurrence, Recurrences};
 use super::run::Outcome;
 use super::simulation::Simulation;
-use super::stepper::{StepRange, Stepper};
+use super::step_range::StepRange;
+use super::stepper::Stepper;
 use super::trace::Trace;
 use super::unknowns::{CasingUnknown, Unknown, casing_unknowns, unknowns};
 #[cfg(test)]
@@ -28,28 +29,28 @@ use crate::dynamics::casing::RestrictionTable;
 use crate::dynamics::flexible_casing::CasingMotion;
 use crate::dynamics::initial::{InitialMode, Stepped, SteppedMode, SteppedWave};
 
-/// The map, with all that its evaluation needs.
+/// Return map of a scene, with all that its evaluation needs.
 #[derive(Debug)]
 pub struct Passage<'a> {
     simulation: Simulation<'a>,
     stepper: Stepper,
     unknowns: Vec<Unknown>,
     casing: Vec<CasingUnknown>,
-    /// Where each is in the oscillators' state.
+    /// Index of each unknown in the oscillators' state.
     places: Vec<usize>,
     of: Recurrence,
-    /// Passages over a lobe until all is as it was.
+    /// Number of maps over a lobe until the scene is the same again.
     lobes: usize,
-    /// Steps until then.
+    /// Steps until the scene is the same again.
     whole: usize,
-    /// The revolution it begins with.
+    /// Revolution with which the map begins.
     grown: usize,
     trace: Trace,
     taken: AtomicUsize,
 }
 
 impl<'a> Passage<'a> {
-    /// Of the scene of `simulation`, all that grows fully grown; over the shortest time its symmetry and its steps allow.
+    /// Return map of the scene of `simulation`, all that grows fully grown; over the shortest time its symmetry and its steps allow.
     ///
     /// # Errors
     /// [`PassageError::Coating`], [`PassageError::ClearanceChange`], [`PassageError::Disc`] and [`PassageError::Orbit`].
@@ -58,8 +59,8 @@ impl<'a> Passage<'a> {
         Ok(Self::new(simulation, &recurrences, recurrences.shortest()))
     }
 
-    /// The same over `count` lobes, every sector keeping its number; over `count` times as many revolutions as all needs to come round where
-    /// there are no lobes, or effects tell them apart.
+    /// Return map over `count` lobes, every sector keeping its number; over `count` times as many revolutions as the whole scene needs to
+    /// come round where there are no lobes, or effects tell them apart.
     ///
     /// # Errors
     /// As of [`Self::shortest`].
@@ -68,7 +69,7 @@ impl<'a> Passage<'a> {
         Ok(Self::new(simulation, &recurrences, recurrences.lobe()).repeated(count))
     }
 
-    /// The same over about half a revolution, so often that some make a whole: short ones look back over too little, long ones are few.
+    /// Return map over about half a revolution, so often that some make a whole: short ones look back over too little, long ones are few.
     ///
     /// # Errors
     /// As of [`Self::shortest`].
@@ -82,7 +83,7 @@ impl<'a> Passage<'a> {
         Ok(passage.repeated(times))
     }
 
-    /// `times` of it, one after the other.
+    /// Repeats the map `times` times, one after the other.
     #[must_use]
     pub fn repeated(self, times: usize) -> Self {
         let sectors = self.simulation.wheel.sectors;
@@ -120,51 +121,51 @@ impl<'a> Passage<'a> {
         }
     }
 
-    /// The same against a restriction of any shape instead of the casing's lobes.
+    /// Map against a restriction of any shape instead of the casing's lobes.
     #[cfg(test)]
     pub(in crate::dynamics) fn against(mut self, restriction: RestrictionTable) -> Self {
         self.stepper.replace_restriction(restriction);
         self
     }
 
-    /// Passages over a lobe ([`Self::over_lobes`]) until all is as it was, sectors with their numbers.
+    /// Number of maps over a lobe ([`Self::over_lobes`]) until the scene is the same again, sectors with their numbers.
     pub fn lobes(&self) -> usize {
         self.lobes
     }
 
-    /// Lobes of the casing that pass meanwhile; revolutions where it has none.
+    /// Lobes of the casing that pass during the map; revolutions where it has none.
     pub fn lobes_passed(&self) -> usize {
         let restriction = self.simulation.casing.and_then(|casing| casing.restriction.as_ref());
         let lobes = restriction.map_or(1, |restriction| restriction.repeats().max(1) as usize);
         lobes * self.of.steps / self.simulation.steps_per_revolution
     }
 
-    /// The revolution it begins with, when all has grown.
+    /// Revolution with which the map begins, when all has grown.
     pub fn grown(&self) -> usize {
         self.grown
     }
 
-    /// Steps until all is as it was, sectors with their numbers: whole revolutions.
+    /// Steps until the scene is the same again, sectors with their numbers: whole revolutions.
     pub fn whole(&self) -> usize {
         self.whole
     }
 
-    /// Numbers of a state.
+    /// Number of unknowns of a state.
     pub fn size(&self) -> usize {
         2 * (self.unknowns.len() + self.casing.len())
     }
 
-    /// What they are: ωz of all, those of the casing last, then d/h of all.
+    /// Unknowns of the wheel. A state has ωz of all unknowns, those of the casing last, then d/h of all.
     pub fn unknowns(&self) -> &[Unknown] {
         &self.unknowns
     }
 
-    /// The last of each.
+    /// Unknowns of the casing, which come last among ωz and among d/h of a state.
     pub fn casing_unknowns(&self) -> &[CasingUnknown] {
         &self.casing
     }
 
-    /// What z of all is multiplied by.
+    /// Factors of z of all unknowns.
     pub fn scales(&self) -> impl Iterator<Item = f64> {
         self.unknowns.iter().map(|of| of.scale).chain(self.casing.iter().map(|of| of.scale))
     }
@@ -173,27 +174,27 @@ impl<'a> Passage<'a> {
         self.stepper.flexible_casing()
     }
 
-    /// What is integrated.
+    /// Simulation that is integrated.
     pub fn simulation(&self) -> &Simulation<'a> {
         &self.simulation
     }
 
-    /// h, s.
+    /// Step h, s.
     pub fn step_s(&self) -> f64 {
         self.simulation.step_s()
     }
 
-    /// Steps that it takes.
+    /// Number of steps of the map.
     pub fn steps(&self) -> usize {
         self.of.steps
     }
 
-    /// How often it was taken up to now, by states or, linearised, by what disturbs them.
+    /// Number of maps taken up to now, of states or, linearised, of their disturbances.
     pub fn taken(&self) -> usize {
         self.taken.load(Ordering::Relaxed)
     }
 
-    /// The same in revolutions of the wheel.
+    /// Revolutions of the wheel that the maps taken up to now amount to.
     pub fn revolutions(&self) -> f64 {
         (self.taken() * self.of.steps) as f64 / self.simulation.steps_per_revolution as f64
     }
@@ -202,17 +203,17 @@ impl<'a> Passage<'a> {
         self.taken.fetch_add(times, Ordering::Relaxed);
     }
 
-    /// What touched on the way of the last state that was mapped.
+    /// Trace of the contact on the way of the last state that was mapped.
     pub fn trace(&self) -> &Trace {
         &self.trace
     }
 
-    /// −∂f/∂z of mistuning between the Fourier columns of every family that it couples.
+    /// Stiffness −∂f/∂z of mistuning between the Fourier columns of every family that it couples.
     pub(in crate::dynamics) fn mistuned(&self) -> Vec<Mat<f64>> {
         self.stepper.mistuned()
     }
 
-    /// The state of these modes and of these waves of the casing, all others being at rest, as a run that begins with them has it.
+    /// State with these modes and these waves of the casing, all others being at rest, as a run that begins with them has it.
     pub fn state(&mut self, modes: &[InitialMode], casing: &[SteppedWave]) -> Vec<f64> {
         let Simulation { wheel, scheme, damping, .. } = self.simulation;
         let (step, follow) = (self.simulation.step_s(), self.simulation.casing.is_some());
@@ -230,7 +231,7 @@ impl<'a> Passage<'a> {
         self.read()
     }
 
-    /// What a run goes on from at the beginning of a revolution.
+    /// State as a motion from which a run goes on at the beginning of a revolution.
     pub fn stepped(&self, state: &[f64]) -> Stepped {
         let (n, step) = (self.size() / 2, self.simulation.step_s());
         let mut stepped = Stepped::default();
@@ -260,13 +261,13 @@ impl<'a> Passage<'a> {
         stepped
     }
 
-    /// The state of a motion under way, of what is none of its unknowns nothing being kept.
+    /// State of a motion under way; parts of it that are not among the unknowns are dropped.
     pub fn state_of(&mut self, stepped: &Stepped) -> Vec<f64> {
         self.stepper.go_on_from(stepped);
         self.read()
     }
 
-    /// P of a state.
+    /// Image P of a state.
     ///
     /// # Errors
     /// [`PassageError::Diverged`] and [`PassageError::Contact`].
@@ -290,7 +291,7 @@ impl<'a> Passage<'a> {
         Ok(image)
     }
 
-    /// Has the oscillators in `state`.
+    /// Sets the oscillators to `state`.
     fn write(&mut self, state: &[f64]) {
         let stepped = self.stepped(state);
         self.stepper.go_on_from(&stepped);
@@ -314,7 +315,7 @@ impl<'a> Passage<'a> {
         displacements.chain(increments).collect()
     }
 
-    /// T_b⁻¹, of a state or a part of one that is kept alike.
+    /// Renumbers the sectors by T_b⁻¹ in a state, or in parts with the same layout.
     pub fn renumber(&self, state: &mut [f64]) {
         let sectors = self.simulation.wheel.sectors;
         for half in state.chunks_exact_mut(self.size() / 2) {

@@ -1,4 +1,4 @@
-//! What a run records: displacements at its samples, nodal diameters over its window, details of chosen revolutions.
+//! Recorder of a run: displacements at its samples, nodal diameters over its window, details of chosen revolutions.
 
 use pulp::Simd;
 
@@ -24,11 +24,11 @@ pub(super) struct Recorder {
     sectors: Vec<usize>,
     energies: bool,
     samples_per_revolution: usize,
-    /// What contact forces add to the sensors that no integrated mode has.
+    /// Displacements of the sensors by contact forces that no integrated mode has.
     residual: ResidualDisplacement,
     /// Displacements in Fourier coordinates as they were read last, `[column][sensor]`, sensors padded.
     harmonic: Vec<f64>,
-    /// The same without padding.
+    /// Displacements in Fourier coordinates as they were read last, without padding.
     reading: Vec<f64>,
     decimation: Decimation,
     tips: TipTally,
@@ -38,7 +38,7 @@ pub(super) struct Recorder {
 }
 
 impl Recorder {
-    /// `interval`: of the contact of the run, empty where there is none.
+    /// Recorder whose `interval` holds the contact of the run, empty where there is none.
     pub(super) fn new(
         simulation: &Simulation<'_>,
         oscillators: &Oscillators,
@@ -73,7 +73,7 @@ impl Recorder {
         }
     }
 
-    /// Whether the sensors are read after `step`, counted from the start, though it is no sample.
+    /// Whether the sensors are read after `step`, counted from the start, though it is not a sample.
     #[inline(always)]
     pub(super) fn reads(&self, step: u64, windowed: bool) -> bool {
         windowed || self.detail.as_ref().is_some_and(|detail| detail.reads(step))
@@ -110,7 +110,7 @@ impl Recorder {
         }
     }
 
-    /// Records what was read last, at a sample.
+    /// Records the last reading at a sample.
     #[inline(always)]
     pub(super) fn record(&mut self, fourier: &SectorFourier, step: u64, energy: &EnergyAudit) {
         for (sensor, &sector) in self.sectors.iter().enumerate() {
@@ -122,7 +122,7 @@ impl Recorder {
         }
     }
 
-    /// Adds the largest size at any sector of what was read last to every sensor's line.
+    /// Adds the largest size of the last reading at any sector to every sensor's line.
     #[inline(always)]
     pub(super) fn largest(&self, fourier: &SectorFourier, lines: &mut [Vec<f64>]) {
         for (sensor, line) in lines.iter_mut().enumerate() {
@@ -131,7 +131,7 @@ impl Recorder {
         }
     }
 
-    /// Looks at the tips, at a sample of the window; `force` as of [`Self::read`].
+    /// Records the tips at a sample of the window; `force` as of [`Self::read`].
     #[inline(always)]
     pub(super) fn look_at_tips<S: Simd>(
         &mut self,
@@ -143,7 +143,7 @@ impl Recorder {
         self.tips.sample(simd, oscillators, fourier, force);
     }
 
-    /// Keeps all modes at a sample, if they are wanted; `force` as of [`Self::read`].
+    /// Stores all modes at a sample, if they are asked for; `force` as of [`Self::read`].
     #[inline(always)]
     pub(super) fn keep_state(
         &mut self,
@@ -157,13 +157,13 @@ impl Recorder {
         }
     }
 
-    /// Where contact between this sample and the last one is wanted.
+    /// Interval of contact to fill between this sample and the last one, where it is asked for.
     #[inline(always)]
     pub(super) fn contact_interval(&mut self, step: u64) -> Option<&mut ContactInterval> {
         self.detail.as_mut()?.interval(step)
     }
 
-    /// The run ends because its motion repeats, of which one period is to be recorded from now on.
+    /// Takes note that the run ends because its motion repeats: one period of it is recorded from now on.
     pub(super) fn end_after(&mut self, repeated: Repeated) {
         self.history.repeated = Some(repeated);
         self.decimation.shorten(self.samples_per_revolution * repeated.period);
@@ -215,7 +215,7 @@ impl Recorder {
     }
 }
 
-/// At a sector, from Fourier coordinates.
+/// Displacement at a sector, from Fourier coordinates.
 #[inline(always)]
 fn displacement(
     harmonic: &[f64],

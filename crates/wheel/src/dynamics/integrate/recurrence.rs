@@ -1,6 +1,6 @@
-//! The times after which a scene looks the same from its wheel, once it has fully grown.
+//! Recurrence of a scene: times after which it looks the same from its wheel, once it has fully grown.
 //!
-//! After a time t, in revolutions, it may look to every sector as it looked before to the one b places ahead. So it does if
+//! After a time t, in revolutions, the scene may look to every sector as it looked before to the one b places ahead. This is so if
 //!
 //! ```text
 //! k (t − b/N) ∈ ℤ            every order k: lobes of the casing, engine orders of forces
@@ -8,7 +8,8 @@
 //! δ_{s+b} = δ_s              deviations of mistuned sectors
 //! ```
 //!
-//! An elastic casing, which is the same all around, has moved on by t − b/N, as seen by the sectors with their new numbers. These times are the multiples of the shortest one, which therefore divides the revolutions after which all is as it was.
+//! An elastic casing, which is the same all around, has moved on by t − b/N, as seen by the sectors with their new numbers. These times are
+//! the multiples of the shortest one, which therefore divides the revolutions after which the scene is the same again.
 
 use num_integer::gcd;
 
@@ -17,37 +18,37 @@ use super::simulation::Simulation;
 use crate::dynamics::effects::FrictionLaw;
 use crate::dynamics::orbit::Orbit;
 
-/// Most revolutions that an orbit may take to come round.
+/// Largest number of revolutions that an orbit may take to come round.
 const MOST_REVOLUTIONS: usize = 8;
 
-/// What a whirl ratio may be off a fraction: a phase as far off changes no response that is found to 1e-8.
+/// Largest distance of a whirl ratio from a fraction: a phase as far off changes no response that is found to 1e-8.
 const FRACTION: f64 = 1e-12;
 
-/// A time in steps, and b.
+/// Recurrence: a time in steps, and the number b of sectors.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Recurrence {
     pub(super) steps: usize,
     pub(super) turn: usize,
 }
 
-/// All that turns past a wheel.
+/// Orders, orbit and mistuning of a scene, which determine its recurrences.
 #[derive(Debug)]
 pub(super) struct Recurrences<'a> {
-    /// Per revolution.
+    /// Steps per revolution.
     steps: usize,
-    /// N.
+    /// Number N of sectors around.
     around: usize,
     /// Greatest common divisor of all orders; 0 where there are none.
     order: usize,
     /// Lobes of the casing, if it has any.
     lobes: Option<usize>,
     deviations: Option<&'a [f64]>,
-    /// 1 − κ as a fraction.
+    /// Turns 1 − κ of the orbit as a fraction.
     orbit: Option<(i64, usize)>,
 }
 
 impl<'a> Recurrences<'a> {
-    /// Of the scene of `simulation`.
+    /// Recurrences of the scene of `simulation`.
     ///
     /// # Errors
     /// [`PassageError::Coating`], [`PassageError::ClearanceChange`], [`PassageError::Disc`] and [`PassageError::Orbit`].
@@ -80,24 +81,24 @@ impl<'a> Recurrences<'a> {
         })
     }
 
-    /// Revolutions after which all is as it was.
+    /// Revolutions after which the scene is the same again.
     pub(super) fn revolutions(&self) -> usize {
         self.orbit.map_or(1, |(_, revolutions)| revolutions)
     }
 
-    /// The same as a recurrence.
+    /// Recurrence of whole revolutions, after which the scene is the same again.
     pub(super) fn whole(&self) -> Recurrence {
         Recurrence { steps: self.revolutions() * self.steps, turn: 0 }
     }
 
-    /// A passage of one lobe if nothing tells the lobes apart, [`Self::whole`] otherwise.
+    /// Recurrence after one lobe if nothing distinguishes the lobes, [`Self::whole`] otherwise.
     pub(super) fn lobe(&self) -> Recurrence {
         let lobes = self.lobes.filter(|lobes| self.steps.is_multiple_of(*lobes));
         let lobe = lobes.map(|lobes| Recurrence { steps: self.steps / lobes, turn: 0 });
         lobe.filter(|&lobe| self.holds(lobe)).unwrap_or(self.whole())
     }
 
-    /// The shortest that whole steps allow; a sector's where nothing turns past the wheel.
+    /// Shortest recurrence that whole steps allow; that of a sector where nothing turns past the wheel.
     pub(super) fn shortest(&self) -> Recurrence {
         let whole = self.whole();
         let of = |steps: usize| {
@@ -125,8 +126,8 @@ impl<'a> Recurrences<'a> {
     }
 }
 
-/// Revolutions of a [passage over a lobe](super::Passage::over_lobes) of a scene with these lobes, engine orders and whirl ratio, whose steps it
-/// divides; 1 where the orbit never comes round.
+/// Revolutions of a [map over a lobe](super::Passage::over_lobes) of a scene with these lobes, engine orders and whirl ratio, whose steps
+/// it divides; 1 where the orbit never comes round.
 pub fn revolutions_over_lobe(
     lobes: Option<u32>,
     orders: impl Iterator<Item = u32>,
@@ -140,7 +141,7 @@ pub fn revolutions_over_lobe(
     of.lobe().steps as f64 / steps as f64
 }
 
-/// Whether an orbit of this whirl ratio is back where it was soon enough for periodic responses.
+/// Whether an orbit of this whirl ratio returns soon enough for periodic responses.
 ///
 /// # Errors
 /// [`PassageError::Orbit`].
@@ -148,12 +149,12 @@ pub fn comes_round(whirl_ratio: f64) -> Result<(), PassageError> {
     turns(whirl_ratio).map(|_| ())
 }
 
-/// 1 − κ as a fraction.
+/// Turns 1 − κ as a fraction.
 fn turns(whirl_ratio: f64) -> Result<(i64, usize), PassageError> {
     fraction(1.0 - whirl_ratio).ok_or(PassageError::Orbit { whirl_ratio, most: MOST_REVOLUTIONS })
 }
 
-/// `value` as a fraction of few revolutions.
+/// Fraction of few revolutions that equals `value`.
 fn fraction(value: f64) -> Option<(i64, usize)> {
     let off = |per: usize| {
         let turns = value * per as f64;

@@ -1,4 +1,4 @@
-//! Has a march come to a motion that repeats? States at the ends of revolutions are compared (docs/method.md, Steady states).
+//! Detection of a motion that repeats: states at the ends of revolutions are compared (docs/method.md, Steady states).
 
 use super::super::flexible_casing::CasingMotion;
 use super::super::oscillators::Oscillators;
@@ -6,56 +6,56 @@ use super::revolutions::{Repeated, Repeats};
 use super::simulation::Simulation;
 use crate::dynamics::clearance_change::ClearanceChange;
 
-/// Longest period looked for, in revolutions.
+/// Longest period that is searched, in revolutions.
 const LONGEST: usize = 8;
 
-/// Periods over which the rate of changes is read: from one to the next it swings.
+/// Number of periods over which the rate of changes is read: from one to the next it swings.
 const BASE: usize = 4;
 
-/// Periods at all ends of revolutions of which the motion has to repeat.
+/// Number of periods at all ends of revolutions of which the motion has to repeat.
 const LASTING: usize = 5;
 
-/// Fewest revolutions of a run, after the ramp, that ends because its motion repeats.
+/// Fewest revolutions, after the ramp, of a run that ends because its motion repeats.
 pub const LEAST_MARCHED: u64 = (1 + BASE + LASTING) as u64;
 
-/// Changes below this share are round-off, and have no rate.
+/// Share below which changes are round-off, and have no rate.
 const ROUND_OFF: f64 = 1e-10;
 
-/// Share of what the symmetry forbids below which it is round-off.
+/// Share of motion forbidden by the symmetry below which it is round-off.
 const VANISHED: f64 = 1e-13;
 
-/// Share of it below which it is taken for round-off where it stays as it is: how much of that there is depends on the wheel (6e-16 of the
-/// motion were seen, and 1.3e-13).
+/// Share of motion forbidden by the symmetry below which it counts as round-off if it stays constant. The amount of round-off depends on
+/// the wheel (6e-16 of the motion were seen, and 1.3e-13).
 const FAINT: f64 = 1e-11;
 
-/// Growth over [`BASE`] periods of what stays as it is, about a steady level of round-off: a tenth a period. From [`FAINT`] on more than a
-/// hundred of them would have to follow until it could be seen.
+/// Growth over [`BASE`] periods up to which forbidden motion counts as constant, about a steady level of round-off: a tenth a period. From
+/// [`FAINT`] on more than a hundred of them would have to follow until it could be seen.
 const STAYS: f64 = 1.5;
 
-/// Compares the ends of revolutions.
+/// Comparison of states at the ends of revolutions.
 #[derive(Debug)]
 pub(super) struct Repetition {
     share: f64,
-    /// Revolutions before which nothing is compared, and before which nothing ends.
+    /// Revolutions before which nothing is compared (`first`), and before which nothing ends (`least`).
     first: usize,
     least: usize,
     /// Periods that a window is made of, the shortest first.
     periods: Vec<usize>,
-    /// Share of the slowest free motion that is left after a revolution.
+    /// Share of the slowest free motion that remains after a revolution.
     slowest: f64,
-    /// Every number of the oscillators and what an increment of it is multiplied by to have its unit: those first that the symmetry of the
-    /// scene forbids.
+    /// Index of every number of the oscillators, and the factor of its increment that gives it the number's unit. Numbers that the symmetry
+    /// of the scene forbids come first.
     numbers: Vec<(usize, f64)>,
     forbidden: usize,
-    /// `[end of a revolution, the latest last]`
+    /// Ends of revolutions, the latest last.
     ends: Vec<End>,
-    /// `[period][end of a revolution]`: change since that of a period before.
+    /// Change since the end of a revolution a period before, `[period][end of a revolution]`.
     changes: Vec<Vec<f64>>,
-    /// `[end of a revolution]`: share of what the symmetry forbids.
+    /// Share of motion that the symmetry forbids, at every end of a revolution.
     asymmetries: Vec<f64>,
 }
 
-/// Where all was at the end of a revolution.
+/// State at the end of a revolution.
 #[derive(Debug)]
 struct End {
     wheel: Vec<f64>,
@@ -101,7 +101,7 @@ impl Repetition {
         }
     }
 
-    /// Looks at the end of a revolution, the `after`th from the start: what repeats, if anything does.
+    /// Compares the end of a revolution, the `after`th from the start; returns the motion if it repeats.
     pub(super) fn look(
         &mut self,
         after: usize,
@@ -142,15 +142,14 @@ impl Repetition {
         })
     }
 
-    /// Whether what the symmetry forbids dies out, or has done so.
+    /// Whether motion that the symmetry forbids dies out, or has done so.
     fn is_symmetric(&self, period: usize) -> bool {
         let earlier = self.asymmetries.iter().rev().skip(BASE * period);
         let mut pairs = self.asymmetries.iter().rev().zip(earlier).take(LASTING * period);
         pairs.all(|(&now, &then)| now < then || now <= VANISHED || (now <= FAINT && now < STAYS * then))
     }
 
-    /// What all changes to come add up to, those of a period shrinking as they did, and no faster than free motion; as it looked `back`
-    /// revolutions ago.
+    /// Sum of all changes to come, as it looked `back` revolutions ago: changes of a period shrink on as they did, and no faster than free motion.
     fn remaining(&self, period: usize, changes: &[f64], back: usize) -> f64 {
         let Some(before) = changes.len().checked_sub(1 + back + BASE * period) else { return f64::INFINITY };
         let (then, now) = (changes[before], changes[before + BASE * period]);
@@ -171,7 +170,7 @@ impl End {
         if part > 0.0 { (part / squares(&self.wheel)).sqrt() } else { 0.0 }
     }
 
-    /// Of the wheel or of the casing, whichever changes more, relative to it.
+    /// Change since `before`, relative: that of the wheel or of the casing, whichever is larger.
     fn change(&self, before: &Self) -> f64 {
         let of = |now: &[f64], before: &[f64]| {
             let away = now.iter().zip(before).map(|(x, y)| (x - y).powi(2)).sum::<f64>();

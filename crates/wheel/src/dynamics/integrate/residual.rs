@@ -11,17 +11,17 @@ use super::super::schemes::massless_boundary::residual_flexibility;
 use super::simulation::Simulation;
 use super::step_flexibility::step_flexibility;
 
-/// F f of some rows.
+/// Displacements F f of some rows.
 #[derive(Debug)]
 pub(super) struct ResidualDisplacement {
     harmonics: Vec<Harmonic>,
-    /// No unit force in Fourier coordinates moves any row of any sector by more.
+    /// Largest displacement of any row of any sector by a unit force in Fourier coordinates.
     largest: f64,
 }
 
 #[derive(Debug)]
 struct Harmonic {
-    /// Rows × contact nodes.
+    /// Flexibility F, rows × contact nodes.
     flexibility: Mat<c64>,
     /// Fourier column of the real part.
     column: usize,
@@ -29,7 +29,7 @@ struct Harmonic {
 }
 
 impl ResidualDisplacement {
-    /// Through the modes that are not integrated; nothing if the scheme integrates every mode.
+    /// Displacement through the modes that are not integrated; nothing if the scheme integrates every mode.
     pub(super) fn new(simulation: &Simulation<'_>, rows: &[Direction]) -> Self {
         match (simulation.scheme, simulation.casing) {
             (Scheme::MasslessBoundary { kept_modes }, Some(_)) => {
@@ -40,7 +40,7 @@ impl ResidualDisplacement {
         }
     }
 
-    /// By the forces of a step as well until they are applied.
+    /// Displacement that includes the part by the forces of a step until they are applied.
     pub(super) fn until_applied(
         simulation: &Simulation<'_>,
         oscillators: &Oscillators,
@@ -53,7 +53,7 @@ impl ResidualDisplacement {
         Self::of(simulation, blocks)
     }
 
-    /// F per nodal diameter, or of none.
+    /// Displacement with the blocks F of every nodal diameter, or with none.
     fn of(simulation: &Simulation<'_>, blocks: Vec<Mat<c64>>) -> Self {
         let mut harmonics: Vec<Harmonic> = Vec::new();
         let mut column = 0;
@@ -67,7 +67,7 @@ impl ResidualDisplacement {
         Self { harmonics, largest: 2.0 * largest * (2.0 / simulation.wheel.sectors as f64).sqrt() }
     }
 
-    /// What `force` moves no row by more than.
+    /// Upper bound of the displacement of any row by `force`.
     pub(super) fn bound(&self, force: &[f64]) -> f64 {
         if self.harmonics.is_empty() {
             0.0
@@ -76,8 +76,7 @@ impl ResidualDisplacement {
         }
     }
 
-    /// Adds to `out[column][row]` (rows padded to `stride`) what `force[column][node]` (nodes padded to `force_stride`)
-    /// moves.
+    /// Adds to `out[column][row]` (rows padded to `stride`) the displacement by `force[column][node]` (nodes padded to `force_stride`).
     pub(super) fn add(&self, force: &[f64], force_stride: usize, out: &mut [f64], stride: usize) {
         for Harmonic { flexibility, column, single } in &self.harmonics {
             for node in 0..flexibility.ncols() {
@@ -98,7 +97,7 @@ impl ResidualDisplacement {
     }
 }
 
-/// What contact forces act along.
+/// Directions along which contact forces act.
 pub(super) fn applied(simulation: &Simulation<'_>) -> Vec<Direction> {
     match simulation.effects.friction {
         Some(friction) => friction.directions.to_vec(),

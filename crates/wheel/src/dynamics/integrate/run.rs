@@ -1,4 +1,4 @@
-//! How a run ended, and what it left.
+//! Results of a run, and how it ended.
 
 use super::bounds::TipDisplacement;
 use super::detail::DetailHistory;
@@ -13,83 +13,82 @@ use crate::dynamics::initial::{InitialMode, SteppedWave};
 use crate::dynamics::statistics::RunStatistics;
 use rubmap_numerics::complementarity::ComplementarityError;
 
-/// What a simulation recorded.
+/// Histories that a simulation recorded.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct History {
-    /// `[sensor][sample]`: displacement at the sensor's sector, over the whole run.
+    /// Displacements at the sensor's sector over the whole run, `[sensor][sample]`.
     pub displacement: Vec<Vec<f64>>,
-    /// `[sensor][Fourier column][sample]`: coordinates of all sectors in the real orthonormal Fourier basis, over the
-    /// window, every sample being a weighted mean of the steps around it so that nothing folds onto its lower half (docs/method.md,
-    /// Sampling).
+    /// Coordinates of all sectors in the real orthonormal Fourier basis over the window, `[sensor][Fourier column][sample]`, every sample
+    /// being a weighted mean of the steps around it so that nothing folds onto its lower half (docs/method.md, Sampling).
     pub harmonics: Vec<Vec<Vec<f64>>>,
-    /// `[sensor][sample]`: the same at the sensor's sector.
+    /// Displacements at the sensor's sector over the window, `[sensor][sample]`, with samples as those of `harmonics`.
     pub window: Vec<Vec<f64>>,
-    /// `[revolution][nodal diameter]`: mechanical energy at its end, if asked for.
+    /// Mechanical energy at the end of each revolution, `[revolution][nodal diameter]`, if asked for.
     pub energies: Vec<Vec<f64>>,
-    /// Where the run ended because its motion repeats; what it left is then as if it had gone on for a whole window.
+    /// Motion of a run that ended because it repeats; the results are then as if it had gone on for a whole window.
     pub repeated: Option<Repeated>,
-    /// All modes at the end of the run.
+    /// Modes at the end of the run, all of them.
     pub end: Vec<InitialMode>,
-    /// All waves of an elastic casing then.
+    /// Waves of an elastic casing at the end of the run, all of them.
     pub casing_end: Vec<SteppedWave>,
-    /// `[sector][contact node][component]`, one after the other: motion of the tips over the window.
+    /// Motion of the tips over the window, `[sector][contact node][component]`, one after the other.
     pub tips: Vec<TipMotion>,
-    /// How far they went at once.
+    /// Largest excursions of the tips.
     pub excursion: Excursion,
-    /// What was recorded of chosen revolutions, if any were.
+    /// Histories of chosen revolutions, if any were recorded.
     pub detail: Option<Box<DetailHistory>>,
-    /// All modes at the samples of chosen revolutions, if they were asked for.
+    /// Modes at the samples of chosen revolutions, all of them, if they were asked for.
     pub states: Option<Box<ModalStates>>,
 }
 
-/// A response that left the bounds of the theory.
+/// Response that left the bounds of the theory.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Divergence {
-    /// Revolutions integrated until it was found.
+    /// Revolutions integrated until the divergence was found.
     pub revolutions: f64,
-    /// The tip that had moved most then; none where nothing can be touched, and numbers overflowed.
+    /// Tip that had moved most by then; none where nothing can be touched, and numbers overflowed.
     pub tip: Option<TipDisplacement>,
-    /// Mechanical energy then over that at the end of the last whole revolution; none in the first.
+    /// Mechanical energy at that time over that at the end of the last whole revolution; none in the first.
     pub energy_growth: Option<f64>,
 }
 
-/// How a simulation ended.
+/// End of a simulation.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Outcome {
-    /// All revolutions were integrated.
+    /// Run that integrated all revolutions.
     Completed(History),
-    /// A tip that a casing may touch moved by more than a tenth of the wheel's radius in any component, or a number
+    /// Run in which a tip that a casing may touch moved by more than a tenth of the wheel's radius in any component, or a number
     /// overflowed. Without a casing the response is linear, and may be of any size.
     Diverged(Divergence),
-    /// The contact problem of a step could not be solved.
+    /// Run that stopped at a step whose contact problem could not be solved.
     ContactFailed {
         /// Revolutions integrated until then.
         revolutions: f64,
-        /// Why.
+        /// Error of the contact solver.
         error: ComplementarityError,
     },
-    /// The caller asked to stop.
+    /// Run that the caller stopped.
     Cancelled,
 }
 
 /// Outcome with its credentials.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Run {
-    /// How it ended.
+    /// End of the run.
     pub outcome: Outcome,
-    /// What was counted.
+    /// Counters of the run.
     pub statistics: RunStatistics,
-    /// The energy identity.
+    /// Energy audit of the run.
     pub energy: EnergyAudit,
-    /// The coating at the end, if there is one.
+    /// Coating at the end, if there is one.
     pub coating: Option<WornCoating>,
     /// Contact over the window, where there is a casing.
     pub contact: Option<ContactRecord>,
 }
 
 impl Run {
-    /// Of a run whose window is the `period` of a motion that repeats: as if it had gone on for `revolutions` in all, the last `window` of
-    /// them recorded. What was counted stays that of the revolutions that were taken.
+    /// Extends a run whose window is the `period` of a motion that repeats, as if it had gone on for `revolutions` in all, the last
+    /// `window` of them recorded. Counters stay those of the revolutions that were taken.
     #[must_use]
     pub fn repeated(mut self, period: usize, revolutions: usize, window: usize) -> Self {
         let times = window / period;
@@ -111,5 +110,5 @@ impl Run {
     }
 }
 
-/// A restriction table larger than this many values (2 GiB) is refused.
+/// Largest number of values of a restriction table (2 GiB); a larger table is refused.
 pub const MAX_TABLE_VALUES: usize = 1 << 28;

@@ -1,4 +1,4 @@
-//! What is integrated, and what is recorded of it.
+//! Simulation of the wheel: what is integrated, and what is recorded of it.
 
 use std::f64::consts::TAU;
 
@@ -15,10 +15,10 @@ use crate::dynamics::sector::ContactNode;
 
 use super::revolutions::{Repeats, Revolutions};
 
-/// One simulation of the wheel at its speed.
+/// Simulation of the wheel at its speed.
 #[derive(Debug, Clone, Copy)]
 pub struct Simulation<'a> {
-    /// The wheel in modal coordinates.
+    /// Wheel in modal coordinates.
     pub wheel: &'a ModalWheel,
     /// Contact nodes from leading to trailing edge.
     pub contact_nodes: &'a [ContactNode],
@@ -30,47 +30,47 @@ pub struct Simulation<'a> {
     pub effects: Effects<'a>,
     /// Modes that move at the start; empty: from rest.
     pub initial: &'a [InitialMode],
-    /// Recorded displacements.
+    /// Displacements to be recorded.
     pub sensors: &'a [SensorRow],
-    /// How time is stepped.
+    /// Scheme of time integration.
     pub scheme: Scheme,
-    /// Steps S per revolution, at least the scheme's smallest stable number.
+    /// Number S of steps per revolution, at least the scheme's smallest stable number.
     pub steps_per_revolution: usize,
-    /// Recorded samples per revolution, a divisor of S.
+    /// Number of recorded samples per revolution, a divisor of S.
     pub samples_per_revolution: usize,
-    /// Revolutions to simulate, at most.
+    /// Number of revolutions to simulate, at most.
     pub revolutions: usize,
-    /// Whether fewer may do; absent: all are taken.
+    /// Condition on which fewer revolutions are taken; absent: all are taken.
     pub repeats: Option<Repeats>,
-    /// Revolutions at the end for which nodal-diameter coordinates are recorded.
+    /// Number of revolutions at the end for which nodal-diameter coordinates are recorded.
     pub window_revolutions: usize,
-    /// Revolutions of which more is recorded.
+    /// Details to record of chosen revolutions.
     pub detail: Option<Detail>,
     /// Revolutions of which all modes are recorded, at every sample.
     pub states: Option<Revolutions>,
 }
 
-/// What a run records of chosen revolutions, at every sample.
+/// Choice of the details that a run records of chosen revolutions, at every sample.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Detail {
-    /// Which.
+    /// Revolutions to record.
     pub revolutions: Revolutions,
-    /// Velocities of the sensors.
+    /// Whether velocities of the sensors are recorded.
     pub velocity: bool,
-    /// How much touches.
+    /// Whether the number of nodes in contact and the length of contact are recorded.
     pub contact: bool,
-    /// The force on every contact node of every blade.
+    /// Whether the force on every contact node of every blade is recorded.
     pub forces: bool,
-    /// The energy audit.
+    /// Whether the energy audit is recorded.
     pub energy: bool,
 }
 
-/// A recorded displacement.
+/// Recorded displacement.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SensorRow {
-    /// Where and along what.
+    /// Contact node and direction of the displacement.
     pub direction: Direction,
-    /// At which sector.
+    /// Sector of the displacement.
     pub sector: usize,
 }
 
@@ -99,6 +99,5 @@ impl Simulation<'_> {
     }
 }
 
-/// Displacements beyond this share of the largest contact radius end a run as diverged: linear structural theory is
-/// void long before.
+/// Share of the largest contact radius beyond which a displacement ends a run as diverged: linear structural theory is void long before.
 pub const DIVERGED_SHARE_OF_RADIUS: f64 = 0.1;

@@ -1,4 +1,4 @@
-//! All modes at the samples of chosen revolutions: where the whole wheel was then.
+//! States of the whole wheel, by all its modes, at the samples of chosen revolutions.
 
 use faer::{Mat, c64};
 
@@ -13,13 +13,13 @@ use rubmap_numerics::sector_fourier::SectorFourier;
 /// Modal coordinates at some instants.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ModalStates {
-    /// The instants, in revolutions since the start.
+    /// Instants, in revolutions since the start.
     pub revolutions: Vec<f64>,
-    /// Per nodal diameter of the wheel z, `modes × instants`; modes that are not integrated follow the contact forces.
+    /// Modal coordinates z per nodal diameter of the wheel, `modes × instants`; modes that are not integrated follow the contact forces.
     pub harmonics: Vec<Mat<c64>>,
 }
 
-/// Records them.
+/// Recorder of [`ModalStates`].
 #[derive(Debug)]
 pub(super) struct StateRecorder {
     asked: Revolutions,
@@ -27,19 +27,19 @@ pub(super) struct StateRecorder {
     revolutions: (usize, usize),
     steps_per_revolution: usize,
     following: Vec<Following>,
-    /// Numbers of the forces of a sample; 0 where no mode follows them.
+    /// Number of force values of a sample; 0 where no mode follows forces.
     forces: usize,
     instants: Vec<f64>,
-    /// `[sample][number]`: z as the oscillators keep it.
+    /// Modal coordinates z as the oscillators store them, `[sample][number]`.
     modes: Vec<f64>,
-    /// `[sample][column][node]`
+    /// Contact forces, `[sample][column][node]`.
     force: Vec<f64>,
 }
 
-/// The modes of a nodal diameter that are not integrated.
+/// Modes of a nodal diameter that are not integrated.
 #[derive(Debug)]
 struct Following {
-    /// z per unit force, `modes × directions`.
+    /// Displacements z per unit force, `modes × directions`.
     receptance: Mat<c64>,
     /// Fourier column of the real part.
     column: usize,
@@ -79,12 +79,12 @@ impl StateRecorder {
         }
     }
 
-    /// The run ends because its motion repeats.
+    /// Takes note that the run ends because its motion repeats.
     pub(super) fn end_after(&mut self, repeated: Repeated) {
         self.revolutions = self.asked.of(0, Some(repeated));
     }
 
-    /// Keeps the modes at a sample after `step`, if they are wanted; `force` as of
+    /// Stores the modes at a sample after `step`, if it is to be recorded; `force` as of
     /// [`ResidualDisplacement::add`](super::residual::ResidualDisplacement::add).
     #[inline(always)]
     pub(super) fn sample(
@@ -127,7 +127,7 @@ impl StateRecorder {
 }
 
 impl Following {
-    /// z of a mode under `force`, `[column][direction]`.
+    /// Displacement z of a mode under `force`, `[column][direction]`.
     fn position(&self, mode: usize, force: &[f64]) -> c64 {
         let directions = self.receptance.ncols();
         let at = |direction: usize| {

@@ -1,4 +1,4 @@
-//! What the forces of a step move within it.
+//! Flexibility within a step: displacements at its end by the forces in it.
 
 use faer::{Mat, c64};
 
@@ -25,7 +25,7 @@ pub(super) fn step_flexibility(
     }
 }
 
-/// The same without Coriolis forces.
+/// Displacements as of [`step_flexibility`], without Coriolis forces.
 pub(super) fn symmetric_flexibility(
     simulation: &Simulation<'_>,
     oscillators: &Oscillators,

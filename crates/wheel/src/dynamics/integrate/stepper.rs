@@ -1,4 +1,4 @@
-//! The step loop, top to bottom.
+//! Step loop, top to bottom.
 //!
 //! With mass at the contact, a step predicts every modal oscillator (Eq. 8), reads the normal displacement of every
 //! contact node and solves the complementarity problem of the gaps (Eqs 9, 10) for the forces that complete it; they are
@@ -15,9 +15,6 @@ mod stretch;
 
 use faer::Mat;
 use pulp::Arch;
-
-use self::steps::Observer;
-pub(super) use self::steps::StepRange;
 
 #[cfg(test)]
 use super::super::casing::RestrictionTable;
@@ -36,11 +33,12 @@ use super::repetition::Repetition;
 use super::revolutions::Repeated;
 use super::run::{Outcome, Run};
 use super::simulation::Simulation;
+use super::step_range::{Observer, StepRange};
 use super::surroundings::Surroundings;
 use super::trace::Trace;
 use rubmap_numerics::sector_fourier::SectorFourier;
 
-/// Steps between two looks at progress and cancellation: some tens of milliseconds.
+/// Number of steps between two checks of progress and cancellation: some tens of milliseconds.
 const WATCHED_STEPS: u64 = 1 << 14;
 
 /// Everything a step changes or reads; built before the loop, nothing is allocated in it.
@@ -50,10 +48,10 @@ pub(super) struct Stepper {
     arch: Arch,
     fourier: SectorFourier,
     oscillators: Oscillators,
-    /// What else than contact moves the wheel.
+    /// Drive of the wheel by everything but contact.
     drive: Option<Drive>,
     obstacle: Option<Obstacle>,
-    /// What effects make of the obstacle.
+    /// Effects on the obstacle.
     surroundings: Option<Surroundings>,
     /// Whether contact forces act from the instant at which they close a gap, instead of completing its step.
     massless: bool,
@@ -61,10 +59,10 @@ pub(super) struct Stepper {
     follow: bool,
     /// Whether motion may decay to nothing.
     decays: bool,
-    /// Of a wheel that may touch something.
+    /// Bounds of the displacements, for a wheel that may touch something.
     bounds: Option<Bounds>,
     recorder: Recorder,
-    /// Of a run that may end because its motion repeats.
+    /// Detection of motion that repeats, for a run that may end because of it.
     repetition: Option<Repetition>,
     statistics: RunStatistics,
     energy: EnergyAudit,
@@ -72,12 +70,12 @@ pub(super) struct Stepper {
     last_energy: Option<f64>,
 }
 
-/// Whether forces act when a run begins.
+/// Forces that act when a run begins.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Beginning {
-    /// None: the wheel touches nothing yet.
+    /// Run without forces at its beginning: the wheel touches nothing yet.
     Free,
-    /// Those of the state it begins with.
+    /// Run under the forces of the state that it begins with.
     UnderWay,
 }
 
@@ -86,7 +84,7 @@ impl Stepper {
         Self::beginning_at(simulation, 0.0, simulation.casing.is_some())
     }
 
-    /// Of a simulation whose initial state is that after `revolutions`, and whose fast modes `follow` or not.
+    /// Stepper of a simulation whose initial state is that after `revolutions`, and whose fast modes `follow` or not.
     pub(super) fn beginning_at(simulation: &Simulation<'_>, revolutions: f64, follow: bool) -> Self {
         let (wheel, scheme) = (simulation.wheel, simulation.scheme);
         let fourier = SectorFourier::new(wheel.sectors);
@@ -268,17 +266,17 @@ impl Stepper {
         &self.oscillators
     }
 
-    /// Whether there are effects.
+    /// Whether effects act on the wheel or on contact.
     fn is_affected(&self) -> bool {
         self.drive.is_some() || self.surroundings.is_some()
     }
 
-    /// −∂f/∂z of mistuning between the Fourier columns of every family that it couples.
+    /// Stiffness −∂f/∂z of mistuning between the Fourier columns of every family that it couples.
     pub(super) fn mistuned(&self) -> Vec<Mat<f64>> {
         self.drive.as_ref().map(Drive::mistuned).unwrap_or_default()
     }
 
-    /// Gives what drives the wheel its part in increments that are those of free motion, `revolutions` after the start.
+    /// Adds the part of the drive, `revolutions` after the start, to increments that are those of free motion.
     pub(super) fn drive_from(
         &mut self,
         simulation: &Simulation<'_>,
@@ -290,7 +288,7 @@ impl Stepper {
         }
     }
 
-    /// Has modes and casing where another motion left them.
+    /// Puts modes and casing where another motion left them.
     pub(super) fn go_on_from(&mut self, from: &Stepped) {
         self.oscillators.go_on_from(&from.modes);
         if let Some(casing) = self.flexible_casing_mut() {
@@ -318,7 +316,7 @@ impl Stepper {
         read(&self.oscillators)
     }
 
-    /// Keeps the state at the end, as free motion would have it.
+    /// Stores the state at the end, as free motion would have it.
     fn end(&mut self, simulation: &Simulation<'_>, revolutions: usize) {
         let modes = self.modes_at_end(simulation, revolutions as f64);
         let casing = self.flexible_casing().map(CasingMotion::stepped).unwrap_or_default();
@@ -326,7 +324,7 @@ impl Stepper {
         self.recorder.end(simulation.wheel, &self.oscillators, &self.fourier, end);
     }
 
-    /// Whether the motion was found to repeat after `revolution`, if anybody wants to know.
+    /// Motion that was found to repeat after `revolution`, if the run may end because of it.
     fn repeats(&mut self, revolution: usize) -> Option<Repeated> {
         let casing = self.surroundings.as_ref().and_then(|surroundings| surroundings.casing.as_ref());
         self.repetition.as_mut()?.look(revolution, &self.oscillators, casing)
@@ -345,7 +343,7 @@ impl Stepper {
     }
 }
 
-/// z and ż of every mode, its increment being that of free motion.
+/// Displacements z and velocities ż of every mode, its increment being that of free motion.
 fn modal_state(simulation: &Simulation<'_>, oscillators: &Oscillators, follow: bool) -> Vec<InitialMode> {
     let step = simulation.step_s();
     oscillators.modal_state(|harmonic, family, z, d| {

@@ -1,4 +1,4 @@
-//! Part of a run: what it begins at, and what it leaves.
+//! Part of a run: its beginning and its results.
 
 use super::run::Outcome;
 use crate::dynamics::energy::EnergyAudit;
@@ -8,25 +8,25 @@ use crate::dynamics::statistics::RunStatistics;
 /// Part of a run, from sample to sample, both counted from where the run began.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Part {
-    /// The sample that it begins at: what the simulation calls initial is the state there.
+    /// Sample that the part begins at: the initial state of the simulation is the state there.
     pub first_sample: u64,
-    /// How many samples follow.
+    /// Number of samples that follow.
     pub samples: u64,
 }
 
-/// What part of a run left.
+/// Results of part of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stretch {
-    /// Why it ended before its end; none if it did not. Never [`Outcome::Completed`].
+    /// Outcome of a part that ended before its end; none if it did not. Never [`Outcome::Completed`].
     pub ended: Option<Outcome>,
-    /// `[sensor][sample]`: displacement at the sensor's sector.
+    /// Displacements at the sensor's sector, `[sensor][sample]`.
     pub displacement: Vec<Vec<f64>>,
-    /// `[sensor][sample]`: largest size of the same displacement at any sector.
+    /// Largest size of the displacement at any sector, `[sensor][sample]`.
     pub largest: Vec<Vec<f64>>,
-    /// All modes that are integrated, at the end.
+    /// Modes that are integrated, at the end, all of them.
     pub end: Vec<InitialMode>,
-    /// What was counted.
+    /// Counters of the part.
     pub statistics: RunStatistics,
-    /// The energy identity.
+    /// Energy audit of the part.
     pub energy: EnergyAudit,
 }

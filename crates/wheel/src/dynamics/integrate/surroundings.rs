@@ -1,4 +1,4 @@
-//! What the effects of a scene add to contact.
+//! Effects of a scene on contact.
 
 use super::super::clearance_change::ClearanceShift;
 use super::super::clearance_drift::ClearanceDrift;
@@ -19,7 +19,7 @@ use rubmap_numerics::complementarity::disc::DiscSolver;
 use rubmap_numerics::complementarity::factor::{Cholesky, Factor, Lu};
 use rubmap_numerics::sector_fourier::SectorFourier;
 
-/// Each is absent unless the scene names it.
+/// Effects of a scene on contact; each is absent unless the scene names it.
 #[derive(Debug)]
 pub(super) struct Surroundings {
     pub(super) sliding: Option<Sliding>,
@@ -30,24 +30,24 @@ pub(super) struct Surroundings {
     drift: Option<ClearanceDrift>,
     /// Contact nodes of a sector, padded.
     stride: usize,
-    /// What is added to the gaps, `[sector][node]`, nodes padded to whole vectors; none of a casing that stays where it is.
+    /// Shift of the gaps, `[sector][node]`, nodes padded to whole vectors; none for a casing that stays where it is.
     pub(super) shift: Option<Vec<f64>>,
 }
 
-/// What a tip meets, where it is not a rigid wall on a symmetric operator.
+/// Law of contact between tips and casing.
 #[derive(Debug)]
 pub(super) enum Law {
-    /// That.
+    /// Rigid wall on a symmetric operator.
     Plain,
-    /// A rigid wall, on an operator that is not symmetric.
+    /// Rigid wall, on an operator that is not symmetric.
     General(ActiveSetSolver<Lu>),
-    /// A coating with metal behind it.
+    /// Coating with metal behind it.
     Coated(CoatedSolver, Box<WornCoating>),
-    /// A rigid wall on which tips stick or slide.
+    /// Rigid wall on which tips stick or slide.
     Disc(Box<Disc>),
 }
 
-/// On a symmetric operator, or on any.
+/// Solver for a coating, on a symmetric operator or on any.
 #[derive(Debug)]
 pub(super) enum CoatedSolver {
     Symmetric(Box<BranchSolver<Cholesky>>),
@@ -58,25 +58,25 @@ pub(super) enum CoatedSolver {
 pub(super) struct Solution<'a> {
     /// Indices with a force.
     pub(super) active: &'a [usize],
-    /// Their forces.
+    /// Forces of the active indices.
     pub(super) lambda: &'a [f64],
-    /// Gaps under them, or without where they reach nothing.
+    /// Gaps under these forces, or without them where they reach nothing.
     pub(super) gap: &'a [f64],
     /// Work of all solutions so far.
     pub(super) pivots: PivotStatistics,
 }
 
-/// Friction at the contact nodes.
+/// Friction of tips that slide forwards, at the contact nodes.
 #[derive(Debug)]
 pub(super) struct Sliding {
-    /// n + μt, along which forces act.
+    /// Directions n + μt, along which forces act.
     pub(super) rows: Rows,
-    /// μ t_θ rΩ h of every node: heat per unit of λ in a step.
+    /// Heat per unit of λ in a step, μ t_θ rΩ h of every node.
     pub(super) heat: Vec<f64>,
 }
 
 impl Surroundings {
-    /// None for a scene without contact or without effects on it.
+    /// Effects of the scene; none for a scene without contact or without effects on it.
     pub(super) fn new(
         simulation: &Simulation<'_>,
         oscillators: &Oscillators,
@@ -144,7 +144,7 @@ impl Surroundings {
         })
     }
 
-    /// What contact forces act along: the normals, `rows`, but for friction.
+    /// Rows along which contact forces act: the normals, `rows`, unless there is friction.
     #[inline(always)]
     pub(super) fn applied<'a>(&'a self, rows: &'a Rows) -> &'a Rows {
         match (&self.sliding, &self.law) {
@@ -154,12 +154,12 @@ impl Surroundings {
         }
     }
 
-    /// How many directions a contact force has, whose rows follow each other.
+    /// Number of directions of a contact force, whose rows follow each other.
     pub(super) fn directions(&self) -> usize {
         if matches!(self.law, Law::Disc(_)) { DIRECTIONS } else { 1 }
     }
 
-    /// The coating as it is now, if there is one.
+    /// Coating as it is now, if there is one.
     pub(super) fn coating(&self) -> Option<&WornCoating> {
         match &self.law {
             Law::Coated(_, coating) => Some(coating),
@@ -167,7 +167,7 @@ impl Surroundings {
         }
     }
 
-    /// What the effects add to the gaps after `revolutions`.
+    /// Updates the shift of the gaps to `revolutions` after the start.
     pub(super) fn move_to(&mut self, revolutions: f64, growth: f64) {
         let Some(shift) = &mut self.shift else { return };
         shift.fill(0.0);
@@ -187,8 +187,8 @@ impl Surroundings {
 }
 
 impl Law {
-    /// Solves for the forces of a contact operator, gaps without them and a tolerance; `plain` does where this has no solver of
-    /// its own. `read` is what rows swing by in the step, for friction that asks.
+    /// Solves for the forces of a contact operator, gaps without them and a tolerance; `plain` does so where the law has no solver of its
+    /// own. `read` gives the swing of rows in the step, for friction that asks.
     #[inline(always)]
     pub(super) fn solve(
         &mut self,
@@ -214,7 +214,7 @@ impl Law {
         }
     }
 
-    /// What was found last.
+    /// Solution that was found last.
     #[inline(always)]
     pub(super) fn solution<'a>(&'a self, plain: &'a ActiveSetSolver) -> Solution<'a> {
         match self {
@@ -225,7 +225,7 @@ impl Law {
         }
     }
 
-    /// The disc of friction, if it is one.
+    /// Disc of friction, if the law is one.
     #[inline(always)]
     pub(super) fn disc(&self) -> Option<&Disc> {
         match self {
@@ -234,7 +234,7 @@ impl Law {
         }
     }
 
-    /// Wears what the forces found last press into.
+    /// Wears the coating by the forces found last.
     #[inline(always)]
     pub(super) fn wear(&mut self, w: &Delassus, step: usize) {
         let Self::Coated(solver, coating) = self else { return };
@@ -245,7 +245,7 @@ impl Law {
         }
     }
 
-    /// How deep a tip may be in what it meets.
+    /// Largest depth of a tip within its obstacle.
     pub(super) fn depth(&self) -> f64 {
         match self {
             Self::Coated(_, coating) => coating.unworn().thickness(),

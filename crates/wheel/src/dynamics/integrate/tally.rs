@@ -1,4 +1,4 @@
-//! What contact does, per contact node and blade.
+//! Counts of contact, per contact node and blade.
 
 use super::super::casing::arc_lengths;
 use super::super::contact::flexibility::outward_normals;
@@ -11,11 +11,11 @@ use super::simulation::Simulation;
 pub struct PairContact {
     /// Largest force, mean over the interval between two samples.
     pub peak_force: f64,
-    /// ∫λ dt, force·time.
+    /// Impulse ∫λ dt, force·time.
     pub impulse: f64,
-    /// Steps with a force.
+    /// Number of steps with a force.
     pub steps: u64,
-    /// How often the gap closed.
+    /// Number of times that the gap closed.
     pub closings: u64,
     /// Largest outward displacement along the normal at a sample, length.
     pub outward: f64,
@@ -24,13 +24,13 @@ pub struct PairContact {
 /// Contact over the window of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ContactRecord {
-    /// Contact nodes of a sector.
+    /// Number of contact nodes of a sector.
     pub nodes: usize,
-    /// `[sector][contact node]`, one after the other.
+    /// Contact of every pair, `[sector][contact node]`, one after the other.
     pub pairs: Vec<PairContact>,
     /// Largest sum of all forces, mean over the interval between two samples.
     pub peak_force: f64,
-    /// `[contact node]`: amplitude along the normal of the steady response to the forces at engine orders, were there no contact; empty
+    /// Amplitude along the normal of the steady response to the forces at engine orders, were there no contact, `[contact node]`; empty
     /// without such forces.
     pub linear: Vec<f64>,
 }
@@ -38,7 +38,7 @@ pub struct ContactRecord {
 /// Contact between two samples.
 #[derive(Debug, Default)]
 pub(super) struct ContactInterval {
-    /// `[sector·nodes + node]`: mean force.
+    /// Mean forces, `[sector·nodes + node]`.
     pub(super) force: Vec<f64>,
     /// Mean number of nodes that touch.
     pub(super) nodes: f64,
@@ -46,30 +46,30 @@ pub(super) struct ContactInterval {
     pub(super) length: f64,
 }
 
-/// Counts contact step by step.
+/// Counter of contact, step by step.
 #[derive(Debug)]
 pub(super) struct ContactTally {
     record: ContactRecord,
-    /// Since the last sample.
+    /// Contact of every pair since the last sample.
     pairs: Vec<Recent>,
     touched: Vec<usize>,
-    /// λ of all pairs, summed over the steps since the last sample.
+    /// Forces λ of all pairs, summed over the steps since the last sample.
     force: f64,
     interval: f64,
     step_s: f64,
-    /// Length that each node stands for.
+    /// Length of the contact line that each node stands for.
     lengths: Vec<f64>,
     /// Whether the window has begun.
     windowed: bool,
 }
 
-/// A pair since the last sample.
+/// Contact of a pair since the last sample.
 #[derive(Debug, Clone, Copy)]
 struct Recent {
-    /// λ, summed over the steps.
+    /// Force λ, summed over the steps.
     force: f64,
     steps: u32,
-    /// The last step with a force.
+    /// Last step with a force.
     last: u64,
 }
 
@@ -96,12 +96,12 @@ impl ContactTally {
         }
     }
 
-    /// From now on the window counts.
+    /// Begins the window: contact counts from now on.
     pub(super) fn begin_window(&mut self) {
         self.windowed = true;
     }
 
-    /// Force `lambda` on a node of a blade in the step of this number, counted from 1.
+    /// Counts the force `lambda` on a node of a blade in step `step`, counted from 1.
     #[inline(always)]
     pub(super) fn press(&mut self, sector: usize, node: usize, lambda: f64, step: u64) {
         let index = sector * self.record.nodes + node;
@@ -122,7 +122,7 @@ impl ContactTally {
         }
     }
 
-    /// Ends an interval; `outward` is the normal displacement of a pair, `seen` gets what happened, if anybody wants it.
+    /// Ends an interval; `outward` is the normal displacement of a pair, `seen` receives the contact of the interval, if it is asked for.
     #[inline(always)]
     pub(super) fn sample(
         &mut self,
@@ -161,7 +161,7 @@ impl ContactTally {
         }
     }
 
-    /// An interval of all pairs, without contact.
+    /// Interval of all pairs, without contact.
     pub(super) fn interval(&self) -> ContactInterval {
         ContactInterval { force: vec![0.0; self.pairs.len()], ..ContactInterval::default() }
     }
@@ -171,7 +171,7 @@ impl ContactTally {
     }
 }
 
-/// [`ContactRecord::linear`].
+/// Amplitudes of [`ContactRecord::linear`].
 fn linear(simulation: &Simulation<'_>) -> Vec<f64> {
     let Simulation { wheel, effects, damping, contact_nodes, .. } = *simulation;
     match effects.excitation {
@@ -180,7 +180,7 @@ fn linear(simulation: &Simulation<'_>) -> Vec<f64> {
     }
 }
 
-/// Half the way to the neighbours along the contact line.
+/// Lengths from half-way to half-way between neighbours along the contact line.
 fn tributary_lengths(nodes: &[ContactNode]) -> Vec<f64> {
     let positions: Vec<_> = nodes.iter().map(|node| node.position).collect();
     let arc = arc_lengths(&positions);

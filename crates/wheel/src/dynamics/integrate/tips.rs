@@ -1,4 +1,4 @@
-//! How far the tips move: every component of every contact node of every blade, over the window.
+//! Motion of the tips: every component of every contact node of every blade, over the window.
 
 use pulp::Simd;
 
@@ -19,7 +19,7 @@ pub struct TipMotion {
     pub half_peak_to_peak: f64,
 }
 
-/// Instants of a revolution at which tips are looked at, about: enough for levels, few enough to cost next to nothing.
+/// Number of instants of a revolution at which tips are read, about: enough for levels, few enough to cost next to nothing.
 const INSTANTS: usize = 128;
 
 /// Sums over the window.
@@ -28,20 +28,20 @@ pub(super) struct TipTally {
     rows: Rows,
     residual: ResidualDisplacement,
     harmonic: Vec<f64>,
-    /// Samples from one look to the next.
+    /// Number of samples from one reading to the next.
     every: usize,
     samples: usize,
     looks: u32,
-    /// `[sector][node][component]`
+    /// Sums of the motion, `[sector][node][component]`.
     motions: Vec<Sums>,
-    /// The same now.
+    /// Displacements now, `[sector][node][component]`.
     now: Vec<f64>,
     excursion: ExcursionTally,
 }
 
 #[derive(Debug, Clone, Copy)]
 struct Sums {
-    /// What is taken off before squares are summed: the first value.
+    /// Offset subtracted before squares are summed: the first value.
     origin: f64,
     sum: f64,
     squares: f64,
@@ -72,7 +72,7 @@ impl TipTally {
         }
     }
 
-    /// Looks at the tips at a sample of the window, if it is time; `force` as of [`ResidualDisplacement::add`].
+    /// Reads the tips at a sample of the window, if it is time; `force` as of [`ResidualDisplacement::add`].
     #[inline(always)]
     pub(super) fn sample<S: Simd>(
         &mut self,
@@ -103,7 +103,7 @@ impl TipTally {
         self.looks += 1;
     }
 
-    /// `[sector][contact node][component]`, one after the other.
+    /// Motion of the tips, `[sector][contact node][component]`, one after the other.
     pub(super) fn motions(&self) -> Vec<TipMotion> {
         self.motions.iter().map(|sums| sums.motion(f64::from(self.looks))).collect()
     }

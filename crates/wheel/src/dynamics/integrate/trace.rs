@@ -1,4 +1,4 @@
-//! What touched when: all that the linearised flow needs to know of a passage.
+//! Trace of contact over a return map: all that the linearised flow needs to know of it.
 
 use faer::linalg::solvers::DenseSolveCore;
 use faer::{Mat, Side};
@@ -6,23 +6,23 @@ use faer::{Mat, Side};
 /// Contact nodes that touched together.
 #[derive(Debug, Clone)]
 pub struct Touching {
-    /// (sector, contact node) of each.
+    /// Sector and contact node of each.
     pub places: Vec<(usize, usize)>,
-    /// Forces per penetration that was predicted, W⁻¹ among them.
+    /// Stiffness: forces per predicted penetration, W⁻¹ among the nodes.
     pub stiffness: Mat<f64>,
 }
 
-/// Contact of a passage, step by step.
+/// Contact during a return map, step by step.
 #[derive(Debug, Clone, Default)]
 pub struct Trace {
     /// Sets of nodes, in the order in which they touched.
     pub sets: Vec<Touching>,
-    /// Steps at whose end some touched, counted from 1 (0: the start), with the set of each.
+    /// Steps at whose end a set touched, counted from 1 (0: the start), with the number of the set.
     pub instants: Vec<(usize, usize)>,
 }
 
 impl Trace {
-    /// Whether the same nodes touched at the same steps: from one such state to another the flow is affine.
+    /// Whether the same nodes touched at the same steps: between two such states the flow is affine.
     pub fn is_alike(&self, other: &Self) -> bool {
         let places = |trace: &Self| trace.sets.iter().map(|set| set.places.clone()).collect::<Vec<_>>();
         self.instants == other.instants && places(self) == places(other)
@@ -33,7 +33,7 @@ impl Trace {
         self.instants.clear();
     }
 
-    /// That these touched at the end of `step`, `w` being W among them, and whether it is symmetric.
+    /// Records that `places` touched at the end of `step`, `w` being W among them, and whether it is symmetric.
     pub(super) fn touch(
         &mut self,
         step: usize,

@@ -1,36 +1,36 @@
-//! The numbers that the state over a [`Passage`](super::Passage) is made of.
+//! Unknowns that make up the state of a [`Passage`](super::Passage).
 
 use super::simulation::Simulation;
 use super::stepper::Stepper;
 use crate::dynamics::flexible_casing::CasingMotion;
 
-/// One number of the state.
+/// Unknown of the wheel: one number of the state.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Unknown {
     /// Index of the nodal diameter among the wheel's.
     pub harmonic: usize,
-    /// Mode within it.
+    /// Mode within the nodal diameter.
     pub family: usize,
-    /// Whether it is of the imaginary part of a pair.
+    /// Whether the unknown belongs to the imaginary part of a pair.
     pub imaginary: bool,
-    /// What z is multiplied by: ω, or 1/h of a mode without frequency.
+    /// Factor of z: ω, or 1/h of a mode without frequency.
     pub scale: f64,
 }
 
-/// One number of the state of an elastic casing.
+/// Unknown of an elastic casing: one number of the state.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CasingUnknown {
-    /// Which of its waves.
+    /// Index of the wave.
     pub wave: usize,
-    /// n.
+    /// Nodal diameter n of the wave.
     pub nodal_diameter: usize,
-    /// Whether it is of the sine; that of n = 0 is none.
+    /// Whether the unknown belongs to the sine; n = 0 has none.
     pub sine: bool,
-    /// What z is multiplied by, as of [`Unknown`].
+    /// Factor of z, as of [`Unknown`].
     pub scale: f64,
 }
 
-/// z and d of all modes that remember, each with its place in the oscillators' state.
+/// Unknowns of all modes that remember, each with its index in the oscillators' state.
 pub(super) fn unknowns(simulation: &Simulation<'_>, stepper: &Stepper) -> Vec<(Unknown, usize)> {
     let mut unknowns = Vec::new();
     for (harmonic, modes) in simulation.wheel.harmonics.iter().enumerate() {
@@ -48,7 +48,7 @@ pub(super) fn unknowns(simulation: &Simulation<'_>, stepper: &Stepper) -> Vec<(U
     unknowns
 }
 
-/// z and d of an elastic casing, as they are in the state.
+/// Unknowns of an elastic casing, in the order of the state.
 pub(super) fn casing_unknowns(stepper: &Stepper, step: f64) -> Vec<CasingUnknown> {
     let mut unknowns = Vec::new();
     let waves = stepper.flexible_casing().into_iter().flat_map(CasingMotion::linear_waves);
@@ -61,8 +61,8 @@ pub(super) fn casing_unknowns(stepper: &Stepper, step: f64) -> Vec<CasingUnknown
     unknowns
 }
 
-/// Whether where a mode goes depends on where it was: one that follows statically forgets it within a step, unless it follows itself or others
-/// that remember.
+/// Whether a mode remembers: its motion depends on where it was. A mode that follows statically forgets this within a step, unless it
+/// follows itself or others that remember.
 fn remembers(simulation: &Simulation<'_>, omega: f64, family: usize) -> bool {
     if simulation.effects.mistuning.is_some() || simulation.wheel.turns() {
         return true;

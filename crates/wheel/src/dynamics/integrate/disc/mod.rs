@@ -1,4 +1,4 @@
-//! Coulomb's disc at the contact, within a step.
+//! Coulomb friction as a disc at the contact, within a step.
 
 #[cfg(test)]
 mod tests;
@@ -19,17 +19,17 @@ use rubmap_numerics::complementarity::ComplementarityError;
 use rubmap_numerics::complementarity::disc::{DiscSolver, Forces};
 use rubmap_numerics::sector_fourier::SectorFourier;
 
-/// The three directions of a contact node: n, t, n × t.
+/// Number of directions of a contact node: n, t, n × t.
 pub(super) const DIRECTIONS: usize = 3;
 
 #[derive(Debug)]
 pub(super) struct Disc {
     coefficient: f64,
-    /// Those of all nodes, along which forces act.
+    /// Directions of all nodes, along which forces act.
     pub(super) rows: Rows,
     operator: DiscTable,
     pub(super) solver: DiscSolver,
-    /// Those in the contact plane of each node.
+    /// Contact planes of the nodes.
     planes: Vec<Plane>,
     fourier: SectorFourier,
     stride: usize,
@@ -39,15 +39,15 @@ pub(super) struct Disc {
 #[derive(Debug)]
 struct Plane {
     rows: Rows,
-    /// z⁺ − z⁻ along its two directions, `[Fourier column][direction]`, of the step that was read.
+    /// Swing z⁺ − z⁻ along the two directions of the plane, `[Fourier column][direction]`, of the step that was read.
     swing: Vec<f64>,
     is_read: bool,
-    /// 2h rΩ e_θ·t: what the rotation adds.
+    /// Part 2h rΩ e_θ·t of the rotation in the sliding.
     forward: f64,
 }
 
 impl Disc {
-    /// Where friction is a disc.
+    /// Prepares friction as a disc; none under another law of friction.
     ///
     /// # Panics
     /// With a coating, or a boundary without mass.
@@ -93,8 +93,8 @@ impl Disc {
         })
     }
 
-    /// Forces of gaps without them, and a tolerance; `read` is z⁺ − z⁻ of rows in Fourier coordinates, without forces, which is asked
-    /// for the nodes that may touch.
+    /// Solves for the forces of `gap`, the gaps without them, within a tolerance; `read` gives z⁺ − z⁻ of rows in Fourier coordinates,
+    /// without forces, and is asked for the nodes that may touch.
     #[inline(always)]
     pub(super) fn solve(
         &mut self,
@@ -120,12 +120,12 @@ impl Disc {
         solver.solve(operator, *coefficient, (gap, free), tolerance)
     }
 
-    /// λ and friction along the two directions of the plane, of every place that is pressed.
+    /// Forces λ and friction along the two directions of the plane, of every place that is pressed.
     pub(super) fn forces(&self) -> &[Forces] {
         self.solver.forces()
     }
 
-    /// Adds the heat of the last step, and which nodes stuck.
+    /// Adds the heat of the last step, and the numbers of nodes that stuck and slid.
     pub(super) fn count(&self, statistics: &mut RunStatistics, work: &mut EffectWork) {
         let pressed = self.solver.forces().iter().zip(self.solver.sliding());
         for ([_, along, across], [forward, aside]) in pressed {

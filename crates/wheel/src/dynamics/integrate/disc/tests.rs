@@ -1,4 +1,4 @@
-//! Closed forms of a block on a turning casing, and what holds of every wheel.
+//! Closed forms of a block on a turning casing, and properties that hold for every wheel.
 
 use std::f64::consts::{PI, TAU};
 
@@ -19,13 +19,13 @@ use crate::dynamics::sector::ContactNode;
 
 const SCHEMES: [Scheme; 2] = [Scheme::CentralDifferences, Scheme::ExactModal];
 
-/// A block of mass 1 on springs along r, θ and z, held `pressed` into a casing that passes it at Ω = 1 on the radius 1.
+/// Block of mass 1 on springs along r, θ and z, held `pressed` into a casing that passes it at Ω = 1 on the radius 1.
 struct Block {
     omega: [f64; 3],
     normal: [f64; 3],
     pressed: f64,
     mu: f64,
-    /// Along θ and z.
+    /// Velocity along θ and z.
     velocity: [f64; 2],
     steps: usize,
 }
@@ -81,7 +81,7 @@ impl Block {
     }
 }
 
-/// Along r, θ and z at every step of a run that kept its promises.
+/// Motion along r, θ and z at every step of a run that kept its promises.
 fn motion(run: &Run) -> [&[f64]; 3] {
     assert!(run.energy.residual() < 1e-10, "{}", run.energy.residual());
     assert!(run.energy.effects().friction_heat >= 0.0);
@@ -89,9 +89,9 @@ fn motion(run: &Run) -> [&[f64]; 3] {
     [0, 1, 2].map(|d| history.displacement[d].as_slice())
 }
 
-/// A casing that passes slowly takes the block along, u = −rΩt, until its spring pulls as hard as friction can, u = −μN/k. From there
-/// the block swings about that place with the casing's velocity, u = −μN/k − (rΩ/ω) sin ω(t − t₁), and meets the casing again after
-/// one period, when its velocity is that of the casing: it sticks for a moment of no length, and slides on.
+/// Block that a slowly passing casing takes along, u = −rΩt, until its spring pulls as hard as friction can, u = −μN/k. From there the
+/// block swings about that place with the casing's velocity, u = −μN/k − (rΩ/ω) sin ω(t − t₁), and meets the casing again after one period,
+/// when its velocity is that of the casing: it sticks for a moment of no length, and slides on.
 #[test]
 fn a_block_sticks_and_slips_as_in_closed_form() {
     let (omega, pressed, mu) = (60.0, 0.02, 0.4);
@@ -127,8 +127,8 @@ fn a_block_sticks_and_slips_as_in_closed_form() {
     }
 }
 
-/// Across a rotation that is much faster than it, a block loses its motion as to a damper of μN/rΩ: amplitudes decay by
-/// e^{−μNt/2mrΩ}, what the law of tips that slide forwards leaves out.
+/// Block that moves across a much faster rotation: it loses its motion as to a damper of μN/rΩ. Amplitudes decay by e^{−μNt/2mrΩ}, which
+/// the law of tips that slide forwards leaves out.
 #[test]
 fn sliding_across_the_rotation_damps() {
     let (omega, pressed, mu) = (40.0, 0.02, 0.5);
@@ -160,7 +160,7 @@ fn sliding_across_the_rotation_damps() {
     }
 }
 
-/// Over a whole revolution: a wall that is nearly across the rotation passes by a hundredth of rΩ, and the block goes with it.
+/// Block that sticks over a whole revolution: a wall that is nearly across the rotation passes by a hundredth of rΩ, and the block goes with it.
 #[test]
 fn a_block_sticks_as_long_as_friction_holds_it() {
     for scheme in SCHEMES {
@@ -192,7 +192,7 @@ fn a_block_sticks_as_long_as_friction_holds_it() {
     }
 }
 
-/// A wheel under two lobes whose shapes have no structure.
+/// Wheel under two lobes whose mode shapes are random.
 struct Rubbing {
     wheel: ModalWheel,
     nodes: Vec<ContactNode>,
@@ -293,7 +293,7 @@ fn no_coefficient_is_no_friction() {
     }
 }
 
-/// The faster the tips run, the less does their vibration turn their sliding: only friction knows the radius.
+/// Vibration turns the sliding of tips the less, the faster they run: only friction knows the radius.
 #[test]
 fn a_fast_rotation_leaves_sliding_tips() {
     for scheme in SCHEMES {
@@ -309,7 +309,7 @@ fn a_fast_rotation_leaves_sliding_tips() {
     }
 }
 
-/// At tips that are no faster than they vibrate friction takes what there is, with every step and coefficient.
+/// Friction never adds energy, with every step and coefficient, even at tips that are no faster than they vibrate.
 #[test]
 fn energy_is_never_gained() {
     for radius in [3.0, 10.0, 100.0] {

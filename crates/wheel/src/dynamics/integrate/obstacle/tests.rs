@@ -13,7 +13,7 @@ const NODES: usize = 9;
 const MODES: usize = 4;
 const STEPS: usize = 360;
 
-/// A wheel of which the mode shapes of each nodal diameter are of the size `largest` says.
+/// Wheel whose mode shapes of each nodal diameter have the size that `largest` gives.
 fn wheel(numbers: &mut Numbers, largest: impl Fn(usize) -> f64) -> ModalWheel {
     let harmonic = |harmonic: usize| {
         let single = harmonic == 0 || 2 * harmonic == SECTORS;
@@ -58,7 +58,7 @@ fn simulation<'a>(wheel: &'a ModalWheel, nodes: &'a [ContactNode], casing: &'a C
     }
 }
 
-/// The obstacle of a simulation and what it is asked with.
+/// Obstacle of a simulation with its oscillators and Fourier basis.
 fn obstacle(simulation: &Simulation<'_>, initial: &[InitialMode]) -> (Obstacle, Oscillators, SectorFourier) {
     let fourier = SectorFourier::new(SECTORS);
     let (scheme, step) = (simulation.scheme, simulation.step_s());
@@ -68,7 +68,7 @@ fn obstacle(simulation: &Simulation<'_>, initial: &[InitialMode]) -> (Obstacle, 
     (obstacle, oscillators, fourier)
 }
 
-/// c − p − nᵀu of a contact node, term by term.
+/// Gap c − p − nᵀu of a contact node, term by term.
 fn gap(obstacle: &Obstacle, fourier: &SectorFourier, step: usize, sector: usize, node: usize) -> f64 {
     let stride = obstacle.rows.stride;
     let columns = obstacle.harmonic.chunks_exact(stride);
@@ -129,7 +129,7 @@ fn far_sectors_have_bounds_of_their_gaps_and_all_others_their_gaps() {
     assert!(far > 200 && near > 50, "{far} {near}");
 }
 
-/// One nodal diameter moves nearly alone: what a lobe pushes in comes out on the other side, where nothing seemed near.
+/// Wheel of which one nodal diameter moves nearly alone: pushed in by a lobe, it comes out on the other side, where nothing seemed near.
 #[test]
 fn forces_that_close_a_far_gap_are_those_of_all_gaps() {
     let mut numbers = Numbers(3);

@@ -1,4 +1,4 @@
-//! What is called from steps or between them, compiled once for each kind of vectors and not again in each loop.
+//! Kernels called from steps or between them, compiled once for each kind of vectors and not again in each loop.
 
 use pulp::{Simd, WithSimd};
 

@@ -7,39 +7,12 @@ use pulp::{Simd, WithSimd};
 
 use super::super::instant::Instant;
 use super::super::run::Outcome;
+use super::super::step_range::{Observer, StepRange};
 use super::super::surroundings::Surroundings;
-use super::super::trace::Trace;
 use super::Stepper;
 
 /// Steps between two looks for motion that has decayed to nothing.
 const QUENCHED_STEPS: u64 = 16;
-
-/// Steps that follow each other.
-#[derive(Debug, Clone, Copy)]
-pub(in super::super) struct StepRange {
-    /// Revolution that they are counted from.
-    pub(in super::super) revolution: usize,
-    /// Steps between its beginning and the first of them, fewer than a revolution has.
-    pub(in super::super) before: usize,
-    /// Number of steps; of several revolutions, perhaps.
-    pub(in super::super) steps: usize,
-    pub(in super::super) per_revolution: usize,
-}
-
-impl StepRange {
-    /// The end of the last step.
-    pub(super) fn end(self) -> Instant {
-        Instant::of_any(self.revolution, self.before + self.steps, self.per_revolution)
-    }
-}
-
-/// What is made of steps as they are taken.
-pub(super) enum Observer<'a> {
-    /// Counts them, and reads the sensors after each where that is wanted, in the window of the run or before it.
-    Recorder { windowed: bool },
-    /// Tells what touches, and counts nothing.
-    Trace(&'a mut Trace),
-}
 
 impl Stepper {
     /// Takes steps, the forces of the last of which are applied.

@@ -3,9 +3,9 @@
 use super::super::instant::Instant;
 use super::super::run::Outcome;
 use super::super::simulation::Simulation;
+use super::super::step_range::{Observer, StepRange};
 use super::super::stretch::{Part, Stretch};
 use super::Stepper;
-use super::steps::{Observer, StepRange};
 
 impl Stepper {
     /// Takes the steps of `part`, which the stepper was made for.
