@@ -18,7 +18,7 @@ fn tell(name: &str, value: &str) {
     println!("cargo:rustc-env=RUBMAP_BUILT_{name}={value}");
 }
 
-/// The commit of the repository whose root this package is, if there is one and `git` to read it. Looked at again when it moves.
+/// Commit of the repository whose root this package is, if there is one and `git` to read it. Looked at again when it moves.
 fn commit() -> Option<String> {
     // Sources without a history, unpacked somewhere inside another repository, are none of its commits.
     if !Path::new(".git").exists() {

@@ -1,7 +1,7 @@
-//! Are budgets kept, and what do targets take? `cargo bench --bench budget [-- NUMBER …]`: sweeps of the demo's impeller with a budget
-//! each, or a target where the number is below 1, through the service on two workers and an empty data folder. `planned` is what had
-//! passed when the setting was chosen with what the rest was to take, beside the wall time really taken. Run it on an otherwise idle
-//! machine.
+//! Budgets and targets beside what sweeps take: `cargo bench --bench budget [-- NUMBER …]`: sweeps of the demo's impeller with a
+//! budget each, or a target where the number is below 1, through the service on two workers and an empty data folder. `planned` is the
+//! time passed when the setting was chosen with the time planned for the rest, beside the wall time really taken. Run it on an
+//! otherwise idle machine.
 
 use std::time::{Duration, Instant};
 
@@ -33,7 +33,7 @@ fn main() -> anyhow::Result<()> {
     Ok(())
 }
 
-/// One sweep in a service of its own.
+/// Runs one sweep in a service of its own and prints its times.
 async fn keep(number: f64) -> anyhow::Result<()> {
     let folder = tempfile::tempdir()?;
     let config = Config { workers: Some(2), ..Config::local(folder.path()) };

@@ -1,6 +1,6 @@
-//! What jobs take beside their computation: `cargo bench --bench jobs`, on an otherwise idle machine. From the start of a service to the
-//! first row of a map, for the demo's impeller and for `medium`; and what a speed takes that is not computed, or that does not grow with
-//! its revolutions, on one worker.
+//! Time of jobs beside their computation: `cargo bench --bench jobs`, on an otherwise idle machine. From the start of a service to the
+//! first row of a map, for the demo's impeller and for `medium`; and the time of a speed that is not computing, or that does not grow
+//! with its revolutions, on one worker.
 
 #[path = "service/demo.rs"]
 mod demo;
@@ -18,7 +18,7 @@ use service::Service;
 /// Workers of the first table: those of a service on two cores.
 const WORKERS: u16 = 2;
 const SPEEDS: u32 = 24;
-/// Speeds and revolutions: the first two tell speeds apart, the last two revolutions.
+/// Speeds and revolutions: the first two sweeps differ in speeds, the last two in revolutions.
 const SWEEPS: [(u32, u32); 3] = [(96, 25), (24, 25), (24, 100)];
 
 fn main() -> anyhow::Result<()> {
@@ -28,7 +28,7 @@ fn main() -> anyhow::Result<()> {
     })
 }
 
-/// How long one waits for something to look at.
+/// Measures the time until the first row of a map.
 async fn first_rows() -> anyhow::Result<()> {
     println!("Waiting, {WORKERS} workers; each from the end of what stands before it.\n");
     println!(
@@ -60,11 +60,11 @@ async fn first_rows() -> anyhow::Result<()> {
     Ok(())
 }
 
-/// What a sweep takes on one worker beyond its speeds, and a speed beyond its revolutions.
+/// Measures the time of a sweep on one worker beyond its speeds, and of a speed beyond its revolutions.
 async fn beside_computing() -> anyhow::Result<()> {
     let service = Service::start(1, &Preset::Small.parameters()).await?;
     let sweep = |speeds: u32, revolutions: u32| demo_sweep(&service.model, speeds, &revolutions.into());
-    // The reduction is made, and the machine warm.
+    // This sweep makes the reduction and warms the machine.
     service.done("sweeps", &sweep(SWEEPS[1].0, SWEEPS[1].1)).await?;
     println!("\nThe demo's sweep, one worker, its reduction stored; sums over all speeds.\n");
     println!("| speeds | revolutions | sweep, s | computing its speeds, s | beyond, ms | share |");

@@ -1,7 +1,7 @@
-//! What clients feel, and what sweeps feel of clients: `cargo bench --bench load [-- CLIENTS SECONDS]`. Clients poll jobs, list them and
-//! ask for plans, 200 requests a second together, beside two sweeps on two workers; the same sweeps alone before it, in the same run,
-//! and beside open pages that watch one of them. Then a listing of 10,000 jobs in pages. Run it on an otherwise idle machine.
-//! `cargo bench --bench load -- abuse`: only what one client can keep from others.
+//! Load on the service: latencies of clients, and times of sweeps beside them: `cargo bench --bench load [-- CLIENTS SECONDS]`. Clients
+//! poll jobs, list them and ask for plans, 200 requests a second together, beside two sweeps on two workers; the same sweeps alone
+//! before it, in the same run, and beside open pages that watch one of them. Then a listing of 10,000 jobs in pages. Run it on an
+//! otherwise idle machine. `cargo bench --bench load -- abuse`: only what one client can keep from others.
 
 #[path = "service/abuse.rs"]
 mod abuse;
@@ -24,10 +24,10 @@ const RATE: f64 = 200.0;
 /// Pages that watch a sweep.
 const PAGES: usize = 20;
 
-/// A page asks for the map that grows at most so often, as `web/` has it.
+/// Time after which a page asks again for the map that grows, at least, as `web/` has it.
 const MAP_PAUSE: Duration = Duration::from_secs(5);
 
-/// Jobs that are listed.
+/// Number of jobs that are listed.
 const LISTED: usize = 10_000;
 
 fn main() -> anyhow::Result<()> {
@@ -52,7 +52,7 @@ async fn measure(clients: usize, seconds: u64) -> anyhow::Result<()> {
     let model: Value = upload.body(package.into_inner()).send().await?.json().await?;
     let model = model["id"].as_str().context("no model")?.to_owned();
 
-    // The reduction is made, and the machine warm.
+    // These sweeps make the reduction and warm the machine.
     sweeps(&client, &base, &model, 2).await?;
     if std::env::args().any(|argument| argument == "abuse") {
         abuse::planning(&client, &base, &sweep(&model, 2)).await?;
@@ -95,7 +95,7 @@ async fn measure(clients: usize, seconds: u64) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Two sweeps side by side, from the first post to the end of both.
+/// Runs two sweeps side by side; time from the first post to the end of both.
 async fn sweeps(client: &Client, base: &str, model: &str, speeds: u32) -> anyhow::Result<Duration> {
     let begin = Instant::now();
     let ids =
@@ -137,7 +137,7 @@ async fn post(client: &Client, base: &str, request: &Value) -> anyhow::Result<St
     Ok(answer["id"].as_str().with_context(|| answer.to_string())?.to_owned())
 }
 
-/// Latencies of polls, and how many requests failed.
+/// Sends requests; returns the latencies of polls and how many requests failed.
 async fn load(
     client: &Client,
     base: &str,
@@ -190,7 +190,7 @@ async fn load(
     Ok((latencies, errors))
 }
 
-/// Two sweeps, of which pages watch the one that was posted last.
+/// Runs two sweeps, of which pages watch the one that was posted last.
 async fn watched(client: &Client, base: &str, model: &str) -> anyhow::Result<Duration> {
     let running = tokio::spawn({
         let (client, base, model) = (client.clone(), base.to_owned(), model.to_owned());
@@ -212,7 +212,7 @@ async fn watched(client: &Client, base: &str, model: &str) -> anyhow::Result<Dur
     running.await?
 }
 
-/// What a page asks for while it shows a job: its events, and the map after them, until the job has ended.
+/// Sends the requests of a page while it shows a job: its events, and the map after them, until the job has ended.
 async fn page(client: Client, job: String) -> anyhow::Result<()> {
     let mut events = client.get(format!("{job}/events")).send().await?.error_for_status()?.bytes_stream();
     let mut shown: Option<Instant> = None;
@@ -227,7 +227,7 @@ async fn page(client: Client, job: String) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Ten thousand jobs, cancelled as they come, and all their pages.
+/// Posts ten thousand jobs, cancelled as they come, and lists all their pages.
 async fn list(client: &Client, base: &str, model: &str) -> anyhow::Result<()> {
     let request = sweep(model, 2);
     for _ in 0..LISTED {

@@ -1,8 +1,8 @@
 //! Steady responses solved for and marched to: `cargo bench --bench steady [-- DAMPING …]`: the demo's sweep, speed by speed on one worker of the
 //! service. Run it on an otherwise idle machine.
 //!
-//! A march takes 50 revolutions, or as many as it takes until it repeats (`"revolutions": "auto"`), and beside that as many as it needs until every revolution shows the amplitude of a stable
-//! response to a thousandth, up to [`LONG`].
+//! A march takes 50 revolutions, or as many as it takes until it repeats (`"revolutions": "auto"`), and beside that as many as it needs until every
+//! revolution shows the amplitude of a stable response to a thousandth, up to [`LONG`].
 
 #[path = "service/demo.rs"]
 mod demo;
@@ -83,7 +83,7 @@ async fn measure(dampings: &[f64]) -> anyhow::Result<()> {
     service.stop().await
 }
 
-/// Revolutions after which a march shows this amplitude; none if it does not in [`LONG`].
+/// Number of revolutions after which a march shows this amplitude; `None` if it does not in [`LONG`].
 async fn settles(
     service: &Service,
     damping: f64,
@@ -108,7 +108,7 @@ async fn settles(
         (0.5 * (high - low) / amplitude - 1.0).abs() > SETTLED
     };
     let last = line.chunks_exact(line.len() / LONG as usize).rposition(off).map_or(0, |last| last as u64 + 1);
-    // And one to read it from.
+    // One more revolution is needed to read the amplitude from.
     Ok((last < LONG - 1).then_some(last + 1))
 }
 

@@ -1,4 +1,4 @@
-//! What stress costs a sweep: `cargo bench --bench stress [-- PRESET …]`: three speeds in contact with and without it, in turn, through the
+//! Cost of stress in a sweep: `cargo bench --bench stress [-- PRESET …]`: three speeds in contact with and without it, in turn, through the
 //! service on two workers; measured beside planned. Run it on an otherwise idle machine.
 
 mod service;
@@ -23,7 +23,7 @@ fn main() -> anyhow::Result<()> {
     Ok(())
 }
 
-/// One wheel in a service of its own.
+/// Compares sweeps of one wheel with and without stress, in a service of its own.
 async fn compare(name: &str, preset: Preset) -> anyhow::Result<()> {
     let service = Service::start(2, &preset.parameters()).await?;
     let model = service.model.clone();
@@ -38,14 +38,14 @@ async fn compare(name: &str, preset: Preset) -> anyhow::Result<()> {
     service.stop().await
 }
 
-/// Mean computing time of a speed.
+/// Mean computing time of a speed, s.
 async fn seconds(service: &Service, request: &Value) -> anyhow::Result<f64> {
     let points = service.points(&service.done("sweeps", request).await?).await?;
     let seconds = points.iter().filter_map(|point| point["wall_time_s"].as_f64());
     Ok(seconds.sum::<f64>() / points.len() as f64)
 }
 
-/// The same as planned, in contact all the time.
+/// Planned computing time of a speed in contact all the time, s.
 async fn planned(service: &Service, request: &Value) -> anyhow::Result<f64> {
     let plan = service.post("sweeps/plan", request).await?;
     plan["estimate"]["computing_time_s"]["contact"].as_f64().with_context(|| plan.to_string())

@@ -20,15 +20,15 @@ use crate::version;
 /// Time between two attempts to open the store.
 const BETWEEN_ATTEMPTS: Duration = Duration::from_secs(1);
 
-/// Large answers that are made at once.
+/// Number of large answers that are made at once.
 const LARGE_ANSWERS: usize = 4;
 
-/// What a process is for.
+/// Role of a process.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Role {
-    /// It takes requests.
+    /// Service: takes requests.
     Service,
-    /// It computes what others are asked for.
+    /// Worker: computes what services are asked for.
     Worker,
 }
 
@@ -41,19 +41,19 @@ pub struct App {
     state: AppState,
     store: Store,
     runner: Runner,
-    /// Held as long as the data folder is in use.
+    /// Lock of the data folder, held as long as the folder is in use.
     _lock: File,
 }
 
-/// Why the service could not start.
+/// Reason why the service could not start.
 #[derive(Debug, thiserror::Error)]
 pub enum StartError {
     /// The data folder cannot be used.
     #[error("the data folder {}: {source}", folder.display())]
     Folder {
-        /// The folder.
+        /// Path of the data folder.
         folder: PathBuf,
-        /// Why.
+        /// Cause, as the system reports it.
         source: std::io::Error,
     },
     /// Another process has the data folder.
@@ -65,7 +65,7 @@ pub enum StartError {
     /// The file of tokens cannot be used.
     #[error(transparent)]
     Tokens(#[from] TokensError),
-    /// Others would reach it, and nothing tells them apart.
+    /// Address that other machines can reach, while no tokens tell their users apart.
     #[error(
         "{0} can be reached from other machines: say with --tokens FILE who may use the service, or with --open that everybody may"
     )]
@@ -76,22 +76,22 @@ pub enum StartError {
     /// The address cannot be bound.
     #[error("cannot listen on {addr}: {source}")]
     Bind {
-        /// The address.
+        /// Address to listen on.
         addr: SocketAddr,
-        /// Why.
+        /// Cause, as the system reports it.
         source: std::io::Error,
     },
-    /// There are too few open files to serve anybody.
+    /// Too few open files to serve anybody.
     #[error(
         "the system allows this process {limit} open files, of which storage and computations need {}; raise the limit, \
          for example with `ulimit -n 1024`",
         descriptors::RESERVE
     )]
     OpenFiles {
-        /// The limit.
+        /// Number of open files that the system allows this process.
         limit: u64,
     },
-    /// Nobody would compute.
+    /// Nobody would compute: no workers here, and no other process shares the database.
     #[error(
         "--workers 0: nobody would compute, because no other process has the data folder; leave it out, or name a --database that others work on"
     )]
@@ -107,7 +107,7 @@ impl App {
         Self::build_as(Role::Service, config).await
     }
 
-    /// The same for a process of this role.
+    /// Opens the data folder, binds the address and resumes unfinished jobs, as a process of this role.
     pub async fn build_as(role: Role, config: Config) -> Result<Self, StartError> {
         let limit = descriptors::raise_limit();
         let connections = descriptors::connections(config.transport.connections, limit)
@@ -158,7 +158,7 @@ impl App {
         Ok(Self { listener, addr, role, state, store, runner, _lock: lock })
     }
 
-    /// The address it listens on.
+    /// Address that the service listens on.
     pub fn addr(&self) -> SocketAddr {
         self.addr
     }
@@ -184,8 +184,8 @@ impl App {
     }
 }
 
-/// Opens the store, again and again while the disk is full or another program has the database: who starts the service may
-/// not come back to it. Credentials that are refused from the beginning were never right.
+/// Opens the store, again and again while the disk is full or another program has the database: whoever starts the service
+/// may not come back to it. Credentials that are refused from the beginning were never right.
 async fn open_store(config: &Config) -> Result<Store, StoreError> {
     let mut warned = false;
     loop {
@@ -218,7 +218,7 @@ async fn open_once(config: &Config) -> Result<Store, StoreError> {
     Store::open(&config.data).await
 }
 
-/// Makes the data folder if need be and takes it for this process.
+/// Locks the data folder for this process; makes the folder if need be.
 fn lock(folder: &Path) -> Result<File, StartError> {
     let failed = |source| StartError::Folder { folder: folder.to_owned(), source };
     std::fs::create_dir_all(folder).map_err(failed)?;

@@ -14,21 +14,21 @@ use csv::{ReaderBuilder, StringRecord, Trim};
 use crate::analysis::result::MeasuredCasing;
 use crate::analysis::run::{MeasuredLine, measured_casing};
 
-/// Points that are read at most.
+/// Points that are read at most from a table.
 const MOST_POINTS: usize = 200_000;
-/// Lines along the chord, as a request may have them.
+/// Lines along the chord that are read at most: as many as a request may have.
 const MOST_LINES: usize = 8192;
 /// Turns that angles may span: -180 to 180 degrees, 0 to 360, and a turn more.
 const MOST_TURNS: f64 = 2.0;
 /// Errors after which no more are looked for.
 const MOST_ERRORS: usize = 100;
 
-/// Something wrong with a table.
+/// Error in a table.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct TableError {
-    /// Line of the text from 1; none of what is not about one.
+    /// Line of the text, from 1; `None` where the error is not about one line.
     pub line: Option<u64>,
-    /// What is wrong, and what would be right.
+    /// Description of the error, and of what would be right.
     pub message: String,
 }
 
@@ -47,18 +47,18 @@ impl TableError {
     }
 }
 
-/// Where heights of a column or a row stand.
+/// Place along the chord at which heights of a column or a row stand.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Place {
     Chord(f64),
     Node(u32),
 }
 
-/// What the header says of the columns.
+/// Columns of a table, read from its header.
 #[derive(Debug)]
 struct Header {
     angle: usize,
-    /// rad of one unit of the angles.
+    /// Angle in rad of one unit of the angles.
     unit_rad: f64,
     layout: Layout,
     /// Whether decimals may have a comma.
@@ -67,13 +67,13 @@ struct Header {
 
 #[derive(Debug)]
 enum Layout {
-    /// Column and place of every line.
+    /// Column and place of every line along the chord.
     Wide(Vec<(usize, Place)>),
-    /// Columns of place and height; whether places are contact nodes.
+    /// Columns of place and height, and whether places are contact nodes.
     Long { place: usize, height: usize, nodes: bool },
 }
 
-/// Reads a table. All that is wrong with its fields comes at once.
+/// Reads a table; reports all errors of its fields at once.
 pub fn read(text: &[u8]) -> Result<MeasuredCasing, Vec<TableError>> {
     let one = |error: TableError| vec![error];
     let text = std::str::from_utf8(text)
@@ -90,7 +90,7 @@ pub fn read(text: &[u8]) -> Result<MeasuredCasing, Vec<TableError>> {
     let names = reader.headers().map_err(|error| one(TableError::whole(error.to_string())))?;
     let line = names.position().map(csv::Position::line);
     let header = Header::of(names, delimiter != b',').map_err(|message| one(TableError { line, message }))?;
-    // By the bits of their places, which are in their order as none is negative.
+    // Keyed by the bits of their places, which have the order of the places as none is negative.
     let mut lines: BTreeMap<u64, MeasuredLine> = BTreeMap::new();
     let (mut errors, mut points) = (Vec::new(), 0);
     for record in reader.records() {
@@ -161,7 +161,7 @@ pub fn read(text: &[u8]) -> Result<MeasuredCasing, Vec<TableError>> {
 }
 
 impl Place {
-    /// Not negative, −0 neither.
+    /// Number by which places are sorted, never negative nor −0: share of the chord or contact node.
     fn number(self) -> f64 {
         match self {
             Self::Chord(share) => share.abs(),
@@ -231,7 +231,7 @@ impl Header {
         }
     }
 
-    /// A column of which there is no line.
+    /// Name of a column that has no heights.
     fn without_heights(&self, lines: &[MeasuredLine]) -> Option<String> {
         let Layout::Wide(columns) = &self.layout else { return None };
         let has = |place: Place| lines.binary_search_by(|line| line.place.total_cmp(&place.number())).is_ok();
@@ -242,7 +242,7 @@ impl Header {
         })
     }
 
-    /// Places, angles in rad and heights of a row; what is missing is left out.
+    /// Places, angles in rad and heights of a row, without missing heights.
     fn row(&self, record: &StringRecord) -> Result<Vec<(Place, f64, f64)>, TableError> {
         let wrong =
             |message: String| TableError { line: record.position().map(csv::Position::line), message };
@@ -277,7 +277,7 @@ impl Header {
     }
 }
 
-/// A finite number.
+/// Reads a finite number.
 fn number(text: &str, comma: bool) -> Option<f64> {
     let text = if comma { text.replace(',', ".") } else { text.to_owned() };
     text.parse().ok().filter(|value: &f64| value.is_finite())
@@ -302,7 +302,7 @@ mod tests {
         (line, message)
     }
 
-    /// The same table in all spellings.
+    /// Reads one table in all spellings.
     #[test]
     fn a_table_reads_the_same_however_it_is_laid_out() {
         let heights = |d: f64| (height(d, 0.0), height(d, 0.5), height(d, 1.0));

@@ -44,7 +44,8 @@ pub struct Config {
     )]
     pub database: Option<DatabaseUrl>,
 
-    /// Object storage for files of the data folder, which several processes share: s3://bucket/prefix, or a folder that all see [default: the data folder alone].
+    /// Object storage for files of the data folder, which several processes share: s3://bucket/prefix, or a folder that all see [default: the data
+    /// folder alone].
     #[cfg(feature = "cluster")]
     #[arg(long, env = "RUBMAP_OBJECTS", requires = "database", value_name = "s3://BUCKET/PREFIX")]
     pub objects: Option<Address>,
@@ -85,17 +86,18 @@ pub struct Config {
     #[arg(long, env = "RUBMAP_OWNER_MODELS")]
     pub owner_models: Option<u64>,
 
-    /// Memory that computations, uploads and large downloads may take together, in bytes [default: three quarters of what the machine or container leaves].
+    /// Memory that computations, uploads and large downloads may take together, in bytes [default: three quarters of what the machine or container
+    /// leaves].
     #[arg(long, env = "RUBMAP_MEMORY_BYTES", value_parser = clap::value_parser!(u64).range(1 << 20..))]
     pub memory_bytes: Option<u64>,
 
-    /// How the service meets its clients.
+    /// Settings of the connections to clients.
     #[command(flatten)]
     pub transport: TransportConfig,
 }
 
 impl Config {
-    /// All defaults, for this machine alone: the data folder `data`, any free port of the loopback address.
+    /// Settings with all defaults, for this machine alone: the data folder `data`, any free port of the loopback address.
     pub fn local(data: &Path) -> Self {
         Self {
             addr: ([127, 0, 0, 1], 0).into(),
@@ -118,7 +120,7 @@ impl Config {
         }
     }
 
-    /// Whether other processes may compute what this one is asked for.
+    /// Whether other processes may compute what clients ask of this one.
     pub fn is_shared(&self) -> bool {
         #[cfg(feature = "cluster")]
         return self.database.is_some();
@@ -140,7 +142,7 @@ impl Config {
         self.memory_bytes.or_else(|| memory::available_bytes().map(|available| available / 4 * 3))
     }
 
-    /// What one owner may have.
+    /// Limits on what one owner may have.
     pub fn owner_limits(&self) -> owner::Limits {
         owner::Limits {
             queued_speeds: self.owner_speeds,

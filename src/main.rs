@@ -1,4 +1,4 @@
-//! The program: logs, then whatever the command line says.
+//! Main of the program: logs, then runs the command of the command line.
 
 use std::env::VarError;
 use std::io::IsTerminal;
@@ -9,8 +9,9 @@ use tracing_subscriber::filter::Targets;
 use tracing_subscriber::layer::SubscriberExt;
 use tracing_subscriber::util::SubscriberInitExt;
 
-/// Gives back what a computation has freed. The system's allocator keeps it for the thread that had it, and what is kept
-/// for all threads together is a multiple of what `--memory-bytes` allows (measured: 1.3 GB where 0.6 GB were in use).
+/// Allocator that gives back what a computation has freed. The system's allocator keeps it for the thread that had it,
+/// and what is kept for all threads together is a multiple of what `--memory-bytes` allows (measured: 1.3 GB where 0.6
+/// GB were in use).
 #[global_allocator]
 static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 

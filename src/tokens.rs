@@ -1,4 +1,4 @@
-//! Who may use the service: bearer tokens, of which a file holds hashes, owners and scopes.
+//! Access to the service: bearer tokens, of which a file holds hashes, owners and scopes.
 //!
 //! A line of the file is `<SHA-256 of the token, hexadecimal> <scope> <owner>`; `#` begins a comment. Tokens are 32 random
 //! bytes, so that a plain hash is as good as a slow one, and to find a token by its hash tells nobody anything about it.
@@ -14,84 +14,84 @@ use base64::prelude::BASE64_URL_SAFE_NO_PAD;
 use clap::ValueEnum;
 use sha2::{Digest, Sha256};
 
-/// What all tokens begin with, so that people and scanners know one when they see it.
+/// Prefix of all tokens, so that people and scanners know one when they see it.
 const PREFIX: &str = "rubmap_";
 
-/// Longest name of an owner.
+/// Length of the longest name of an owner.
 const LONGEST_OWNER: usize = 64;
 
 /// Time after which a change of the file is noticed.
 const BETWEEN_LOOKS: Duration = Duration::from_secs(1);
 
-/// What the holder of a token may do.
+/// Scope of a token: what its holder may do.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Scope {
     /// Read what belongs to the owner.
     Read,
-    /// The same, and upload, compute, cancel and delete.
+    /// Read, upload, compute, cancel and delete what belongs to the owner.
     Write,
     /// Everything, whoever owns it.
     Admin,
 }
 
-/// Who sends a request.
+/// Sender of a request.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Principal {
     /// Owner of what the request makes; empty where the service knows no owners.
     pub owner: String,
-    /// What it may do.
+    /// Scope of the sender's token.
     pub scope: Scope,
 }
 
 impl Principal {
-    /// Whoever asks a service without tokens.
+    /// Sender of any request to a service without tokens.
     pub fn anybody() -> Self {
         Self { owner: String::new(), scope: Scope::Admin }
     }
 
-    /// Whether it may see what belongs to `owner`.
+    /// Whether the sender may see what belongs to `owner`.
     pub fn sees(&self, owner: &str) -> bool {
         self.scope == Scope::Admin || self.owner == owner
     }
 
-    /// The owner whose things alone it may see; `None` if it sees all.
+    /// Owner whose things alone the sender may see; `None` if they see all.
     pub fn only(&self) -> Option<&str> {
         (self.scope != Scope::Admin).then_some(&self.owner)
     }
 }
 
-/// What is wrong with a file of tokens.
+/// Error of a file of tokens.
 #[derive(Debug, thiserror::Error)]
 pub enum TokensError {
-    /// It cannot be read or written.
+    /// File that cannot be read or written.
     #[error("the file of tokens {}: {source}", path.display())]
     File {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// Why.
+        /// Cause, as the system reports it.
         source: std::io::Error,
     },
-    /// A line is not what it should be.
+    /// Line that is not what it should be.
     #[error(
         "the file of tokens {}, line {line}: expected a SHA-256 in hexadecimal, a scope (read, write or admin) and an owner; \
          `rubmap token new` writes such lines",
         path.display()
     )]
     Line {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// Line, from 1.
+        /// Number of the line, from 1.
         line: usize,
     },
-    /// An owner that cannot be one.
+    /// Owner whose name is not allowed.
     #[error("the owner {0:?}: a name has 1 to 64 letters, digits, dots, dashes, underscores and @")]
     Owner(String),
-    /// The system gives no random numbers.
+    /// Failure of the system to give random numbers.
     #[error("no random numbers for a token: {0}")]
     Random(getrandom::Error),
 }
 
-/// The tokens of a file, read again when it changes.
+/// Tokens of a file, read again when it changes.
 #[derive(Debug, Clone)]
 pub struct Tokens {
     path: PathBuf,
@@ -106,14 +106,14 @@ struct State {
 }
 
 impl Tokens {
-    /// Reads the file at `path`.
+    /// Reads the tokens of the file at `path`.
     pub fn read(path: &Path) -> Result<Self, TokensError> {
         let (changed, known) = load(path)?;
         let state = State { looked: Instant::now(), changed, known };
         Ok(Self { path: path.to_owned(), state: Arc::new(Mutex::new(state)) })
     }
 
-    /// Whose `token` it is, if it is one.
+    /// Sender to whom `token` belongs, if it is one.
     pub fn principal(&self, token: &str) -> Option<Principal> {
         let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
         if state.looked.elapsed() > BETWEEN_LOOKS {
@@ -127,10 +127,10 @@ impl Tokens {
                     Err(TokensError::File { source, .. }) if source.kind() == ErrorKind::NotFound => {
                         tracing::error!("the file of tokens is gone: nobody has access");
                         state.known.clear();
-                        // It may come back as it was, with the time that it had.
+                        // The file may come back as it was, with the time that it had.
                         state.changed = SystemTime::UNIX_EPOCH;
                     }
-                    // Half-written, perhaps.
+                    // The file may be half-written.
                     Err(error) => tracing::error!(%error, "the tokens stay those that were read before"),
                 }
             }
@@ -168,7 +168,7 @@ fn append(path: &Path, line: &str) -> std::io::Result<()> {
 
 fn load(path: &Path) -> Result<(SystemTime, HashMap<[u8; 32], Principal>), TokensError> {
     let failed = |source| TokensError::File { path: path.to_owned(), source };
-    // Before the text: what is written in between is read again.
+    // Taken before the text: what is written in between is read again.
     let changed = modified(path).map_err(failed)?;
     let text = std::fs::read_to_string(path).map_err(failed)?;
     let mut known = HashMap::new();

@@ -1,4 +1,4 @@
-//! What this program was built from, and how.
+//! Sources and settings that this program was built from.
 
 /// Version of the package.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");
@@ -15,7 +15,7 @@ pub const TARGET: &str = env!("RUBMAP_BUILT_TARGET");
 /// Features of the processor that every part of the program may use; the inner loops choose more of them as they run.
 pub const TARGET_FEATURES: &str = env!("RUBMAP_BUILT_TARGET_FEATURES");
 
-/// All of it, in one line for people.
+/// Version, commit and build settings in one line for people.
 pub const LINE: &str = concat!(
     env!("CARGO_PKG_VERSION"),
     " (commit ",

@@ -1,4 +1,4 @@
-//! The shape of the house: which crate knows what, and no two files that need each other.
+//! Architecture: which crate knows which others, and no two files that need each other.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -18,7 +18,7 @@ const CRATES: [(&str, &[&str]); 8] = [
     (".", &["analysis", "model", "numerics", "plot", "script", "solid", "wheel"]),
 ];
 
-/// What nothing below the service knows: HTTP, SQL, async, dates.
+/// Crates that nothing below the service knows: HTTP, SQL, async, dates.
 const OF_THE_SERVICE: [&str; 8] = ["axum", "hyper", "sqlx", "apalis", "tokio", "tower", "chrono", "reqwest"];
 
 fn root() -> PathBuf {
@@ -53,14 +53,14 @@ fn module_of(folder: &Path, file: &Path) -> Module {
     module
 }
 
-/// Part of a path in the definition of a macro that a variable stands for.
+/// Mark, in a path in the definition of a macro, for the part that a variable stands for.
 const ANY: &str = "$";
 
-/// The paths a file names, from the root of its crate where they begin with `crate`, `self` or `super`.
+/// Paths that a file names, from the root of its crate where they begin with `crate`, `self` or `super`.
 struct Named {
-    /// The module that is being read: the file's, or one inside it.
+    /// Module that is being read: the file's, or one inside it.
     module: Module,
-    /// What a `use` gave a name to.
+    /// Names that a `use` imports, with their paths.
     imported: BTreeMap<String, Module>,
     found: BTreeSet<Module>,
 }
@@ -83,7 +83,7 @@ impl Named {
                     module.pop();
                 }
             }
-            // What was imported, a module that this file declares, or another crate.
+            // The first part is an import, a module that this file declares, or another crate.
             Some(first) => {
                 if let Some(imported) = self.imported.get(first) {
                     module.clone_from(imported);
@@ -133,7 +133,7 @@ impl<'ast> Visit<'ast> for Named {
     }
 
     fn visit_item_mod(&mut self, item: &'ast ItemMod) {
-        // Tests look at what they like.
+        // Tests may look at anything.
         if item.ident == "tests" && item.attrs.iter().any(|attribute| attribute.path().is_ident("cfg")) {
             return;
         }
@@ -142,7 +142,7 @@ impl<'ast> Visit<'ast> for Named {
         self.module.pop();
     }
 
-    /// Who may see something is not what it needs.
+    /// Skips a visibility: it says who may see an item, not what the item needs.
     fn visit_vis_restricted(&mut self, _: &'ast syn::VisRestricted) {}
 
     fn visit_path(&mut self, path: &'ast syn::Path) {
@@ -153,7 +153,7 @@ impl<'ast> Visit<'ast> for Named {
         syn::visit::visit_path(self, path);
     }
 
-    /// Arguments of macros are tokens: paths that begin at the root or above are seen.
+    /// Reads the arguments of macros, which are tokens: paths that begin at the root or above are seen.
     fn visit_macro(&mut self, call: &'ast syn::Macro) {
         // A variable is two tokens, the first of which sticks to colons before it.
         let tokens = call.tokens.to_string().replace("::$ ", ":: $");
@@ -174,7 +174,7 @@ impl<'ast> Visit<'ast> for Named {
     }
 }
 
-/// The paths that one with a macro's variable may stand for: by every folder in its place.
+/// Paths for which one with a macro's variable may stand: the variable is replaced by every folder in its place.
 fn meant(path: &Module, files: &BTreeMap<Module, PathBuf>) -> Vec<Module> {
     let Some(place) = path.iter().position(|part| part == ANY) else { return vec![path.clone()] };
     let is_meant = |(module, file): &(&Module, &PathBuf)| {
@@ -184,7 +184,7 @@ fn meant(path: &Module, files: &BTreeMap<Module, PathBuf>) -> Vec<Module> {
     folders.map(|(folder, _)| [folder, &path[place + 1..]].concat()).collect()
 }
 
-/// Which files of a crate need which.
+/// Files of a crate with the files that each needs.
 fn arrows(folder: &Path) -> BTreeMap<Module, BTreeSet<Module>> {
     let files: BTreeMap<Module, PathBuf> =
         rust_files(folder).into_iter().map(|file| (module_of(folder, &file), file)).collect();
@@ -205,7 +205,7 @@ fn arrows(folder: &Path) -> BTreeMap<Module, BTreeSet<Module>> {
     arrows
 }
 
-/// The files that can be reached from `from`.
+/// Modules that can be reached from `from`.
 fn reached(arrows: &BTreeMap<Module, BTreeSet<Module>>, from: &Module) -> BTreeSet<Module> {
     let mut waiting = vec![from];
     let mut reached = BTreeSet::new();
@@ -284,7 +284,7 @@ fn crates_know_only_those_below_them() {
     }
 }
 
-/// Files under `folders` that contain one of `words`.
+/// Paths of the files under `folders` that contain one of `words`.
 fn offenders(folders: &[&str], words: &[&str]) -> Vec<PathBuf> {
     let files = folders.iter().flat_map(|folder| {
         let path = root().join(folder);
@@ -330,4 +330,32 @@ fn http_computes_nothing() {
     let verbs = ["prepare", "check", "run_speed", "modal_analysis", "critical_speeds", "plan"];
     let verbs = verbs.map(|verb| format!("run::{verb}"));
     assert_eq!(offenders(&["src/http"], &verbs.each_ref().map(String::as_str)), [""; 0].map(PathBuf::from));
+}
+
+/// First words that lean on what stands above a comment, or on the name of the thing: an editor shows one comment at a time.
+const LEANING: [&str; 15] = [
+    "What", "Of", "It", "Its", "Those", "That", "The same", "Who", "Whose", "They", "These", "Such", "So",
+    "Them", "Likewise",
+];
+
+#[test]
+fn doc_comments_begin_with_the_thing() {
+    let folders = ["src", "crates", "tests", "benches", "fuzz"].map(|folder| root().join(folder));
+    let mut leaning = Vec::new();
+    for file in folders.iter().flat_map(|folder| rust_files(folder)) {
+        let text = std::fs::read_to_string(&file).unwrap();
+        let mut inside = false;
+        for (number, line) in text.lines().enumerate() {
+            let line = line.trim_start();
+            let comment = line.strip_prefix("///").or_else(|| line.strip_prefix("//!")).map(str::trim_start);
+            let begins = comment.filter(|_| !inside).unwrap_or_default();
+            let ends_word = |rest: &str| !rest.starts_with(|c: char| c.is_alphanumeric() || c == '-');
+            let leans = LEANING.iter().any(|words| begins.strip_prefix(words).is_some_and(ends_word));
+            if leans {
+                leaning.push(format!("{}:{}: {begins}", file.display(), number + 1));
+            }
+            inside = comment.is_some();
+        }
+    }
+    assert!(leaning.is_empty(), "begin with a noun or verb of the thing:\n{}", leaning.join("\n"));
 }

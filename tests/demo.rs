@@ -1,4 +1,4 @@
-//! The commands that show something, at the smallest size that is still real: the binary itself, from package to drawings.
+//! Commands that show something, at the smallest size that is still real: the binary itself, from package to drawings.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -25,7 +25,7 @@ fn quiet_success(mut command: Command) -> Output {
     let output = command.output().unwrap();
     let (stdout, stderr) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
     assert!(output.status.success(), "{stdout}{stderr}");
-    // That a response is large is no fault of the program.
+    // A large response is no fault of the program.
     let troubled = |line: &str| {
         line.contains("ERROR") || (line.contains("WARN") && !line.contains("leaves linear theory"))
     };
@@ -69,7 +69,7 @@ fn demo_leaves_results_and_drawings_and_runs_again() {
     assert_eq!(repeated.amplitude, map.amplitude, "to the bit");
 }
 
-/// Two sizes, steps and schemes, with a touch of contact.
+/// Request for a study of two sizes, steps and schemes, with a touch of contact.
 fn small_study() -> serde_json::Value {
     serde_json::json!({
         "speeds": {"values": [24_000.0], "unit": "rpm"},
@@ -128,7 +128,7 @@ fn a_study_of_another_model_is_refused() {
     assert!(!output.status.success() && words.contains("leave `model` out of the request"), "{words}");
 }
 
-/// A package as a user would bring it: small, with `change` made to it.
+/// Writes a package as a user would bring it: small, with `change` made to it.
 fn package_in(folder: &Path, change: impl FnOnce(&mut RawPackage)) -> PathBuf {
     let mut package = generate(&Preset::Small.parameters()).unwrap();
     change(&mut package);
@@ -137,7 +137,7 @@ fn package_in(folder: &Path, change: impl FnOnce(&mut RawPackage)) -> PathBuf {
     path
 }
 
-/// The demo of a package of one's own.
+/// Command of the demo with a package of the user's own.
 fn own(package: &Path, out: &Path, more: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_rubmap"));
     command.args(["demo", "--workers", "2", "--package"]).arg(package).arg("--out").arg(out).args(more);
@@ -176,7 +176,7 @@ fn the_demo_of_a_package_of_ones_own_chooses_and_says_so() {
         assert!(words.contains(part), "{part}: {words}");
     }
 
-    // What it left is what one edits.
+    // The request that it left is what the user edits.
     let file = out.join("sweep-request.json");
     let mut request: serde_json::Value = read(&file);
     assert!(request.get("model").is_none());

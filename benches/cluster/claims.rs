@@ -1,4 +1,4 @@
-//! How many tasks a second the queue hands out, to workers that do nothing with them.
+//! Rate of tasks that the queue hands out, to workers that do nothing with them.
 
 use std::time::{Duration, Instant};
 
@@ -8,11 +8,11 @@ use sqlx::{Executor, PgPool};
 /// Time of each measurement.
 const TIME: Duration = Duration::from_secs(5);
 
-/// What the queue's crate says to the server for every task: take the next, and say how it went.
+/// Statements of the queue's crate for every task: this one takes the next, [`DONE`] says how it went.
 const TAKE: &str = "select id from apalis.get_jobs($1, 'bench', 1)";
 const DONE: &str = "update apalis.jobs set status = 'Done', done_at = now() where id = $1 and lock_by = $2";
 
-/// Measures with so many connections at once and so many tasks that wait.
+/// Measures the rate for so many connections at once and so many tasks that wait.
 pub(crate) async fn measure(url: &str) {
     rubmap::store::migrate(url).await.unwrap();
     let pool = PgPoolOptions::new()

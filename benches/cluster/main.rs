@@ -1,6 +1,6 @@
-//! What it costs to share work, and how far it goes: `cargo bench --features cluster --bench cluster [-- PART …]`, of the parts
-//! `speeds`, `workers`, `claims`, `stored`. One service, workers and a PostgreSQL server of its own on this machine; skipped where there is
-//! no PostgreSQL. Run it on an otherwise idle machine of two processors or more.
+//! Cost of sharing work, and how far it goes: `cargo bench --features cluster --bench cluster [-- PART …]`, with the parts `speeds`,
+//! `workers`, `claims`, `stored`. One service, workers and a PostgreSQL server of its own on this machine; skipped where there is no
+//! PostgreSQL. Run it on an otherwise idle machine of two processors or more.
 
 #[path = "../../tests/api/app.rs"]
 #[expect(dead_code, reason = "shared with tests that need more of it")]
@@ -32,7 +32,7 @@ const PATIENCE: Duration = Duration::from_secs(600);
 /// Time between two looks at a job; each takes some of the time of the two processors.
 const BETWEEN_LOOKS: Duration = Duration::from_millis(50);
 
-/// Times that each measurement is made, by turns with the one that it is held against; the fastest counts.
+/// Number of times that each measurement is made, by turns with the one that it is compared with; the fastest counts.
 const TIMES: usize = 3;
 
 #[tokio::main]
@@ -54,7 +54,7 @@ async fn main() {
     }
 }
 
-/// One service that computes nothing, and so many workers with one thread each.
+/// Cluster of one service that computes nothing, and so many workers with one thread each.
 struct Cluster {
     service: Program,
     _workers: Vec<Program>,
@@ -79,14 +79,14 @@ impl Cluster {
     }
 }
 
-/// One process with so many threads.
+/// Starts one process with so many threads.
 fn alone(folder: &Path, threads: usize) -> Program {
     let mut command = Command::new(env!("CARGO_BIN_EXE_rubmap"));
     command.args(["serve", "--workers", &threads.to_string(), "--data"]).arg(folder);
     Program::start(command)
 }
 
-/// A sweep of so many speeds, each of so many revolutions.
+/// Request for a sweep of so many speeds, each of so many revolutions.
 fn sweep(model: &str, speeds: u32, revolutions: u32) -> Value {
     let mut request = app::sweep_of(model);
     request["speeds"]["count"] = json!(speeds);
@@ -94,7 +94,7 @@ fn sweep(model: &str, speeds: u32, revolutions: u32) -> Value {
     request
 }
 
-/// Time from the post of a sweep to its end, of the fastest of some.
+/// Time from the post of a sweep to its end, s: the fastest of some.
 async fn time(api: &Api, speeds: u32, revolutions: u32) -> f64 {
     let model = api.model(model::package(1.0)).await;
     let begin = Instant::now();
@@ -111,7 +111,7 @@ async fn time(api: &Api, speeds: u32, revolutions: u32) -> f64 {
     begin.elapsed().as_secs_f64()
 }
 
-/// What a speed takes beyond its computation, with and without a database that is shared.
+/// Measures the time of a speed beyond its computation, with and without a database that is shared.
 async fn overhead(database: &Postgres) {
     const SPEEDS: u32 = 400;
     const REVOLUTIONS: u32 = 12;
@@ -123,7 +123,7 @@ async fn overhead(database: &Postgres) {
             time(&one.api, SPEEDS, REVOLUTIONS).await,
             time(&cluster.service.api, SPEEDS, REVOLUTIONS).await,
         );
-        // The first reduces the wheel and starts what has to be started.
+        // The first round reduces the wheel and starts what has to be started.
         if round > 0 {
             (own, shared) = (own.min(here), shared.min(there));
         }
@@ -137,7 +137,7 @@ async fn overhead(database: &Postgres) {
     );
 }
 
-/// How much faster two workers are than one, beside two threads of one process: that is what the machine allows.
+/// Measures how much faster two workers are than one, beside two threads of one process, which show what the machine allows.
 async fn two_over_one(database: &Postgres) {
     const SPEEDS: u32 = 160;
     const REVOLUTIONS: u32 = 300;

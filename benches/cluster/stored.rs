@@ -1,4 +1,4 @@
-//! A million stored speeds: their size, and how long a map and a listing take beside them.
+//! Database with a million stored speeds: its size, and how long a map and a listing take beside them.
 
 use std::time::Instant;
 
@@ -12,10 +12,10 @@ use super::{Cluster, TIMES, model, sweep};
 /// Speeds of each job.
 const SPEEDS: u32 = 500;
 
-/// Jobs like the one that is computed.
+/// Number of copies of the job that is computed.
 const JOBS: i32 = 2_000;
 
-/// Requests whose median is told.
+/// Number of requests whose median is reported.
 const REQUESTS: usize = 21;
 
 pub(crate) async fn measure(database: &Postgres) {

@@ -1,8 +1,8 @@
-//! The whole reduction at k = 20 beside the plain way (a complex sparse factorisation of each nodal diameter and
-//! speed, single-vector Lanczos), in one run: wall time, CPU time, phases and peak memory.
+//! Whole reduction at k = 20 beside the plain way (a complex sparse factorisation of each nodal diameter and speed,
+//! single-vector Lanczos), in one run: wall time, CPU time, phases and peak memory.
 //!
-//! `cargo bench --bench reduction -- [small] [medium] [half] [paper] [plain]`: the sizes asked for (small and medium
-//! if none is), `plain` with the baseline. `-- solve`: what bounds its solves.
+//! `cargo bench --bench reduction -- [small] [medium] [half] [paper] [plain]`: the sizes asked for (small and medium if
+//! none is), `plain` with the baseline. `-- solve`: the limits of its solves.
 
 use std::cell::RefCell;
 use std::process::Command;
@@ -23,8 +23,7 @@ const MODES: usize = 20;
 /// Phases by what their progress texts contain.
 const PHASES: [&str; 6] =
     ["ordering", "factorisation", "modes of nodal diameter", "full sector", "counting", "projecting"];
-/// Those that only prove the result. The full sector's modes at the given speeds, searched together with the basis's, are not
-/// among them.
+/// Phases that only prove the result. The full sector's modes at the given speeds, searched together with the basis's, are not among them.
 const CHECKS: [&str; 2] = ["full sector", "counting"];
 
 fn sector(parameters: &ImpellerParameters) -> SectorModel {
@@ -41,7 +40,7 @@ fn now(start: Instant) -> (f64, f64) {
     (start.elapsed().as_secs_f64(), (ticks(11) + ticks(12)) / 100.0)
 }
 
-/// A line of /proc/self/status in MB.
+/// Value of a line of /proc/self/status, MB.
 fn memory(name: &str) -> f64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let line = status.lines().find(|line| line.starts_with(name)).unwrap_or("");
@@ -70,7 +69,7 @@ fn main() {
     let wanted: Vec<_> =
         sizes.iter().filter(|(n, _)| asked(n) || (none && ["small", "medium"].contains(n))).collect();
     if wanted.len() > 1 {
-        // Each in a process of its own: what one leaves behind is none of the next one's memory.
+        // Each size runs in a process of its own, so that it does not count memory that another leaves behind.
         let this = std::env::current_exe().expect("a benchmark is a file");
         for (name, _) in wanted {
             let plain = asked("plain").then_some("plain");
@@ -94,7 +93,7 @@ fn main() {
             println!("  estimated need {:.0} MB", needed_bytes as f64 / 1e6);
         }
         let begin = now(start);
-        // Phase and times at its start; (phase, wall, CPU) of those done.
+        // Phase and times at its start; (phase, wall, CPU) of the phases done.
         let current = RefCell::new(("ordering", begin));
         let done: RefCell<Vec<(&str, f64, f64)>> = RefCell::default();
         let enter = |phase: &'static str| {

@@ -1,4 +1,4 @@
-//! What bounds the solves of a search: the factor of a grid of springs, three unknowns a node, as many vectors at a time as searches send
+//! Limits of the solves of a search: the factor of a grid of springs, three unknowns a node, as many vectors at a time as searches send
 //! through it, beside multiply-adds on registers and reading alone.
 
 use std::hint::black_box;
@@ -13,10 +13,10 @@ use rubmap::numerics::panel::Panel;
 /// Nodes along an edge of the grid.
 const EDGE: usize = 26;
 const WIDTHS: [usize; 6] = [8, 16, 24, 32, 40, 48];
-/// Of which the quickest counts.
+/// Rounds, of which the quickest counts.
 const ROUNDS: usize = 5;
 
-/// Every node coupled with the 26 around it; positive definite by its diagonal.
+/// Matrix of a grid of springs: every node coupled with the 26 around it; positive definite by its diagonal.
 fn grid() -> SparseColMat<usize, f64> {
     let nodes = EDGE * EDGE * EDGE;
     let place = |node: usize| [node / (EDGE * EDGE), node / EDGE % EDGE, node % EDGE];
@@ -71,7 +71,7 @@ impl WithSimd for Registers {
     }
 }
 
-/// Seconds of `work`, after what `before` it does.
+/// Shortest time of `work` in seconds, each time after `before`.
 fn quickest<T>(state: &mut T, mut before: impl FnMut(&mut T), mut work: impl FnMut(&mut T)) -> f64 {
     let time = |_| {
         before(state);
@@ -98,7 +98,7 @@ pub(crate) fn measure() {
         &mut memory,
         |_| {},
         |memory| {
-            // Many sums, or the additions would wait for each other.
+            // There are many sums, or the additions would wait for each other.
             let mut sums = [0.0; 64];
             memory.as_chunks::<64>().0.iter().for_each(|chunk| (0..64).for_each(|i| sums[i] += chunk[i]));
             black_box(sums);

@@ -11,10 +11,10 @@ use serde_json::{Value, json};
 /// Polls of `/healthz` beside each kind of client.
 const POLLS: usize = 200;
 
-/// Between two polls.
+/// Time between two polls.
 const BETWEEN: Duration = Duration::from_millis(25);
 
-/// Requests of each kind: where they go, what they ask, and whether that can be planned.
+/// Requests of each kind: their path, what they ask for, and whether it can be planned.
 fn requests(sweep: &Value) -> Vec<(&'static str, &'static str, Value)> {
     let scene = &sweep["scene"];
     let with = |fields: Value| {
@@ -68,8 +68,8 @@ fn requests(sweep: &Value) -> Vec<(&'static str, &'static str, Value)> {
     ]
 }
 
-/// One row for each kind of request: its bytes, what it is answered, and after which time while nothing else is asked; then the longest poll
-/// beside two clients that repeat it, and the longest plan of a sweep of somebody else.
+/// Prints one row for each kind of request: its bytes, its answer, and after which time that comes while nothing else is asked; then the
+/// longest poll beside two clients that repeat it, and the longest plan of a sweep of somebody else.
 pub(super) async fn planning(client: &Client, base: &str, sweep: &Value) -> anyhow::Result<()> {
     for (kind, path, body) in requests(sweep) {
         let text = Arc::new(serde_json::to_vec(&body)?);
@@ -121,7 +121,7 @@ pub(super) async fn planning(client: &Client, base: &str, sweep: &Value) -> anyh
     Ok(())
 }
 
-/// Eight readers ask for the mesh of the model and read nothing: how long another one waits for it.
+/// Prints how long a reader waits for the mesh of the model while eight others ask for it and read nothing.
 pub(super) async fn slow_readers(client: &Client, base: &str, model: &str) -> anyhow::Result<()> {
     let url = format!("{base}/v1/models/{model}/mesh");
     let whole = |client: Client| {

@@ -1,8 +1,8 @@
-//! What benchmarks sweep.
+//! Sweep of the demo for benchmarks.
 
 use serde_json::{Value, json};
 
-/// The sweep of the demo's impeller over so many speeds, with one sensor.
+/// Request for a sweep of the demo's impeller over so many speeds, with one sensor.
 pub(crate) fn demo_sweep(model: &Value, speeds: u32, revolutions: &Value) -> Value {
     json!({
         "model": model,

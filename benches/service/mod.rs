@@ -1,4 +1,4 @@
-//! A service of its own, with one model, that a benchmark asks over HTTP.
+//! Service for one benchmark alone, with one model, asked over HTTP.
 
 use std::time::Duration;
 
@@ -12,13 +12,13 @@ use tempfile::TempDir;
 use tokio::task::JoinHandle;
 use tokio_util::sync::CancellationToken;
 
-/// Between two looks at a job: a hundredth of what they are to tell at most, and next to nothing of the machine.
+/// Time between two looks at a job: at most a hundredth of the times to be measured, and next to nothing of the machine.
 const POLLED: Duration = Duration::from_millis(5);
 
 pub(crate) struct Service {
     client: Client,
     base: String,
-    /// The only model.
+    /// Id of the only model.
     pub(crate) model: Value,
     stop: CancellationToken,
     running: JoinHandle<()>,
@@ -26,7 +26,7 @@ pub(crate) struct Service {
 }
 
 impl Service {
-    /// Starts it with so many workers and uploads the impeller.
+    /// Starts the service with so many workers and uploads the impeller.
     pub(crate) async fn start(workers: u16, impeller: &ImpellerParameters) -> anyhow::Result<Self> {
         let folder = tempfile::tempdir()?;
         let config = Config { workers: Some(workers), upload_bytes: 1 << 30, ..Config::local(folder.path()) };
@@ -56,7 +56,7 @@ impl Service {
         Ok(fill(self.client.post(format!("{}/{path}", self.base))).send().await?.json().await?)
     }
 
-    /// The answer to a request that is posted.
+    /// Posts a request and returns the answer.
     pub(crate) async fn post(&self, path: &str, request: &Value) -> anyhow::Result<Value> {
         self.send(path, |post| post.json(request)).await
     }
@@ -65,7 +65,7 @@ impl Service {
         Ok(self.client.get(format!("{}/{path}", self.base)).send().await?.json().await?)
     }
 
-    /// Posts a job and waits for it; its path when it is done.
+    /// Posts a job and waits for it; returns its path when it is done.
     pub(crate) async fn done(&self, kind: &str, request: &Value) -> anyhow::Result<String> {
         let posted = self.post(kind, request).await?;
         let path = format!("jobs/{}", posted["id"].as_str().context(posted.to_string())?);

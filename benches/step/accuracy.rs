@@ -1,4 +1,4 @@
-//! Time to accuracy: what every scheme takes to a given relative error of a history, beside the literal dense scheme.
+//! Time to accuracy: the time that every scheme takes to a given relative error of a history, beside the literal dense scheme.
 
 use rubmap::analysis::request::SchemeChoice;
 use rubmap::analysis::request::auto_or::AutoOr;
@@ -18,10 +18,10 @@ const RUNGS: i32 = 17;
 const KEPT_MODES: [usize; 3] = [20, 30, 40];
 const ROUNDS: usize = 5;
 
-/// A scheme's errors on its ladder.
+/// Errors of a scheme on its ladder of steps.
 struct Ladder {
     scheme: Scheme,
-    /// Steps per revolution and error.
+    /// Steps per revolution with the error for each.
     rungs: Vec<(usize, f64)>,
 }
 
@@ -41,7 +41,7 @@ impl Ladder {
         self.rungs.last().expect("a ladder reaches beyond every stability limit").1
     }
 
-    /// Steps from which on the error stays below `level`, by logarithmic interpolation; none if it does not.
+    /// Number of steps from which on the error stays below `level`, by logarithmic interpolation; `None` if it does not.
     fn steps_to(&self, level: f64) -> Option<usize> {
         let first = match self.rungs.iter().rposition(|&(_, error)| error >= level) {
             None => return Some(self.rungs[0].0),
@@ -97,7 +97,7 @@ fn print_ladders(ladders: &[Ladder]) {
     }
 }
 
-/// Seconds per step of the literal dense scheme over the scene, whose history is shown to be production's.
+/// Seconds per step of the literal dense scheme over the scene, whose history is shown to be that of production.
 fn literal_step(scene: &Scene) -> f64 {
     let Stepping { scheme, steps } = scene.automatic(SchemeChoice::CentralDifferences, AutoOr::Auto);
     let steps = sampled(steps as f64);
@@ -126,7 +126,7 @@ fn literal_step(scene: &Scene) -> f64 {
     per_step
 }
 
-/// Wall times per revolution, of runs at the steps that the ladders ask for.
+/// Prints wall times per revolution, of runs at the steps that the ladders ask for.
 fn print_times(scene: &Scene, ladders: &[Ladder], reference: &[f64], literal_step: f64) {
     println!("| error | scheme | steps/rev | error there | ms/rev | literal dense/scheme | floor |");
     println!("|---|---|---|---|---|---|---|");

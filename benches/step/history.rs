@@ -1,4 +1,4 @@
-//! Histories of two revolutions from rest, and how far apart they are.
+//! Histories of two revolutions from rest, and their differences.
 
 use rubmap::dynamics::integrate::{Outcome, SensorRow, Simulation};
 
@@ -17,13 +17,13 @@ pub(crate) struct Recorded {
     pub(crate) time: f64,
 }
 
-/// Leading edge, middle and trailing edge of three blades.
+/// Sensors at leading edge, middle and trailing edge of three blades.
 pub(crate) fn sensors(scene: &Scene) -> Vec<SensorRow> {
     let last = scene.reduced.wheel.contact.len() - 1;
     [0, 3, 7].into_iter().flat_map(|sector| [0, last / 2, last].map(|node| radial(node, sector))).collect()
 }
 
-/// Steps per revolution, at least `steps`, that samples divide.
+/// Number of steps per revolution, at least `steps`, that the samples divide.
 pub(crate) fn sampled(steps: f64) -> usize {
     (steps.ceil() as usize).next_multiple_of(SAMPLES)
 }
@@ -42,7 +42,7 @@ pub(crate) fn history(scene: &Scene, stepping: Stepping) -> Recorded {
     Recorded { values: history.displacement.concat(), contact_share: run.statistics.contact_share(), time }
 }
 
-/// Root mean square of the difference over that of `reference`.
+/// Relative error of a history: root mean square of the difference over that of `reference`.
 pub(crate) fn error(values: &[f64], reference: &[f64]) -> f64 {
     assert_eq!(values.len(), reference.len());
     let square = |sum: f64, x: f64| sum + x * x;

@@ -1,5 +1,5 @@
-//! What bounds a step: its products of mode shapes and modal coordinates alone, over the same memory; the same with
-//! everything in the first-level cache; and what the step attains of it.
+//! Limits of a step: its products of mode shapes and modal coordinates alone, over the same memory; the same with
+//! everything in the first-level cache; and the share of them that the step attains.
 
 use std::cell::RefCell;
 
@@ -12,7 +12,7 @@ use crate::steps::{moving, production};
 use crate::timing::{Contender, medians, timed};
 
 const ROUNDS: usize = 7;
-/// So many that the set-up of a run does not count.
+/// Number of revolutions, so many that the set-up of a run does not count.
 const REVOLUTIONS: usize = 50;
 
 /// Flops and bytes of a step of [`rubmap`] in free flight with damping: the oscillators (8 flops; z and d read and
@@ -23,7 +23,7 @@ fn count_step(wheel: &ModalWheel, nodes: usize, of_products: (f64, f64)) -> (f64
     let modes: usize = wheel.harmonics.iter().map(|harmonic| harmonic.omega.len()).sum();
     let (flops, bytes) = of_products;
     let gaps = sectors * nodes as f64 * (2.0 * sectors + 4.0);
-    // z is in the products' bytes once.
+    // The bytes of the products count z once.
     (flops + 8.0 * unknowns + gaps, bytes + 8.0 * (4.0 * unknowns + 3.0 * modes as f64))
 }
 
@@ -33,7 +33,7 @@ pub(crate) fn measure() {
     assert_eq!((scene.modal.unknowns(), rows % GROUP), (900, 0));
     let blocks = blocks(&scene.modal, rows);
     let everything: Vec<usize> = (0..blocks.len()).collect();
-    // The first single block for single ones, the first pair for pairs.
+    // The first single block stands for all single ones, the first pair for all pairs.
     let same: Vec<usize> =
         scene.modal.harmonics.iter().map(|harmonic| usize::from(!harmonic.single)).collect();
     let cases = [

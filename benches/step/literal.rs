@@ -1,4 +1,4 @@
-//! The baseline: the paper's scheme (Eqs 8–10) with dense matrices over the whole wheel.
+//! Baseline: the paper's scheme (Eqs 8–10) with dense matrices over the whole wheel.
 
 use std::f64::consts::TAU;
 
@@ -12,7 +12,7 @@ use crate::scene::{DAMPING, SPEED, Scene};
 pub(crate) struct Literal {
     pub(crate) scheme: DenseScheme,
     steps: usize,
-    /// c − p by step of the revolution: while the restriction grows, and after.
+    /// Gaps c − p by step of the revolution: while the restriction grows, and after.
     gaps: [Vec<Vec<f64>>; 2],
     taken: usize,
 }
@@ -51,8 +51,8 @@ impl Literal {
     }
 }
 
-/// Eq. 10 on the penetrating nodes, then exchanges until the problem is complementary: a fair contact solver for the
-/// baseline, as Gauss–Seidel would slow it down.
+/// Solves contact by Eq. 10 on the penetrating nodes, then exchanges until the problem is complementary: a fair contact
+/// solver for the baseline, as Gauss–Seidel would slow it down.
 fn active_set(w: &DMatrix<f64>, gap: &DVector<f64>, lambda: &mut DVector<f64>) {
     let mut active: Vec<usize> = (0..gap.len()).filter(|&i| gap[i] < 0.0).collect();
     for _ in 0..100 {

@@ -1,16 +1,16 @@
-//! What a step costs and what accuracy costs, every scheme beside the literal dense step of the paper (Eqs 8–10, two
-//! dense products), in one run, which needs an otherwise idle machine.
+//! Cost of a step and cost of accuracy, every scheme beside the literal dense step of the paper (Eqs 8–10, two dense
+//! products), in one run, which needs an otherwise idle machine.
 //!
 //! `cargo bench --bench step -- [330] [540] [900] [1140] [1560] [sectors] [price] [kernel] [accuracy] [reductions] [sweep]`, all if none
 //! is named. Contenders take turns, so that what disturbs the machine disturbs all; times are medians. Prints:
 //!
 //! - for the paper's sizes (unknowns of ten sectors): time per step and per revolution of every scheme, in free flight
 //!   and with contact in nine steps of ten (`900`: a minute);
-//! - `sectors`: what a step costs over the number of sectors;
-//! - `price`: what a step costs with each effect of a scene (half a minute);
-//! - `kernel`: what this core attains on the products of a step, and what the step attains of it;
+//! - `sectors`: cost of a step over the number of sectors;
+//! - `price`: cost of a step with each effect of a scene (half a minute);
+//! - `kernel`: the rate that this core attains on the products of a step, and the rate that the step attains;
 //! - `accuracy`: steps and time that every scheme takes to 1e-2, 1e-3 and 1e-4 of a history;
-//! - `reductions`: how far apart the histories of coarse and fine reductions are, and what they cost;
+//! - `reductions`: differences of the histories of coarse and fine reductions, and their cost;
 //! - `sweep`: speeds per second of two workers over those of one.
 
 mod accuracy;
@@ -34,7 +34,7 @@ mod oracle;
 const SIZES: [(usize, usize); 5] = [(330, 3), (540, 24), (900, 60), (1140, 84), (1560, 126)];
 
 fn main() {
-    // Cargo adds --bench.
+    // Cargo adds `--bench`.
     let asked: Vec<String> = std::env::args().skip(1).filter(|argument| !argument.starts_with('-')).collect();
     let sections: [(&str, fn()); 6] = [
         ("sectors", sectors::measure),

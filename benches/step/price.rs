@@ -1,4 +1,4 @@
-//! The price list: what a step costs with each effect of a scene, beside the scene without.
+//! Price list: cost of a step with each effect of a scene, beside the scene without.
 
 use rubmap::dynamics::clearance_change::ClearanceChange;
 use rubmap::dynamics::contact::coating::{Coating, CoatingMaterial};
@@ -88,7 +88,7 @@ pub(crate) fn measure() {
         ("coriolis, euler_force", exact, &turning, Effects { euler_force, ..none }),
         ("all together", exact, &turning, all),
     ];
-    // Not of the scene: what is recorded of it.
+    // These entries are no effects of the scene: they record spectra of it.
     let spectra = [("spectra of one sensor, in the window", 1), ("spectra of four", 4)];
     let mut shares = vec![0.0; entries.len()];
     let mut contenders: Vec<Contender<'_>> = Vec::new();

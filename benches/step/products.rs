@@ -1,5 +1,5 @@
-//! The products of mode shapes and modal coordinates that every step makes, alone: the fastest this machine has for them
-//! in this shape, on whole cache lines.
+//! Products of mode shapes and modal coordinates that every step makes, alone: the fastest this machine has for them in
+//! this shape, on whole cache lines.
 
 use std::hint::black_box;
 
@@ -47,21 +47,21 @@ pub(crate) struct Block {
     z: Vec<Aligned>,
 }
 
-/// What is done with the blocks, `REPEATS` times.
+/// Work on the blocks that is repeated `REPEATS` times.
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) enum Task {
     /// Loads the rows and adds them up.
     Read,
-    /// Rows times coordinates.
+    /// Multiplies rows by coordinates.
     Project,
-    /// Forces on all rows, then rows times coordinates.
+    /// Adds forces on all rows to the coordinates, then multiplies rows by coordinates.
     BackAndForth,
 }
 
 pub(crate) struct Products<'a> {
     pub(crate) task: Task,
     pub(crate) blocks: &'a mut [Block],
-    /// Blocks by nodal diameter.
+    /// Index of the block of each nodal diameter.
     pub(crate) order: &'a [usize],
     pub(crate) rows: usize,
 }
@@ -151,7 +151,7 @@ fn project<S: Simd>(simd: S, block: &Block, rows: usize, out: &mut [f64]) {
     }
 }
 
-/// Adds φᴴf of forces on all rows to z. They are zero, which the compiler cannot know: nothing grows.
+/// Adds φᴴf of forces on all rows to z. The forces are zero, which the compiler cannot know: nothing grows.
 #[inline(always)]
 fn push<S: Simd>(simd: S, block: &mut Block, rows: usize) {
     let force = black_box(0.0);
@@ -194,13 +194,13 @@ fn push<S: Simd>(simd: S, block: &mut Block, rows: usize) {
     }
 }
 
-/// Multiply-adds on registers alone: the arithmetic this core has.
+/// Multiply-adds on registers alone: the arithmetic rate that this core has.
 pub(crate) struct Registers;
 
 impl WithSimd for Registers {
     type Output = f64;
 
-    /// Flops done.
+    /// Runs the multiply-adds; returns the flops done.
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> f64 {
         const CHAINS: usize = 10;
@@ -218,7 +218,7 @@ impl WithSimd for Registers {
     }
 }
 
-/// Flops and bytes of one pass over `order`; bytes of rows and coordinates, which are read once, as they are padded.
+/// Flops and bytes of one pass over `order`: the bytes of rows and coordinates, which are read once, as they are padded.
 pub(crate) fn count(task: Task, blocks: &[Block], order: &[usize]) -> (f64, f64) {
     let (mut flops, mut bytes) = (0, 0);
     for block in order.iter().map(|&index| &blocks[index]) {

@@ -1,5 +1,5 @@
-//! What accuracy means: the distance between the histories of a coarse and a fine reduction, beside what each costs, and
-//! the fine one with a boundary without mass.
+//! Accuracy of reductions: the distance between the histories of a coarse and a fine reduction, beside the cost of each,
+//! and the fine one with a boundary without mass.
 
 use rubmap::analysis::request::SchemeChoice;
 use rubmap::analysis::request::auto_or::AutoOr;

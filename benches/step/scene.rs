@@ -29,13 +29,13 @@ pub(crate) const SPEED: f64 = 2500.0;
 pub(crate) const DAMPING: f64 = 0.005;
 /// Clearance at which some blade touches in every step once the restriction has grown.
 pub(crate) const TOUCHING: f64 = 0.30;
-/// Clearance at which none ever does.
+/// Clearance at which no blade ever touches.
 pub(crate) const FREE: f64 = 2.0;
 
-/// What stands inward of the casing.
+/// Lobes of the casing.
 const LOBES: Lobes = Lobes { count: 2, amplitude: 0.425, width_rad: 0.35, phase_rad: 0.0 };
 
-/// A wheel, its damping and its scene.
+/// Wheel with its damping and its scene.
 pub(crate) struct Scene {
     pub(crate) reduced: ReducedSector,
     pub(crate) modal: ModalWheel,
@@ -44,7 +44,7 @@ pub(crate) struct Scene {
     modes: usize,
 }
 
-/// A scheme and its steps per revolution.
+/// Scheme and its steps per revolution.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Stepping {
     pub(crate) scheme: Scheme,
@@ -52,18 +52,18 @@ pub(crate) struct Stepping {
 }
 
 impl Scene {
-    /// With `modes` fixed-interface modes at each of the first `stiffnesses` speeds of the default impeller.
+    /// Makes the scene with `modes` fixed-interface modes at each of the first `stiffnesses` speeds of the default impeller.
     pub(crate) fn new(modes: usize, stiffnesses: usize) -> Self {
         Self::of(&ImpellerParameters::default(), modes, stiffnesses)
     }
 
-    /// The same with a gyroscopic matrix.
+    /// Makes the scene of the default impeller with a gyroscopic matrix.
     pub(crate) fn gyroscopic(modes: usize, stiffnesses: usize) -> Self {
         let parameters = ImpellerParameters { gyroscopic: true, ..ImpellerParameters::default() };
         Self::of(&parameters, modes, stiffnesses)
     }
 
-    /// Of any impeller.
+    /// Makes the scene of any impeller.
     pub(crate) fn of(parameters: &ImpellerParameters, modes: usize, stiffnesses: usize) -> Self {
         let package = rubmap::impeller::generate(parameters).expect("the defaults are valid");
         let mut sector =
@@ -80,7 +80,7 @@ impl Scene {
         Self { reduced, modal, damping, stiffening, modes }
     }
 
-    /// The casing with this clearance at every node.
+    /// Casing with this clearance at every node.
     pub(crate) fn casing(&self, clearance: f64) -> Casing {
         Casing {
             clearance: vec![clearance; self.reduced.wheel.contact.len()],
@@ -89,7 +89,7 @@ impl Scene {
         }
     }
 
-    /// The request for [`Self::casing`] with contact at every speed of `speeds_rad_s`.
+    /// Request for [`Self::casing`] with contact at every speed of `speeds_rad_s`.
     pub(crate) fn request(
         &self,
         scheme: SchemeChoice,
@@ -158,7 +158,7 @@ impl Scene {
         ResolvedSweep::stored(settings, 0).expect("the settings are sound")
     }
 
-    /// `scheme` with the step that `auto` gives it against the casing.
+    /// Step of `scheme` that `auto` gives it against the casing.
     pub(crate) fn automatic(&self, scheme: SchemeChoice, kept_modes: AutoOr) -> Stepping {
         let request = self.request(scheme, kept_modes, 1, vec![SPEED]);
         let point = run_speed(&self.reduced, &request, 0, None, &Unwatched).expect("nobody cancels").point;
@@ -181,7 +181,7 @@ impl Scene {
             .map(|scheme| self.automatic(scheme, AutoOr::Auto))
     }
 
-    /// One revolution from rest, with as many samples as the service takes.
+    /// Simulation of one revolution from rest, with as many samples as the service takes.
     pub(crate) fn simulation<'a>(
         &'a self,
         stepping: Stepping,
@@ -209,12 +209,12 @@ impl Scene {
     }
 }
 
-/// The radial displacement of a contact node.
+/// Sensor of the radial displacement of a contact node.
 pub(crate) fn radial(node: usize, sector: usize) -> SensorRow {
     SensorRow { direction: Direction { node, components: [1.0, 0.0, 0.0] }, sector }
 }
 
-/// A scheme in the words of the service.
+/// Name of a scheme in the words of the service.
 pub(crate) fn name(scheme: Scheme) -> String {
     match scheme {
         Scheme::CentralDifferences => "`central_differences`".into(),

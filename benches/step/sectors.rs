@@ -1,4 +1,4 @@
-//! What a step costs over the number of sectors, with the same contact nodes on each and the same two lobes.
+//! Cost of a step over the number of sectors, with the same contact nodes on each and the same two lobes.
 
 use rubmap::dynamics::integrate::{Outcome, Simulation};
 use rubmap::impeller::ImpellerParameters;
@@ -46,7 +46,7 @@ pub(crate) fn measure() {
     }
 }
 
-/// Seconds per step of a run, and how many contact nodes have a force, in the mean over its last revolution.
+/// Runs a scene; returns seconds per step, and how many contact nodes have a force, in the mean over the last revolution.
 fn run(scene: &Scene, stepping: Stepping) -> (f64, f64) {
     let casing = scene.casing(TOUCHING);
     let sensors = [radial(0, 0)];

@@ -12,9 +12,9 @@ use crate::scene::{FREE, Scene, Stepping, TOUCHING, name, radial};
 use crate::timing::{Contender, medians, timed};
 
 const ROUNDS: usize = 7;
-/// The first is the ramp, in which hardly anything touches; in all others something always does: nine steps of ten.
+/// Revolutions of a run. The first is the ramp, in which hardly anything touches; in all others something always does: nine steps of ten.
 const REVOLUTIONS: usize = 8;
-/// What a round spends on the literal step, s.
+/// Time that a round spends on the literal step, s.
 const ROUND_S: f64 = 0.2;
 
 pub(crate) fn measure(sizes: &[(usize, usize)]) {
@@ -42,7 +42,7 @@ pub(crate) fn measure(sizes: &[(usize, usize)]) {
     }
 }
 
-/// How the wheel moves while steps are timed.
+/// Motion of the wheel while steps are timed.
 struct Motion {
     name: &'static str,
     clearance: f64,
@@ -51,12 +51,12 @@ struct Motion {
     touching: Range<f64>,
 }
 
-/// A table's rows for one size and motion: the literal step, then every scheme.
+/// Prints the rows of a table for one size and motion: the literal step, then every scheme.
 fn compare(scene: &Scene, schemes: &[Stepping; 3], literal: &mut Literal, motion: &Motion) {
     let casing = scene.casing(motion.clearance);
     literal.face(scene, &casing);
     let dense_steps = schemes[0].steps;
-    // The revolution in which the restriction grows, once; then rounds of what all others are like.
+    // The revolution in which the restriction grows runs once; then rounds of a later one, which all others are like.
     let (growing_share, growing) = timed(|| literal.advance(dense_steps));
     let chunk = (ROUND_S / growing * dense_steps as f64).ceil() as usize;
     let mut dense_share = 0.0;
@@ -76,7 +76,7 @@ fn compare(scene: &Scene, schemes: &[Stepping; 3], literal: &mut Literal, motion
     }
     let mut times = medians(ROUNDS, &mut contenders);
     drop(contenders);
-    // The literal step over the same revolutions as the others.
+    // The literal step counts over the same revolutions as the others.
     let over_run = |first: f64, later: f64| (first + (REVOLUTIONS - 1) as f64 * later) / REVOLUTIONS as f64;
     times[0] = over_run(growing / dense_steps as f64, times[0]);
     let dense_share = over_run(growing_share, dense_share);
@@ -102,7 +102,7 @@ fn compare(scene: &Scene, schemes: &[Stepping; 3], literal: &mut Literal, motion
     }
 }
 
-/// A whole run.
+/// Outcome of a whole run.
 pub(crate) struct Produced {
     /// Seconds per step, set-up included.
     pub(crate) time: f64,
@@ -123,7 +123,7 @@ pub(crate) fn production(
     Produced { time: time / run.statistics.steps as f64, contact_share: run.statistics.contact_share() }
 }
 
-/// The lowest mode of every nodal diameter, in motion: free flight at rest would be a product of zeros.
+/// Initial motion of the lowest mode of every nodal diameter: free flight at rest would be a product of zeros.
 pub(crate) fn moving(scene: &Scene) -> Vec<InitialMode> {
     let mode = |harmonic: usize| {
         let lowest = &scene.modal.harmonics[harmonic];

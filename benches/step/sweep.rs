@@ -1,4 +1,4 @@
-//! How a sweep scales with workers: `run_speed`, which is what a job does with each speed, on one and on two threads.
+//! Scaling of a sweep with workers: `run_speed`, which is what a job does with each speed, on one and on two threads.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -43,7 +43,7 @@ pub(crate) fn measure() {
     }
 }
 
-/// The results of all speeds, in order, from `workers` threads that take the next speed when they are done with one.
+/// Results of all speeds, in order, from `workers` threads that take the next speed when they are done with one.
 fn sweep(reduced: &ReducedSector, request: &ResolvedSweep, workers: usize) -> Vec<SpeedResult> {
     let next = AtomicUsize::new(0);
     let worker = || {
@@ -54,7 +54,7 @@ fn sweep(reduced: &ReducedSector, request: &ResolvedSweep, workers: usize) -> Ve
                 return done;
             }
             let mut result = run_speed(reduced, request, index, None, &Unwatched).expect("nobody cancels");
-            // All that may differ from run to run.
+            // Wall time is all that may differ from run to run.
             result.point.wall_time_s = 0.0;
             done.push(result);
         }

@@ -1,4 +1,4 @@
-//! Takes Plotly's script out of the crate that carries it, and compresses it once for all.
+//! Build script: takes Plotly's script out of the crate that carries it, and compresses it once for all.
 
 use std::error::Error;
 use std::fs::File;
@@ -8,7 +8,7 @@ use std::path::Path;
 use flate2::Compression;
 use flate2::write::GzEncoder;
 
-/// Before and after each script; the first is Plotly's, the second MathJax, for which the page has no use.
+/// Opening and closing tag of each script; the first script is Plotly's, the second MathJax, for which the page has no use.
 const TAGS: (&str, &str) = ("<script type=\"text/javascript\">", "</script>");
 
 fn main() -> Result<(), Box<dyn Error>> {

@@ -1,4 +1,4 @@
-//! Any bytes as the body of a sweep request, then a short simulation; `cargo test` runs the same on the stored corpus.
+//! Fuzzes sweeps: any bytes as the body of a request, then a short simulation; `cargo test` runs the same on the stored corpus.
 
 #![no_main]
 

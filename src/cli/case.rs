@@ -1,4 +1,4 @@
-//! `rubmap case`: what happens at one speed, over HTTP as any user would find out.
+//! `rubmap case`: motion, forces and energy at one speed, over HTTP as any user would find out.
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -12,7 +12,7 @@ use super::{progress, request};
 use crate::analysis::result::SpeedHistories;
 use crate::plot::{self, HistoryQuantity};
 
-/// What is looked at and where the results are left.
+/// Model and request of a case study, and where the results are left.
 #[derive(Debug, Args)]
 pub(crate) struct CaseArgs {
     /// Model package [default: the impeller of the demo]
@@ -31,7 +31,7 @@ pub(crate) struct CaseArgs {
     workers: Option<u16>,
 }
 
-/// Drawings by the names of their files.
+/// Drawings of a case study by the names of their files.
 const DRAWINGS: [(&str, HistoryQuantity); 5] = [
     ("displacement", HistoryQuantity::Displacement),
     ("velocity", HistoryQuantity::Velocity),
@@ -68,7 +68,7 @@ fn default() -> Value {
     })
 }
 
-/// Posts the case study, waits for it, draws it and tells what it says.
+/// Posts the case study, waits for it, draws it and prints its results.
 async fn play(args: &CaseArgs, client: &Client, body: Value) -> anyhow::Result<()> {
     let job = client.post_job("/v1/case-studies", &body).await?;
     let job = progress::follow(client, &job, "case").await?;

@@ -1,4 +1,4 @@
-//! `rubmap copy`: from one machine to a cluster.
+//! `rubmap copy`: copies a data folder from one machine to a cluster.
 
 use std::path::PathBuf;
 
@@ -10,16 +10,16 @@ use super::terminal::Terminal;
 use crate::config::DatabaseUrl;
 use crate::store::{self, Address, CopyProgress};
 
-/// What it does, for the help.
+/// Description of what the command does, for its help.
 pub(super) const EFFECTS: &str = "\
 The folder is only read; no service may run on it. Others may run on the database: they see all rows at once, at the end, and jobs that had not ended
 begin there. What is there already is left out, so a copy that broke off is simply started again; where something differs it says what, and copies
 no row. The file of tokens and the settings of the service are not in the folder.";
 
-/// From where to where.
+/// Source and targets of a copy.
 #[derive(Debug, Args)]
 pub(super) struct CopyArgs {
-    /// The data folder
+    /// Data folder to copy
     #[arg(long, env = "RUBMAP_DATA", default_value = "./data")]
     data: PathBuf,
     /// PostgreSQL database; its tables are brought up to date

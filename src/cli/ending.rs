@@ -1,16 +1,16 @@
-//! How a command that speaks to a service ends: the code that it leaves, and what it says.
+//! Ends of commands that speak to a service: their exit codes and messages.
 
 use std::process::ExitCode;
 
 use super::client::{ClientError, JobError};
 use super::stdout::{Closed, print_json};
 
-/// A signal ended it.
+/// Error of a command that a signal ended.
 #[derive(Debug, thiserror::Error)]
 #[error("interrupted{0}")]
 pub(super) struct Interrupted(pub(super) String);
 
-/// What the codes say, for the help of every command that leaves them.
+/// Exit codes and their meaning, for the help of every command that leaves them.
 pub(super) const CODES: &str = "\
 Exit codes:
   0    done; with --wait, and of watch: every job is successful
@@ -22,28 +22,28 @@ Exit codes:
   6    the service cannot be reached, or does not work
   130  interrupted";
 
-/// What went wrong here.
+/// Exit code of errors on this side: files, requests.
 const HERE: u8 = 1;
-/// The service refuses.
+/// Exit code if the service refuses.
 const REFUSED: u8 = 3;
-/// A job has failed.
+/// Exit code if a job has failed.
 const FAILED: u8 = 4;
-/// A job was cancelled.
+/// Exit code if a job was cancelled.
 const CANCELLED: u8 = 5;
-/// The service cannot be reached, or does not work.
+/// Exit code if the service cannot be reached, or does not work.
 const GAVE_UP: u8 = 6;
-/// A signal ended it, as shells say it.
+/// Exit code if a signal ended the command, as shells say it.
 const INTERRUPTED: u8 = 130;
 
-/// Says why a command did not do what it should, for scripts also as the document of the problem; returns its code.
+/// Prints why a command did not do what it should, for scripts also as the document of the problem; returns its exit code.
 pub(super) fn tell(error: &anyhow::Error, json: bool) -> ExitCode {
     if error.is::<Closed>() {
-        // Who reads no further has what was wanted, as in `| head`.
+        // A reader who stops early has what was wanted, as in `| head`.
         return ExitCode::SUCCESS;
     }
     eprintln!("Error: {error:#}");
     if let (true, Some(ClientError::Refused { body, .. })) = (json, error.downcast_ref()) {
-        // What is said by the code and on the error stream needs no more words.
+        // A failure to print needs no more words: the exit code and the error stream tell the error.
         let _ = print_json(body);
     }
     code(error).into()

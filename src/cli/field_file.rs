@@ -1,4 +1,4 @@
-//! Files of fields that commands write: their form is said by how their names end.
+//! Files of fields that commands write: the ends of their names tell their formats.
 
 use std::fs::File;
 use std::path::{Path, PathBuf};
@@ -10,10 +10,10 @@ use zip::ZipArchive;
 use super::client::Client;
 use super::session::save;
 
-/// Which part of the wheel, and where it goes.
+/// Part of the wheel that is written, and where the work is done.
 #[derive(Debug, Args)]
 pub(super) struct FieldFileArgs {
-    /// This sector alone, from 0 [default: all]
+    /// Sector to write alone, from 0 [default: all]
     #[arg(long)]
     sector: Option<u32>,
     /// Add stress, for which the package needs a mesh
@@ -33,7 +33,7 @@ pub(super) struct FieldFileArgs {
     pub(super) workers: Option<u16>,
 }
 
-/// A folder to work in: one that stays, or one that goes with this.
+/// Folder to work in: one that stays, or one that is removed when this is dropped.
 pub(super) enum WorkFolder {
     Kept(PathBuf),
     Passing(tempfile::TempDir),
@@ -49,10 +49,10 @@ impl WorkFolder {
 }
 
 impl FieldFileArgs {
-    /// The folder to work in.
+    /// Gives the folder to work in, and makes it if it is temporary.
     ///
     /// # Errors
-    /// One that cannot be made.
+    /// A folder that cannot be made.
     pub(super) fn folder(&self) -> anyhow::Result<WorkFolder> {
         Ok(match &self.work {
             Some(path) => WorkFolder::Kept(path.clone()),
@@ -60,7 +60,7 @@ impl FieldFileArgs {
         })
     }
 
-    /// Downloads a field from `path`, to whose query more can be added, into `out`; of a `.pvd` its files beside it.
+    /// Downloads a field from `path`, to whose query more can be added, into `out`; for a `.pvd` its files beside it.
     ///
     /// # Errors
     /// A file that cannot be written, or what the service refuses.
@@ -88,10 +88,10 @@ impl FieldFileArgs {
     }
 }
 
-/// The form that the end of a name says.
+/// Format that the end of a file's name tells.
 ///
 /// # Errors
-/// Any other.
+/// A name with any other end.
 fn form(out: &Path) -> anyhow::Result<&'static str> {
     let known = ["vtu", "vtp", "npz", "pvd", "svg", "png"];
     let ending = out.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
@@ -101,10 +101,10 @@ fn form(out: &Path) -> anyhow::Result<&'static str> {
     }
 }
 
-/// Refuses at once what could not be written in the end: a name that says no form, a folder that is not there.
+/// Refuses at once a name that could not be written in the end: one that tells no format, or whose folder is not there.
 ///
 /// # Errors
-/// Those two.
+/// A name without a known end, or a folder that is not there.
 pub(super) fn check(out: &Path) -> anyhow::Result<()> {
     form(out)?;
     let folder = out.parent().filter(|folder| !folder.as_os_str().is_empty());
@@ -114,7 +114,7 @@ pub(super) fn check(out: &Path) -> anyhow::Result<()> {
     }
 }
 
-/// A series beside `out`: its files begin with the name of the list.
+/// Unpacks a series of files beside `out`: their names begin with that of the list.
 fn unpack(zip: &Path, out: &Path) -> anyhow::Result<()> {
     let mut zip = ZipArchive::new(File::open(zip)?)?;
     let stem = out.file_stem().unwrap_or_default().to_string_lossy().into_owned();

@@ -1,4 +1,4 @@
-//! `rubmap fields`: where the whole wheel is at a speed, in contact.
+//! `rubmap fields`: writes fields of the whole wheel at a speed, in contact.
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -12,7 +12,7 @@ use super::field_file::{FieldFileArgs, check};
 use super::session::{Session, upload};
 use super::{progress, request};
 
-/// Which field of which run.
+/// Run of which a field is written, and which field.
 #[derive(Debug, Args)]
 pub(crate) struct FieldsArgs {
     /// Model package
@@ -22,7 +22,7 @@ pub(crate) struct FieldsArgs {
     /// Recorded instant, from 0 [default: that of the largest displacement of a contact node]
     #[arg(long, conflicts_with = "engine_order")]
     instant: Option<u32>,
-    /// The deflection shape of this engine order over all recorded revolutions
+    /// Write the deflection shape of this engine order over all recorded revolutions
     #[arg(long)]
     engine_order: Option<u32>,
     /// Add displacement and stress of the centrifugal load to those of the vibration at an instant
@@ -59,7 +59,7 @@ async fn play(args: &FieldsArgs, client: &Client, body: Value) -> anyhow::Result
     args.file.save(client, &format!("/v1/jobs/{}/fields?{which}{fixed}", job.id), &args.out).await
 }
 
-/// The request with the wheel's state as all that is recorded.
+/// Request with the wheel's state as all that is recorded.
 fn recording(mut body: Value) -> anyhow::Result<Value> {
     if body.get("record").is_none() {
         body["record"] = json!({});

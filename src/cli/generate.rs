@@ -11,7 +11,7 @@ use serde_json::Value;
 use crate::impeller::{ImpellerRequest, PaperCasing, Preset, generate as generate_package};
 use crate::package::raw::MatrixFormat;
 
-/// What to generate and where to put it.
+/// Parameters of a model, and where its package is written.
 #[derive(Debug, Args)]
 pub struct GenerateArgs {
     /// Package to write
@@ -38,7 +38,7 @@ pub struct GenerateArgs {
     /// Write the gyroscopic matrix too, for Coriolis forces; overrides the file
     #[arg(long)]
     pub gyroscopic: bool,
-    /// How the package stores its matrices
+    /// Format in which the package stores its matrices
     #[arg(long, value_enum, default_value_t = MatrixFormat::Npz)]
     pub matrices: MatrixFormat,
     /// Print the parameters as JSON and stop: a start for a --parameters file
@@ -79,7 +79,7 @@ pub fn generate(args: GenerateArgs) -> anyhow::Result<()> {
 }
 
 impl GenerateArgs {
-    /// The file, then the single options.
+    /// Request from the file, changed by the single options.
     fn request(&self) -> anyhow::Result<ImpellerRequest> {
         let mut request = match &self.parameters {
             Some(path) => read(path)?,

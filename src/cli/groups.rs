@@ -1,4 +1,4 @@
-//! The commands in groups: the help of the program has a heading for each, which clap does not give commands.
+//! Groups of the commands: the help of the program has a heading for each, which clap does not give commands.
 
 use std::fmt::Write;
 
@@ -22,7 +22,7 @@ const GROUPS: [(&str, &[&str]); 4] = [
     ("This program", &["completions", "man", "help"]),
 ];
 
-/// The program with its commands under headings.
+/// Puts the commands of the program under headings.
 pub(super) fn grouped(mut program: Command) -> Command {
     program.build();
     let mut list = String::new();

@@ -18,7 +18,7 @@ use crate::package::calculix::{self, CalculixModel, ImportSummary, Normals};
 use crate::package::raw::{Axis, ManifestMesh, MatrixFormat, RawPackage};
 use crate::solid::material::Material;
 
-/// The program the files come from.
+/// Program or table that the files come from.
 #[derive(Debug, Subcommand)]
 pub(super) enum ImportCommand {
     /// CalculiX: mesh from a deck (.inp), matrices from *FREQUENCY, SOLVER=MATRIXSTORAGE (.dof, .sti, .mas)
@@ -27,7 +27,7 @@ pub(super) enum ImportCommand {
     Casing(CasingArgs),
 }
 
-/// Which table.
+/// Table of a measured casing.
 #[derive(Debug, Args)]
 pub(super) struct CasingArgs {
     /// Table of heights inward of the casing of revolution: angle_deg (or angle_rad) and a column for every place along the chord from 0
@@ -38,7 +38,7 @@ pub(super) struct CasingArgs {
     out: Option<PathBuf>,
 }
 
-/// Which files, and what the deck does not say.
+/// Files of CalculiX, and settings that the deck does not have.
 #[derive(Debug, Args)]
 pub(super) struct CalculixArgs {
     /// Deck with the mesh and its node sets (*INCLUDE is followed)
@@ -95,24 +95,24 @@ pub(super) struct CalculixArgs {
     /// Package to write
     #[arg(long)]
     out: PathBuf,
-    /// How the package stores its matrices
+    /// Format in which the package stores its matrices
     #[arg(long, value_enum, default_value_t = MatrixFormat::Npz)]
     matrices: MatrixFormat,
 }
 
-/// Most things of a kind that are said one by one.
+/// Findings of a kind that are printed one by one, at most.
 const MOST_SAID: usize = 10;
 
-/// How contact nodes are put in order.
+/// Order of contact nodes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 enum ContactOrder {
-    /// Along their line, from its end at the smaller radius (the leading edge of a compressor)
+    /// Order along their line, from its end at the smaller radius (the leading edge of a compressor)
     Chord,
-    /// As the deck lists the set, which must be from leading to trailing edge
+    /// Order in which the deck lists the set, which must be from leading to trailing edge
     Set,
 }
 
-/// Makes the package, checks it as an upload would be, writes it and says what it is.
+/// Makes the package, checks it as an upload would be, writes it and prints a description.
 pub(super) fn import(command: ImportCommand) -> anyhow::Result<()> {
     match command {
         ImportCommand::Calculix(args) => import_calculix(*args),
@@ -120,7 +120,7 @@ pub(super) fn import(command: ImportCommand) -> anyhow::Result<()> {
     }
 }
 
-/// Reads the table, says what stands out of it, and writes it as requests take it.
+/// Reads the table, prints what stands out in it, and writes it as requests take it.
 fn import_casing(args: &CasingArgs) -> anyhow::Result<()> {
     let name = args.table.display();
     let text = std::fs::read(&args.table).with_context(|| format!("cannot read {name}"))?;
@@ -136,7 +136,7 @@ fn import_casing(args: &CasingArgs) -> anyhow::Result<()> {
     }
 }
 
-/// What a table looks like, in words.
+/// Description of a table of a measured casing.
 fn surveyed(found: &MeasuredCasing) -> Result<String, fmt::Error> {
     let MeasuredCasing { measured, survey, filled, filled_count } = found;
     let place = |line: u32| match &measured.chord {
@@ -235,7 +235,7 @@ fn import_calculix(args: CalculixArgs) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// What was imported, in words that can be compared with what one knows.
+/// Description of the imported model, which can be compared with what one knows of it.
 fn describe(
     package: &RawPackage,
     summary: &ImportSummary,
@@ -286,7 +286,7 @@ fn describe(
     Ok(text)
 }
 
-/// Size, materials, K(Ω) and warnings.
+/// Adds size, materials, K(Ω) and warnings to the description.
 fn describe_findings(text: &mut String, findings: &Findings) -> fmt::Result {
     if let Some(in_si) = &findings.in_si {
         writeln!(
@@ -310,7 +310,7 @@ fn describe_findings(text: &mut String, findings: &Findings) -> fmt::Result {
     Ok(())
 }
 
-/// Which strengths each element set has.
+/// List of element sets with the strengths that each has.
 fn materials(mesh: &ManifestMesh) -> String {
     let of_set = |(name, material): (&String, &Material)| {
         let known: Vec<&str> = [

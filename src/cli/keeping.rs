@@ -1,4 +1,4 @@
-//! `rubmap backup` and `rubmap check`: keeping a data folder safe.
+//! `rubmap backup` and `rubmap check`: copies and checks of a data folder.
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -11,10 +11,10 @@ use crate::store;
 /// Copy a data folder, while a service works on it or not.
 #[derive(Debug, Args)]
 pub(super) struct BackupArgs {
-    /// The data folder
+    /// Data folder to copy
     #[arg(long, env = "RUBMAP_DATA", default_value = "./data")]
     data: PathBuf,
-    /// Where the copy goes; must not exist. To restore, start a service on (a copy of) it
+    /// Folder for the copy; must not exist. To restore, start a service on (a copy of) it
     #[arg(long)]
     to: PathBuf,
 }
@@ -22,7 +22,7 @@ pub(super) struct BackupArgs {
 /// Read everything in a data folder and say what is not as it was written.
 #[derive(Debug, Args)]
 pub(super) struct CheckArgs {
-    /// The data folder
+    /// Data folder to check
     #[arg(long, env = "RUBMAP_DATA", default_value = "./data")]
     data: PathBuf,
 }
@@ -54,7 +54,7 @@ pub(super) fn check(CheckArgs { data }: CheckArgs) -> anyhow::Result<ExitCode> {
     Ok(if found.wrong.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 
-/// What a command runs on that waits for the store.
+/// Runtime for a command that waits for the store.
 pub(super) fn runtime() -> std::io::Result<tokio::runtime::Runtime> {
     tokio::runtime::Builder::new_current_thread().enable_all().build()
 }

@@ -1,4 +1,4 @@
-//! `rubmap completions` and `rubmap man`: what shells and `man` know of the program, from the program itself.
+//! `rubmap completions` and `rubmap man`: completions for shells and pages for `man`, from the program itself.
 
 use std::path::PathBuf;
 
@@ -8,15 +8,15 @@ use clap_complete::Shell;
 
 use super::stdout::failed;
 
-/// For which shell.
+/// Shell for which completions are printed.
 #[derive(Debug, Args)]
 pub(super) struct CompletionsArgs {
-    /// The shell
+    /// Shell
     #[arg(value_enum)]
     shell: Shell,
 }
 
-/// Where pages go.
+/// Folder in which pages are written.
 #[derive(Debug, Args)]
 pub(super) struct ManArgs {
     /// Folder for the pages, one per command; made if missing
@@ -27,7 +27,7 @@ pub(super) struct ManArgs {
 /// Prints the completions of a shell.
 ///
 /// # Errors
-/// An output that takes nothing.
+/// An output that cannot be written.
 pub(super) fn completions(args: &CompletionsArgs, mut program: Command) -> anyhow::Result<()> {
     use std::io::Write;
     let mut script = Vec::new();

@@ -1,4 +1,4 @@
-//! `rubmap migrate`: the tables of a shared database, brought up to date by the account that owns them.
+//! `rubmap migrate`: brings the tables of a shared database up to date, by the account that owns them.
 
 use anyhow::Context;
 use clap::Args;
@@ -7,7 +7,7 @@ use super::keeping::runtime;
 use crate::config::DatabaseUrl;
 use crate::store;
 
-/// A database.
+/// Database to bring up to date.
 #[derive(Debug, Args)]
 pub(super) struct MigrateArgs {
     /// PostgreSQL database, by the account that owns its tables
@@ -15,7 +15,7 @@ pub(super) struct MigrateArgs {
     database: DatabaseUrl,
 }
 
-/// Brings its tables up to date.
+/// Brings the tables of the database up to date.
 pub(super) fn run(MigrateArgs { database }: MigrateArgs) -> anyhow::Result<()> {
     let upgrades = runtime()?
         .block_on(store::migrate(database.expose()))

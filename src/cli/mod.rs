@@ -38,7 +38,7 @@ use std::process::ExitCode;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
-/// What a service says without being asked.
+/// Log level of services where `RUST_LOG` says nothing.
 const SERVICE_LOG: &str = "info,apalis_core=warn";
 
 /// At which speeds do the blade tips of a centrifugal impeller interact dangerously with their casing?
@@ -78,26 +78,26 @@ enum Command {
     /// Cancel jobs; speeds that are finished stay readable.
     #[command(after_help = ending::CODES)]
     Cancel(shell::CancelArgs),
-    /// Set jobs aside; what is finished stays.
+    /// Pause jobs; what is finished stays.
     #[command(after_help = ending::CODES)]
     Pause(shell::PauseArgs),
-    /// Let jobs go on that were set aside.
+    /// Continue jobs that were paused.
     #[command(after_help = ending::CODES)]
     Continue(shell::ContinueArgs),
     /// Delete jobs that have ended, or models.
     #[command(after_help = ending::CODES)]
     Rm(shell::RmArgs),
-    /// Write what a shell completes commands by.
+    /// Write the completions of commands for a shell.
     Completions(man::CompletionsArgs),
     /// Write pages for `man`.
     Man(man::ManArgs),
-    /// Show it all on a generated impeller: upload, sweep, map, critical speeds.
+    /// Show the whole way on a generated impeller: upload, sweep, map, critical speeds.
     Demo(demo::DemoArgs),
     /// Show what accuracy costs in time: errors of many settings against a finer one.
     Study(study::StudyArgs),
     /// Show what happens at one speed: motion, forces, energy.
     Case(case::CaseArgs),
-    /// Write where the whole wheel is at one speed, in contact: for ParaView, numpy, or drawn.
+    /// Write fields of the whole wheel at one speed, in contact: for ParaView, numpy, or drawn.
     Fields(fields::FieldsArgs),
     /// Print natural frequencies, or write a mode shape: for ParaView, numpy, or drawn.
     Modes(modes::ModesArgs),
@@ -134,14 +134,14 @@ enum Command {
 }
 
 impl Cli {
-    /// What the command line says; ends the program where it says nothing that makes sense, or asks for help.
+    /// Parses the command line; ends the program where it makes no sense, or asks for help.
     #[must_use]
     pub fn of_arguments() -> Self {
         let matches = groups::grouped(Self::command()).get_matches();
         Self::from_arg_matches(&matches).unwrap_or_else(|error| error.exit())
     }
 
-    /// What is logged unless `RUST_LOG` says otherwise: beside a progress bar only what went wrong.
+    /// Log level unless `RUST_LOG` says otherwise: beside a progress bar only errors and warnings.
     #[must_use]
     pub fn default_log(&self) -> &'static str {
         match self.command {
@@ -152,10 +152,10 @@ impl Cli {
         }
     }
 
-    /// Does what the command line says.
+    /// Runs the command.
     ///
     /// # Errors
-    /// What the command could not do.
+    /// The reason why the command could not be done.
     pub fn run(self) -> anyhow::Result<ExitCode> {
         match self.command {
             Command::Upload(args) => return verb::run(&args),

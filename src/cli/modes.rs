@@ -13,7 +13,7 @@ use super::progress;
 use super::session::{Session, upload};
 use super::speed::speed;
 
-/// Which mode of which package.
+/// Mode that is written, and its package.
 #[derive(Debug, Args)]
 pub(crate) struct ModesArgs {
     /// Model package
@@ -30,7 +30,7 @@ pub(crate) struct ModesArgs {
     /// Mode of the shape, from 1 by ascending frequency
     #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
     mode: u32,
-    /// Let it travel around the wheel
+    /// Let the mode travel around the wheel
     #[arg(long)]
     travelling: bool,
     #[command(flatten)]
@@ -66,7 +66,7 @@ pub(super) fn run(args: &ModesArgs) -> anyhow::Result<ExitCode> {
 
 async fn play(args: &ModesArgs, client: &Client) -> anyhow::Result<()> {
     let model = upload(client, &args.package).await?;
-    // What is asked of the analysis does not matter: it leaves the reduction.
+    // The analysis asked for does not matter: it leaves the reduction.
     let body = json!({
         "model": model.id,
         "modes_per_speed": args.modes_per_speed,

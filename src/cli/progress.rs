@@ -1,21 +1,22 @@
-//! How far a job is.
+//! Progress of a job on the terminal.
 
 use super::client::{Answer, Client, Job};
 
-/// Follows a job to its end and shows how far it is; an error if it did not end well.
+/// Follows a job to its end and shows its progress; an error if it was not successful.
 pub(super) async fn follow(client: &Client, job: &Job, name: &str) -> anyhow::Result<Answer<Job>> {
     let job = follow_any(client, &job.id, name).await?;
     job.check()?;
     Ok(job)
 }
 
-/// Follows a job to its end, however that is, and shows how far it is.
+/// Follows a job to its end, whatever that is, and shows its progress.
 pub(super) async fn follow_any(client: &Client, id: &str, name: &str) -> anyhow::Result<Answer<Job>> {
     let mut bar = client.terminal.bar(name);
     client.follow(id, |job| bar.show(job.progress, &words(job), job.status.is_final())).await
 }
 
-/// Counts as soon as there is something to count; before that, what is being prepared. Of a job that did not end well, that.
+/// Words for the progress of a job: counts of speeds as soon as there are any, before that its phase; its status if it
+/// waits, was paused or was not successful.
 fn words(job: &Job) -> String {
     use crate::store::status::JobStatus::{Accepted, Dismissed, Failed, Paused, Running, Successful};
 

@@ -1,4 +1,4 @@
-//! `rubmap report`: a job of a running service as one page.
+//! `rubmap report`: writes a job of a running service as one page.
 
 use std::path::PathBuf;
 
@@ -9,7 +9,7 @@ use super::stdout::print;
 use super::verb::Verb;
 use crate::store::jobs::JobId;
 
-/// Which job, and where it is.
+/// Job that is reported, and its service.
 #[derive(Debug, Args)]
 pub(super) struct ReportArgs {
     /// Id of a sweep or a modal analysis

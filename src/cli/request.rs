@@ -6,13 +6,13 @@ use std::path::Path;
 use anyhow::{Context, bail};
 use serde_json::{Value, json};
 
-/// The name that stands for the input stream.
+/// Name that stands for the input stream.
 const STDIN: &str = "-";
 
-/// The body of a POST to `route` that a file has, in JSON or YAML.
+/// Reads the body of a POST to `route` from a file in JSON or YAML.
 ///
 /// # Errors
-/// A file that cannot be read, or has something else in it; line and column are said.
+/// A file that cannot be read, or has something else in it; line and column are reported.
 pub(super) fn read(path: &Path, route: &str) -> anyhow::Result<Value> {
     let (name, text) = if path == Path::new(STDIN) {
         let mut text = String::new();
@@ -38,13 +38,13 @@ pub(super) fn read(path: &Path, route: &str) -> anyhow::Result<Value> {
     Ok(body)
 }
 
-/// By YAML's own values: those refuse what is said twice.
+/// Reads YAML by way of YAML's own values, which refuse keys that are given twice.
 fn from_yaml(text: &str) -> anyhow::Result<Value> {
     let value: yaml_serde::Value = yaml_serde::from_str(text)?;
     Ok(serde_json::to_value(value)?)
 }
 
-/// `body` with its model filled in.
+/// Request `body` with its model filled in.
 ///
 /// # Errors
 /// A body that names another model.
@@ -60,7 +60,7 @@ pub(super) fn of_model(mut body: Value, model: &str) -> anyhow::Result<Value> {
     Ok(body)
 }
 
-/// A field and what it is to be: `/speeds/count=80`.
+/// Change of a field of a request: `/speeds/count=80`.
 #[derive(Debug, Clone)]
 pub(super) struct Setting {
     /// Names and indices on the way to the field.
@@ -72,7 +72,7 @@ impl Setting {
     /// Reads an RFC 6901 pointer and a value in JSON or YAML.
     ///
     /// # Errors
-    /// What is neither, in words.
+    /// A message for a text that has no pointer or no value.
     pub(super) fn parse(text: &str) -> Result<Self, String> {
         let (pointer, value) = text.split_once('=').ok_or("a setting is like /speeds/count=80")?;
         let path =
@@ -82,10 +82,10 @@ impl Setting {
         Ok(Self { path, value })
     }
 
-    /// Changes a body. Objects that are missing on the way are made; of a list only what is there can be changed.
+    /// Changes a body. Missing objects on the way are made; a list must have the entry already.
     ///
     /// # Errors
-    /// A way through what has no fields.
+    /// A way through a value that has no fields.
     pub(super) fn apply(&self, body: &mut Value) -> anyhow::Result<()> {
         let mut place = body;
         for (depth, name) in self.path.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! `rubmap serve`: the HTTP service until a signal ends it.
+//! `rubmap serve`: runs the HTTP service until a signal ends it.
 
 use std::io;
 use std::pin::pin;
@@ -11,7 +11,7 @@ use tokio_util::sync::CancellationToken;
 
 use super::signals::stop_signal;
 
-/// A service and its end.
+/// Settings of a service, and when it stops.
 #[derive(Debug, Args)]
 pub(super) struct ServeArgs {
     #[command(flatten)]
@@ -26,7 +26,7 @@ pub(super) fn run(args: ServeArgs) -> anyhow::Result<()> {
     until_told(args.config, Role::Service, args.until_eof)
 }
 
-/// Runs a process of this role until a signal or, if that counts, the end of standard input.
+/// Runs a process of this role until a signal or, with `until_eof`, the end of standard input.
 pub(super) fn until_told(config: Config, role: Role, until_eof: bool) -> anyhow::Result<()> {
     let runtime = tokio::runtime::Builder::new_multi_thread().enable_all().build()?;
     let served = runtime.block_on(async {
@@ -50,12 +50,12 @@ pub(super) fn until_told(config: Config, role: Role, until_eof: bool) -> anyhow:
         tokio::join!(app.run_until_stopped(stop.clone()), told);
         Ok(())
     });
-    // What still reads or writes a file on another thread is not waited for: all that is kept is kept.
+    // Threads that still read or write a file are not waited for: all that is to be stored is stored.
     runtime.shutdown_background();
     served
 }
 
-/// Done when standard input has ended, or cannot be read.
+/// Completes when standard input has ended, or cannot be read.
 async fn input_ended() {
     let _ = tokio::task::spawn_blocking(|| io::copy(&mut io::stdin().lock(), &mut io::sink())).await;
 }

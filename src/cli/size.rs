@@ -1,6 +1,6 @@
 //! Numbers of bytes in words.
 
-/// To three digits, in the units of disks.
+/// Size to three digits, in the units of disks.
 pub(super) fn size(bytes: u64) -> String {
     let mut number = bytes as f64;
     let mut units = ["kB", "MB", "GB", "TB"].into_iter();

@@ -2,10 +2,10 @@
 
 use std::f64::consts::PI;
 
-/// A speed in rad/s, or in revolutions per minute where that is said.
+/// Reads a speed in rad/s, or in revolutions per minute where the text has that unit.
 ///
 /// # Errors
-/// What is no number from 0 on, in words.
+/// A message for a text that is no number from 0 on.
 pub(super) fn speed(text: &str) -> Result<f64, String> {
     let text = text.trim();
     let (number, factor) = match text.strip_suffix("rpm") {

@@ -1,10 +1,10 @@
-//! The output stream: results, and nothing else.
+//! Output stream: results, and nothing else.
 
 use std::io::{ErrorKind, Write};
 
 use serde_json::Value;
 
-/// Who read the output has gone: nobody wants more of it.
+/// Error of an output whose reader has gone: nobody wants more of it.
 #[derive(Debug, thiserror::Error)]
 #[error("nobody reads the output any more")]
 pub(super) struct Closed;
@@ -12,7 +12,7 @@ pub(super) struct Closed;
 /// Writes a line.
 ///
 /// # Errors
-/// [`Closed`], or an output that takes nothing.
+/// [`Closed`], or an output that cannot be written.
 pub(super) fn print(line: &str) -> anyhow::Result<()> {
     let mut out = std::io::stdout().lock();
     match writeln!(out, "{line}").and_then(|()| out.flush()) {
@@ -29,7 +29,7 @@ pub(super) fn print_json(document: &Value) -> anyhow::Result<()> {
     print(&format!("{document:#}"))
 }
 
-/// Why the output takes nothing.
+/// Error of an output that cannot be written.
 pub(super) fn failed(error: std::io::Error) -> anyhow::Error {
     match error.kind() {
         ErrorKind::BrokenPipe => Closed.into(),

@@ -1,5 +1,4 @@
-//! What goes on, for whoever watches: bars on a terminal, lines elsewhere; always on the error stream, so that the other one has
-//! nothing but results.
+//! Progress for whoever watches: bars on a terminal, lines elsewhere; always on the error stream, so that the output stream has nothing but results.
 
 use std::io::IsTerminal;
 use std::time::{Duration, Instant};
@@ -14,24 +13,24 @@ const TICK: Duration = Duration::from_millis(150);
 /// Time between two plain lines.
 const LINE_INTERVAL: Duration = Duration::from_secs(5);
 
-/// Where it is told what goes on.
+/// Terminal on which progress is reported.
 #[derive(Debug, Default)]
 pub(super) struct Terminal {
     bars: MultiProgress,
 }
 
-/// How far one thing is.
+/// Progress of one activity.
 #[derive(Debug)]
 pub(super) enum Bar {
-    /// On a terminal.
+    /// Bar drawn on a terminal.
     Drawn(ProgressBar),
-    /// Elsewhere.
+    /// Plain lines, where there is no terminal.
     Lines {
-        /// What it is.
+        /// Name of the activity.
         name: String,
-        /// Since when it is shown.
+        /// Time at which the activity began.
         begin: Instant,
-        /// When the last line was written.
+        /// Time at which the last line was written.
         last: Option<Instant>,
     },
 }
@@ -42,12 +41,12 @@ impl Terminal {
         self.bars.suspend(|| eprintln!("{line}"));
     }
 
-    /// A bar from 0 to 100 for what takes its time: the first line comes at once.
+    /// Begins a bar from 0 to 100 for an activity that takes its time: the first line comes at once.
     pub(super) fn bar(&self, name: &str) -> Bar {
         self.begin(name, None)
     }
 
-    /// A bar from 0 to 100 for what is mostly done in a moment: then there is no line.
+    /// Begins a bar from 0 to 100 for an activity that is mostly done in a moment: then there is no line.
     pub(super) fn short_bar(&self, name: &str) -> Bar {
         self.begin(name, Some(Instant::now()))
     }
@@ -69,7 +68,7 @@ impl Terminal {
 }
 
 impl Bar {
-    /// Shows how far it is, in percent and in words; what is the `last` of it always.
+    /// Shows progress in percent and in words; the `last` report is always shown.
     pub(super) fn show(&mut self, percent: u64, words: &str, last: bool) {
         match self {
             Self::Drawn(bar) => {
@@ -94,7 +93,7 @@ impl Bar {
 }
 
 impl Drop for Bar {
-    /// However it ends, what was drawn last stays.
+    /// Leaves on the terminal what was drawn last.
     fn drop(&mut self) {
         if let Self::Drawn(bar) = self {
             bar.abandon();

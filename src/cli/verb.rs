@@ -1,4 +1,4 @@
-//! Running a command that speaks to a service.
+//! Runs commands that speak to a service.
 
 use std::process::ExitCode;
 
@@ -6,31 +6,31 @@ use super::client::{Client, ServerArgs};
 use super::ending::{Interrupted, tell};
 use super::signals::stop_signal;
 
-/// A command that speaks to a service.
+/// Command that speaks to a service.
 pub(super) trait Verb {
-    /// Which service.
+    /// Service to which the command speaks.
     fn server(&self) -> &ServerArgs;
 
-    /// Whether its output is a document for scripts.
+    /// Whether the output of the command is a document for scripts.
     fn json(&self) -> bool {
         false
     }
 
-    /// Does it.
+    /// Runs the command.
     async fn play(&self, client: &Client) -> anyhow::Result<()>;
 }
 
-/// Does what a command says until it is done or a signal comes; returns its code.
+/// Runs a command until it is done or a signal comes; returns its exit code.
 ///
 /// # Errors
-/// A runtime that cannot be had.
+/// A runtime that cannot be started.
 pub(super) fn run(verb: &impl Verb) -> anyhow::Result<ExitCode> {
     let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
     let played = runtime.block_on(async {
         let stop = stop_signal()?;
         let client = verb.server().client()?;
         tokio::select! {
-            // First: who waits for a job has more to say when a signal comes.
+            // The command is polled first: one that waits for a job has more to say when a signal comes.
             biased;
             played = verb.play(&client) => played,
             () = stop => Err(Interrupted(String::new()).into()),

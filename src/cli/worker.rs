@@ -1,4 +1,4 @@
-//! `rubmap worker`: computes what others are asked for, until a signal ends it.
+//! `rubmap worker`: computes what services are asked for, until a signal ends it.
 
 use std::net::SocketAddr;
 use std::path::PathBuf;
@@ -10,19 +10,19 @@ use crate::app::Role;
 use crate::config::{Config, DatabaseUrl};
 use crate::store::Address;
 
-/// A worker.
+/// Settings of a worker.
 #[derive(Debug, Args)]
 pub(super) struct WorkerArgs {
     /// Address of /healthz, /readyz and /metrics; port 0 takes any free port.
     #[arg(long, env = "RUBMAP_ADDR", default_value = "127.0.0.1:0")]
     addr: SocketAddr,
-    /// Folder of this worker alone; made if missing.
+    /// Folder for this worker alone; made if missing.
     #[arg(long, env = "RUBMAP_DATA", default_value = "./data")]
     data: PathBuf,
-    /// PostgreSQL database that it shares with the service.
+    /// PostgreSQL database that the worker shares with the service.
     #[arg(long, env = "RUBMAP_DATABASE", hide_env_values = true, value_name = "postgres://USER@HOST/NAME")]
     database: DatabaseUrl,
-    /// Object storage that it shares with the service: s3://bucket/prefix, or a folder that both see.
+    /// Object storage that the worker shares with the service: s3://bucket/prefix, or a folder that both see.
     #[arg(long, env = "RUBMAP_OBJECTS", value_name = "s3://BUCKET/PREFIX")]
     objects: Address,
     /// Threads that compute [default: one per core].
@@ -31,8 +31,8 @@ pub(super) struct WorkerArgs {
     /// Memory that computations may take together, in bytes [default: three quarters of what the machine or container leaves].
     #[arg(long, env = "RUBMAP_MEMORY_BYTES", value_parser = clap::value_parser!(u64).range(1 << 20..))]
     memory_bytes: Option<u64>,
-    /// Bytes of models and results that one owner may have stored, as the gateways say: a generated model has its size once it is made
-    /// [default: no limit].
+    /// Bytes of models and results that one owner may have stored, as the gateways limit them: a generated model has its size once it
+    /// is made [default: no limit].
     #[arg(long, env = "RUBMAP_OWNER_BYTES")]
     owner_bytes: Option<u64>,
     /// Stop, too, when standard input ends
@@ -40,7 +40,7 @@ pub(super) struct WorkerArgs {
     until_eof: bool,
 }
 
-/// Works until SIGTERM or SIGINT.
+/// Runs the worker until SIGTERM or SIGINT.
 pub(super) fn run(args: WorkerArgs) -> anyhow::Result<()> {
     let WorkerArgs { addr, data, database, objects, workers, memory_bytes, owner_bytes, until_eof } = args;
     let config = Config {
@@ -50,7 +50,7 @@ pub(super) fn run(args: WorkerArgs) -> anyhow::Result<()> {
         workers,
         memory_bytes,
         owner_bytes,
-        // What it answers is not about anybody's jobs.
+        // Answers of a worker are not about anybody's jobs.
         open: true,
         ..Config::local(&data)
     };

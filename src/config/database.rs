@@ -1,4 +1,4 @@
-//! Which database several processes share.
+//! Address of the database that several processes share.
 
 use std::convert::Infallible;
 use std::fmt;
@@ -9,7 +9,7 @@ use std::str::FromStr;
 pub struct DatabaseUrl(String);
 
 impl DatabaseUrl {
-    /// The address with all that is in it.
+    /// Full address, including the password.
     pub fn expose(&self) -> &str {
         &self.0
     }
@@ -21,7 +21,7 @@ impl fmt::Debug for DatabaseUrl {
     }
 }
 
-/// Takes anything: who refuses an address here has it shown.
+/// Takes any text: the address in a refusal would be shown.
 impl FromStr for DatabaseUrl {
     type Err = Infallible;
 

@@ -1,4 +1,4 @@
-//! How much memory this machine or container leaves to the service.
+//! Memory that this machine or container leaves to the service.
 //!
 //! `sysinfo` (0.40) reads the same files and is silent where we need its word: its limits of the system are those of the
 //! outermost group alone, and its limits of a process none as soon as one file on the way out from there is missing.
@@ -16,7 +16,7 @@ pub(super) fn available_bytes() -> Option<u64> {
     Some(limit.map_or(available, |limit| limit.min(available)))
 }
 
-/// `MemAvailable` of `/proc/meminfo`.
+/// Bytes of `MemAvailable` in `/proc/meminfo`.
 fn available_on_machine(meminfo: &str) -> Option<u64> {
     let line = meminfo.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
     let kib: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
@@ -46,7 +46,7 @@ fn smallest_limit(groups: &str, mount: &Path) -> Option<u64> {
     limits.into_iter().min()
 }
 
-/// The limit in `file`; `None` if there is none ("max").
+/// Memory limit in `file`; `None` if there is none ("max").
 fn limit(file: PathBuf) -> Option<u64> {
     std::fs::read_to_string(file).ok()?.trim().parse().ok()
 }

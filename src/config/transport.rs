@@ -1,4 +1,4 @@
-//! Settings of the connections: how many, how long, from where.
+//! Settings of the connections: how many there may be, how long they may rest, and from where they may come.
 
 use axum::http::uri::Authority;
 use axum::http::{HeaderValue, Uri};
@@ -38,7 +38,7 @@ pub struct TransportConfig {
 }
 
 impl Default for TransportConfig {
-    /// What the command line gives without any of these arguments.
+    /// Settings that the command line gives without any of these arguments.
     fn default() -> Self {
         Self {
             connections: 1024,
@@ -52,7 +52,7 @@ impl Default for TransportConfig {
     }
 }
 
-/// A name or address as clients write it into their URLs, without a port.
+/// Reads a name or address as clients write it into their URLs, without a port.
 fn host_name(text: &str) -> Result<String, String> {
     match text.parse::<Authority>() {
         Ok(authority) if authority.host() == text => Ok(text.to_owned()),
@@ -60,7 +60,7 @@ fn host_name(text: &str) -> Result<String, String> {
     }
 }
 
-/// Scheme, name and perhaps port, exactly as browsers say it.
+/// Reads an origin: scheme, name and perhaps port, exactly as browsers say it.
 fn origin(text: &str) -> Result<HeaderValue, String> {
     let expected = || "expected an origin such as https://tools.example, without a path".to_owned();
     let uri: Uri = text.parse().map_err(|_| expected())?;

@@ -1,26 +1,26 @@
-//! Numbers or texts under a name.
+//! Arrays of numbers or texts under a name.
 
 use serde::Serialize;
 
 use crate::analysis::request::Sensor;
 
-/// Numbers or texts under a name, in the order of C.
+/// Array of numbers or texts under a name, in the order of C.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Array {
-    /// As the field of the JSON, or the column of a table.
+    /// Name of the array: the field of the JSON, or the column of a table.
     pub name: String,
-    /// Length of every dimension; none of a single value.
+    /// Length of every dimension; empty for a single value.
     pub shape: Vec<usize>,
-    /// As many as the shape says.
+    /// Elements, as many as the shape says.
     pub values: Values,
 }
 
 /// Elements of an array.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Values {
-    /// NaN where there is none.
+    /// Real numbers; NaN where there is none.
     Real(Vec<f64>),
-    /// Nothing where there is none.
+    /// Whole numbers; `None` where there is none.
     Whole(Vec<Option<u32>>),
     /// Truth values.
     Flag(Vec<bool>),
@@ -59,12 +59,12 @@ impl Array {
         Self::list(name, Values::Text(values.into_iter().map(Into::into).collect()))
     }
 
-    /// Words as they are on the wire, in one dimension.
+    /// Words as they are in the JSON, in one dimension.
     pub fn words(name: impl Into<String>, values: impl IntoIterator<Item = impl Serialize>) -> Self {
         Self::texts(name, values.into_iter().map(|value| word(&value)))
     }
 
-    /// Of each several words, with a space between them.
+    /// Lists of words in one dimension, each list as one text with spaces between its words.
     pub fn word_lists<W: Serialize>(
         name: impl Into<String>,
         values: impl IntoIterator<Item = impl AsRef<[W]>>,
@@ -73,17 +73,17 @@ impl Array {
         Self::texts(name, values.into_iter().map(|words| list(words.as_ref())))
     }
 
-    /// One number.
+    /// Single real number.
     pub fn real(name: impl Into<String>, value: f64) -> Self {
         Self { shape: Vec::new(), ..Self::reals(name, [value]) }
     }
 
-    /// One text.
+    /// Single text.
     pub fn text(name: impl Into<String>, value: impl Into<String>) -> Self {
         Self { shape: Vec::new(), ..Self::texts(name, [value]) }
     }
 
-    /// Anything else as one text: its JSON.
+    /// Value of any other type as a single text: its JSON.
     pub fn json(name: impl Into<String>, value: &impl Serialize) -> Self {
         Self::text(name, serde_json::to_string(value).unwrap_or_default())
     }
@@ -96,7 +96,7 @@ impl Array {
         )
     }
 
-    /// With lists of equal lengths side by side: `[list][element]`. Shorter ones are filled with NaN.
+    /// Lists of real numbers side by side: `[list][element]`. Shorter lists are filled with NaN.
     pub fn rows<'a>(name: impl Into<String>, rows: impl IntoIterator<Item = &'a [f64]>) -> Self {
         let rows: Vec<&[f64]> = rows.into_iter().collect();
         let width = rows.iter().map(|row| row.len()).max().unwrap_or(0);
@@ -106,7 +106,7 @@ impl Array {
         Self { shape: vec![rows.len(), width], ..Self::reals(name, padded) }
     }
 
-    /// With the first dimension divided into `parts` equal ones.
+    /// Divides the first dimension into `parts` equal ones.
     #[must_use]
     pub fn in_parts(mut self, parts: usize) -> Self {
         let whole = self.shape.remove(0);
@@ -114,7 +114,7 @@ impl Array {
         self
     }
 
-    /// `[a][b][c]`, of lists that may be shorter than others.
+    /// Lists of lists of real numbers: `[a][b][c]`. Shorter lists are filled with NaN.
     pub fn cube(name: impl Into<String>, cube: &[Vec<Vec<f64>>]) -> Self {
         let parts = cube.len();
         Self::rows(name, cube.iter().flatten().map(Vec::as_slice)).in_parts(parts)
@@ -126,7 +126,7 @@ impl Array {
 }
 
 impl Values {
-    /// How many they are.
+    /// Number of elements.
     pub fn len(&self) -> usize {
         match self {
             Self::Real(values) => values.len(),
@@ -136,13 +136,13 @@ impl Values {
         }
     }
 
-    /// Whether there are none.
+    /// Whether there are no elements.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 }
 
-/// A word as it is on the wire; empty for what is absent.
+/// Word as it is in the JSON; empty for an absent one.
 fn word(value: &impl Serialize) -> String {
     match serde_json::to_value(value) {
         Ok(serde_json::Value::String(word)) => word,

@@ -41,7 +41,7 @@ impl Export for Branches {
         columns
     }
 
-    /// The columns of the table, bifurcations and maxima with the number of their branch, and what all rests on.
+    /// Columns of the table, bifurcations and maxima with the number of their branch, and the settings that all rest on.
     fn arrays(&self) -> Vec<Array> {
         let mut arrays = self.table();
         let bifurcations = || {

@@ -1,4 +1,4 @@
-//! Campaigns.
+//! Export of campaigns.
 
 use super::Export;
 use super::array::Array;
@@ -23,7 +23,7 @@ impl Export for Campaign {
         columns
     }
 
-    /// The columns of the table; `by_speed` is `[design][speed]`; sensitivities one array per field.
+    /// Columns of the table; `by_speed` as `[design][speed]`; sensitivities as one array per field.
     fn arrays(&self) -> Vec<Array> {
         let mut arrays = self.table();
         arrays.push(Array::reals("speeds_rad_s", self.speeds_rad_s.iter().copied()));
@@ -52,7 +52,7 @@ impl Export for Campaign {
     }
 }
 
-/// Columns of what designs come to with one model; none of one that is not there.
+/// Columns of the outcomes of designs with one model; none for a model that is not there.
 fn outcomes(prefix: &str, severity: &str, of: &[&DesignOutcome]) -> Vec<Array> {
     if of.is_empty() {
         return Vec::new();

@@ -1,4 +1,4 @@
-//! Comma-separated values as RFC 4180 has them: a line of names, lines of numbers, nothing else.
+//! Comma-separated values as in RFC 4180: a line of names, lines of numbers, nothing else.
 
 use std::borrow::Cow;
 use std::io::{self, Write};
@@ -8,7 +8,7 @@ use super::array::{Array, Values};
 /// Writes arrays of one length as columns.
 ///
 /// # Errors
-/// Those of writing.
+/// Errors of writing.
 pub fn write(columns: &[Array], out: &mut dyn Write) -> io::Result<()> {
     names(columns, out)?;
     end_line(out)?;
@@ -20,7 +20,7 @@ pub fn write(columns: &[Array], out: &mut dyn Write) -> io::Result<()> {
     Ok(())
 }
 
-/// The names of columns, without the end of the line.
+/// Writes the names of columns, without the end of the line.
 pub(super) fn names(columns: &[Array], out: &mut dyn Write) -> io::Result<()> {
     for (index, column) in columns.iter().enumerate() {
         let comma = if index == 0 { "" } else { "," };
@@ -29,7 +29,7 @@ pub(super) fn names(columns: &[Array], out: &mut dyn Write) -> io::Result<()> {
     Ok(())
 }
 
-/// Row `row` of columns, without the end of the line.
+/// Writes row `row` of columns, without the end of the line.
 pub(super) fn cells(columns: &[Array], row: usize, out: &mut dyn Write) -> io::Result<()> {
     for (index, column) in columns.iter().enumerate() {
         if index > 0 {
@@ -47,7 +47,7 @@ pub(super) fn cells(columns: &[Array], row: usize, out: &mut dyn Write) -> io::R
     Ok(())
 }
 
-/// A number that is read back to the bit; nothing for NaN.
+/// Writes a number that is read back to the bit; nothing for NaN.
 pub(super) fn real(value: f64, out: &mut dyn Write) -> io::Result<()> {
     if value.is_nan() { Ok(()) } else { write!(out, "{value:?}") }
 }
@@ -56,7 +56,7 @@ pub(super) fn end_line(out: &mut dyn Write) -> io::Result<()> {
     out.write_all(b"\r\n")
 }
 
-/// Text as a field. Behind an apostrophe where it begins with a character by which spreadsheets know formulas, so that a name
+/// Text as a field, behind an apostrophe where it begins with a character by which spreadsheets know formulas, so that a name
 /// from elsewhere is shown and never run.
 fn quoted(text: &str) -> Cow<'_, str> {
     if text.starts_with(['=', '+', '-', '@', '\t', '\r']) {
@@ -87,7 +87,7 @@ mod tests {
         assert_eq!(String::from_utf8(text).unwrap(), expected);
     }
 
-    /// Rule of OWASP's page on CSV injection; numbers are numbers, negative ones too.
+    /// Checks the rule of OWASP's page on CSV injection; numbers are numbers, negative ones too.
     #[test]
     fn text_that_looks_like_a_formula_is_not_run() {
         let columns = [

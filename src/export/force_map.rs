@@ -1,13 +1,13 @@
-//! Contact over speed and contact node.
+//! Force maps: contact over speed and contact node.
 
 use super::Export;
 use super::array::Array;
 use crate::analysis::result::{ForceMap, ForceRow};
 
-/// A number per contact node.
+/// Field of a row that has a number per contact node.
 type PerNode = fn(&ForceRow) -> &[f64];
 
-/// Those of a row, by the names of their fields.
+/// Fields of a row that have a number per contact node, with their names.
 const PER_NODE: [(&str, PerNode); 6] = [
     ("peak_force", |row| &row.peak_force),
     ("impulse_per_revolution", |row| &row.impulse_per_revolution),
@@ -43,7 +43,7 @@ impl Export for ForceMap {
         columns
     }
 
-    /// `[speed][contact node]`, NaN where a speed is not completed.
+    /// Arrays as `[speed][contact node]`; NaN where a speed is not completed.
     fn arrays(&self) -> Vec<Array> {
         let mut arrays = vec![Array::reals("speeds_rad_s", self.speeds_rad_s.iter().copied())];
         arrays.extend(PER_NODE.iter().map(|(name, of)| {

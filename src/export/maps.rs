@@ -10,7 +10,7 @@ use crate::package::NpzWriter;
 
 /// Chosen speeds and engine orders of the maps of chosen sensors.
 pub struct Maps<R> {
-    /// What they have in common, without rows: the chosen speeds, engine orders and points.
+    /// Common part of the maps, without rows: the chosen speeds, engine orders and points.
     pub map: InteractionMap,
     /// Indices of the speeds in the request.
     pub indices: Vec<u32>,
@@ -18,17 +18,17 @@ pub struct Maps<R> {
     pub sensors: Vec<(u32, Sensor)>,
     /// Whether a sensor's index is part of the arrays' shapes though there is only one.
     pub several: bool,
-    /// Reads the row of a sensor and a speed by their indices in the request: an amplitude per engine order; `None` where that speed
-    /// has no result.
+    /// Function that reads the row of a sensor and a speed by their indices in the request: an amplitude per engine order; `None`
+    /// where that speed has no result.
     pub row: R,
 }
 
 impl<R: Fn(u32, u32) -> io::Result<Option<Vec<f64>>>> Maps<R> {
-    /// A line per sensor and speed, a column per engine order; empty where a speed has no result. The utilisation is there if stress was
-    /// asked for.
+    /// Writes a line per sensor and speed, a column per engine order; empty where a speed has no result. The utilisation is there if
+    /// stress was asked for.
     ///
     /// # Errors
-    /// Those of writing and of reading rows, here and below.
+    /// Errors of writing and of reading rows.
     pub fn csv(&self, unit: Option<SpeedUnit>, out: &mut dyn Write) -> io::Result<()> {
         let (speeds, columns) = (self.indices.len(), self.map.engine_orders.len());
         let left = |sensor: u32| {
@@ -66,7 +66,8 @@ impl<R: Fn(u32, u32) -> io::Result<Option<Vec<f64>>>> Maps<R> {
         Ok(())
     }
 
-    /// `amplitude` is `[speed][engine order]`, or `[sensor][speed][engine order]` of several; NaN where a speed has no result.
+    /// Writes arrays; `amplitude` is `[speed][engine order]`, or `[sensor][speed][engine order]` for several sensors, with NaN
+    /// where a speed has no result.
     ///
     /// # Errors
     /// As of [`Maps::csv`].
@@ -109,12 +110,12 @@ impl<R: Fn(u32, u32) -> io::Result<Option<Vec<f64>>>> Maps<R> {
         file.finish()
     }
 
-    /// How the speeds ended; nothing of those that are not finished.
+    /// Status of each speed; `None` for those that are not finished.
     fn status(&self) -> Vec<Option<PointStatus>> {
         self.found(|point| Some(point.status))
     }
 
-    /// What the points of the speeds say; nothing of those that are not finished.
+    /// Values that `of` reads from the points of the speeds; `None` for speeds that are not finished.
     fn found<T>(&self, of: impl Fn(&Point) -> Option<T>) -> Vec<Option<T>> {
         let found = |index: &u32| {
             let place = self.map.points.binary_search_by_key(index, |point| point.index).ok()?;
@@ -123,7 +124,7 @@ impl<R: Fn(u32, u32) -> io::Result<Option<Vec<f64>>>> Maps<R> {
         self.indices.iter().map(found).collect()
     }
 
-    /// A row as long as there are engine orders.
+    /// Reads a row; an error if it is not as long as there are engine orders.
     fn row(&self, sensor: u32, index: u32) -> io::Result<Option<Vec<f64>>> {
         let row = (self.row)(sensor, index)?;
         match &row {

@@ -29,19 +29,19 @@ pub use unit::{add_to_arrays, add_to_json};
 
 use crate::analysis::request::SpeedUnit;
 
-/// A result as files of numbers.
+/// Result that can be written as files of numbers.
 pub trait Export {
-    /// One table: arrays of one dimension and one length, whose names have units.
+    /// Table of the result: arrays of one dimension and one length, whose names have units.
     fn table(&self) -> Vec<Array>;
 
-    /// All numbers, named as the fields of the JSON.
+    /// Arrays of all numbers of the result, named as the fields of the JSON.
     fn arrays(&self) -> Vec<Array>;
 }
 
 /// Writes the table of a result as comma-separated values (RFC 4180), with speeds in `unit` as well.
 ///
 /// # Errors
-/// Those of writing.
+/// Errors of writing.
 pub fn write_csv(result: &impl Export, unit: Option<SpeedUnit>, out: &mut dyn Write) -> io::Result<()> {
     csv::write(&add_to_arrays(result.table(), unit), out)
 }

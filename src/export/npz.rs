@@ -8,7 +8,7 @@ use crate::package::NpzWriter;
 /// Writes arrays into a new file. Whole numbers some of which are absent become real ones, with NaN.
 ///
 /// # Errors
-/// Those of writing.
+/// Errors of writing.
 pub fn write(arrays: &[Array], out: &mut dyn Write) -> io::Result<()> {
     let mut npz = NpzWriter::stream(out);
     add(arrays, &mut npz)?;

@@ -1,4 +1,4 @@
-//! Run-ups.
+//! Run-ups and their spectrograms.
 
 use super::Export;
 use super::array::Array;
@@ -34,7 +34,7 @@ impl Export for RunUps {
         columns
     }
 
-    /// The columns of the table, the runs with how they ended, and what all rests on.
+    /// Columns of the table, the runs with how they ended, and the settings that all rest on.
     fn arrays(&self) -> Vec<Array> {
         let mut arrays = self.table();
         let ends = || self.runs.iter().map(|run| run.end.as_ref());
@@ -83,7 +83,7 @@ impl Export for Spectrogram {
         columns
     }
 
-    /// The frames; `amplitudes` is `[frame][line]`.
+    /// Frames of the spectrogram; `amplitudes` is `[frame][line]`.
     fn arrays(&self) -> Vec<Array> {
         let mut arrays = frames(self);
         arrays.extend([

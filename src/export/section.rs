@@ -1,4 +1,4 @@
-//! Where the nodes of a sector are.
+//! Section of a sector: positions of its nodes and heights of the casing.
 
 use super::Export;
 use super::array::Array;
@@ -18,7 +18,7 @@ impl Export for SectorGeometry {
         ]
     }
 
-    /// Positions are `[node][r, θ, z]`, heights of the casing `[contact node][angle]`.
+    /// Arrays: positions are `[node][r, θ, z]`, heights of the casing `[contact node][angle]`.
     fn arrays(&self) -> Vec<Array> {
         let contact = &self.contact;
         let clearances = contact.iter().map(|ContactPlace { clearance, .. }| *clearance);

@@ -26,7 +26,7 @@ pub fn table(spectra: &SpeedSpectra, sensors: &[u32], units: &Units) -> Vec<Arra
     columns
 }
 
-/// `[order]`, `[sensor][order]` and `[sensor][nodal diameter][order]`.
+/// Arrays as `[order]`, `[sensor][order]` and `[sensor][nodal diameter][order]`.
 pub fn arrays(point: &Point, spectra: &SpeedSpectra, units: &Units) -> Vec<Array> {
     let sensors = &spectra.sensors;
     let diameters: Vec<Vec<Vec<f64>>> = sensors.iter().map(|sensor| sensor.nodal_diameters.clone()).collect();

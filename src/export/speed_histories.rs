@@ -1,10 +1,10 @@
-//! What happened at one speed, sample by sample.
+//! Histories at one speed, sample by sample.
 
 use super::Export;
 use super::array::Array;
 use crate::analysis::result::{ContactHistory, EnergyHistory, SpeedHistories};
 
-/// Histories of the energy by the names of their fields; those that were not recorded are empty.
+/// Histories of the energy by the names of their fields; histories that were not recorded are empty.
 fn energies(energy: &EnergyHistory) -> [(&'static str, &[f64]); 8] {
     [
         ("mechanical", &energy.mechanical),
@@ -67,7 +67,7 @@ impl Export for SpeedHistories {
         [first].into_iter().chain(columns).collect()
     }
 
-    /// `[sensor][sample]`, `[sector][contact node][sample]` and `[sample]`; what was not recorded is absent.
+    /// Arrays as `[sensor][sample]`, `[sector][contact node][sample]` and `[sample]`; histories that were not recorded are absent.
     fn arrays(&self) -> Vec<Array> {
         let mut arrays = vec![Array::real("speed_rad_s", self.speed_rad_s), revolutions(self)];
         let sensors = || self.sensors.iter();

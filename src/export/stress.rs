@@ -4,7 +4,7 @@ use super::Export;
 use super::array::Array;
 use crate::analysis::result::{SpeedStress, StressCycle, SweepStress, Validity, stress_unit};
 
-/// A cycle and its speed.
+/// Cycle and its speed: a line of the table.
 type Line<'a> = (&'a SpeedStress, &'a StressCycle);
 
 impl Export for SweepStress {
@@ -41,7 +41,7 @@ impl Export for SweepStress {
         columns
     }
 
-    /// The columns of the table, a number per speed of what is largest there, and what it rests on.
+    /// Columns of the table, the largest stress of each speed, and the settings that they rest on.
     fn arrays(&self) -> Vec<Array> {
         let speeds = || self.speeds.iter();
         let peaks = || speeds().map(|speed| &speed.stress.largest);
@@ -80,7 +80,7 @@ mod tests {
     use super::*;
     use crate::export::{Values, write_csv};
 
-    /// One speed with two cycles, the second without strengths.
+    /// Example of one speed with two cycles, the second without strengths.
     fn found() -> SweepStress {
         let cycle = |node: u64, utilisation: Option<f64>| {
             let mut cycle = json!({"node": node, "position": [1.0, 2.0, 3.5], "sector": 4, "set": "A,B", "mean": 100.0,

@@ -1,4 +1,4 @@
-//! What a convergence study says.
+//! Results of a convergence study.
 
 use super::Export;
 use super::array::Array;
@@ -53,7 +53,7 @@ impl Export for WorkPrecision {
         ]
     }
 
-    /// The columns of the table, and what it rests on.
+    /// Columns of the table, and the settings that they rest on.
     fn arrays(&self) -> Vec<Array> {
         let mut arrays = self.table();
         arrays.extend([Array::json("settings", &self.settings), Array::text("version", &self.version)]);
@@ -83,7 +83,7 @@ impl Export for Histories {
         columns
     }
 
-    /// `displacement` is `[line][sensor][sample]`.
+    /// Arrays; `displacement` is `[line][sensor][sample]`.
     fn arrays(&self) -> Vec<Array> {
         let lines: Vec<Vec<Vec<f64>>> = self.lines.iter().map(|line| line.displacement.clone()).collect();
         vec![

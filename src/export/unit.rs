@@ -1,14 +1,14 @@
-//! Speeds in another unit: beside everything that is called `…_rad_s` the same as `…_rpm` or `…_hz`.
+//! Speeds in another unit: beside every `…_rad_s` the same speed as `…_rpm` or `…_hz`.
 
 use serde_json::Value;
 
 use super::array::{Array, Values};
 use crate::analysis::request::SpeedUnit;
 
-/// How names of what is in rad/s end.
+/// End of the names of speeds in rad/s.
 const RAD_S: &str = "_rad_s";
 
-/// What `name` is called in `unit`, and how many of it are one rad/s; `None` of what is no speed, or is in that unit already.
+/// Name of `name` in `unit`, and number of these units in one rad/s; `None` if `name` is no speed, or is in that unit already.
 pub(super) fn converted(name: &str, unit: SpeedUnit) -> Option<(String, f64)> {
     let suffix = match unit {
         SpeedUnit::RadS => return None,
@@ -18,7 +18,7 @@ pub(super) fn converted(name: &str, unit: SpeedUnit) -> Option<(String, f64)> {
     Some((format!("{}{suffix}", name.strip_suffix(RAD_S)?), 1.0 / unit.rad_s()))
 }
 
-/// Arrays with their speeds in `unit` as well, each behind the one it is made of.
+/// Adds to arrays their speeds in `unit`, each behind the array that it is made of.
 pub fn add_to_arrays(arrays: Vec<Array>, unit: Option<SpeedUnit>) -> Vec<Array> {
     let Some(unit) = unit else { return arrays };
     let mut all = Vec::with_capacity(arrays.len() + 1);
@@ -36,7 +36,7 @@ pub fn add_to_arrays(arrays: Vec<Array>, unit: Option<SpeedUnit>) -> Vec<Array> 
     all
 }
 
-/// A document with its speeds in `unit` as well.
+/// Adds to a document its speeds in `unit`.
 pub fn add_to_json(document: &mut Value, unit: SpeedUnit) {
     match document {
         Value::Array(items) => items.iter_mut().for_each(|item| add_to_json(item, unit)),

@@ -17,7 +17,7 @@ pub fn table(wear: &WearMap, units: &Units) -> Vec<Array> {
     ]
 }
 
-/// `[rod][contact node]`.
+/// Arrays as `[rod][contact node]`.
 pub fn arrays(point: &Point, wear: &WearMap, units: &Units) -> Vec<Array> {
     vec![
         Array::real("speed_rad_s", point.speed_rad_s),

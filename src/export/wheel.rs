@@ -39,7 +39,7 @@ impl Export for WheelCriticalSpeeds {
         ]
     }
 
-    /// The columns of the table, and what it rests on.
+    /// Columns of the table, and the settings that they rest on.
     fn arrays(&self) -> Vec<Array> {
         let mut arrays = self.table();
         arrays.extend([

@@ -1,4 +1,4 @@
-//! What is known of every request: its id, a line in the log when it has ended, and its share of the metrics.
+//! Following of requests: each has an id, a line in the log when it has ended, and its share of the metrics.
 
 use std::net::SocketAddr;
 use std::pin::Pin;
@@ -44,7 +44,7 @@ pub(super) async fn follow(state: State<AppState>, request: Request, next: Next)
     })
 }
 
-/// The client's id, if it sent one that fits into a log; otherwise a new one.
+/// Id of a request: the client's, if it sent one that fits into a log; otherwise a new one.
 fn id_of(headers: &HeaderMap) -> HeaderValue {
     let fits = |id: &&HeaderValue| {
         (1..=LONGEST_ID).contains(&id.len()) && id.as_bytes().iter().all(u8::is_ascii_graphic)
@@ -55,7 +55,7 @@ fn id_of(headers: &HeaderMap) -> HeaderValue {
     })
 }
 
-/// A request until its answer has gone, or its client.
+/// Request that is followed until its answer has been sent or its client is gone; then it is logged and counted.
 struct Followed {
     transport: Arc<Transport>,
     span: Span,
@@ -66,7 +66,7 @@ struct Followed {
     path: String,
     peer: Option<SocketAddr>,
     status: Option<StatusCode>,
-    /// Sent of the answer's body.
+    /// Bytes of the answer's body that were sent.
     bytes: u64,
     /// Whether all of the body was sent.
     whole: bool,
@@ -111,12 +111,12 @@ impl Drop for Followed {
     }
 }
 
-/// A method as label: clients may invent any number of others.
+/// Label of a method in the metrics; one for all methods that clients may invent.
 fn known(method: &Method) -> &'static str {
     METHODS.into_iter().find(|known| *known == method.as_str()).unwrap_or("other")
 }
 
-/// The body of an answer, counted.
+/// Body of an answer that counts its bytes while they are sent.
 struct FollowedBody {
     body: Body,
     followed: Followed,

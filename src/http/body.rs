@@ -1,4 +1,4 @@
-//! Bodies of requests must keep coming.
+//! Limit on the time for which bodies of requests may stall.
 
 use std::pin::Pin;
 use std::sync::Arc;
@@ -17,7 +17,7 @@ use super::pace::{PIECE, Pace};
 use super::problem::{Kind, Problem};
 use super::state::AppState;
 
-/// Middleware: a body whose next 64 KiB keep the service waiting for too long is given up.
+/// Middleware: gives up a body whose next 64 KiB keep the service waiting for too long.
 pub(super) async fn keep_coming(state: State<AppState>, request: Request, next: Next) -> Response {
     let patience = state.transport.limits.stall;
     let stalled = Arc::new(AtomicBool::new(false));
@@ -35,12 +35,12 @@ pub(super) async fn keep_coming(state: State<AppState>, request: Request, next: 
     Problem::new(Kind::UploadStalled, detail).into_response()
 }
 
-/// A body that is waited for so long and no longer. Time in which nobody asks for more of it does not count.
+/// Body of a request with a limit on the wait for its next piece. Time in which nobody reads the body does not count.
 struct Patient {
     body: Body,
     patience: Duration,
     pace: Pace,
-    /// Since when it is waited for, and until when.
+    /// Begin of the present wait for the body, and the timer that ends it.
     waiting: Option<(Instant, Pin<Box<Sleep>>)>,
     stalled: Arc<AtomicBool>,
 }

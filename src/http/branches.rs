@@ -1,4 +1,4 @@
-//! Branches: periodic responses over a number of their scene.
+//! Branches: periodic responses over a parameter of their scene.
 
 use axum::Json;
 use axum::extract::State;
@@ -28,8 +28,9 @@ type BranchesBody = Labelled<BranchesRequest>;
 
 /// Follow the periodic response of a scene while its speed, clearance, lobes or damping change.
 ///
-/// Around folds, whether it lasts or not, with Floquet multipliers at every point; bifurcations are found to a millionth, maxima of
-/// amplitudes as well as steps of time let them be known, and branches of doubled period are followed as well. The points so far are those of `GET /v1/jobs/{id}/branches`, while it is computed, too.
+/// The branch is followed around folds, through stable and unstable responses, with Floquet multipliers at every point.
+/// Bifurcations are located to a millionth, maxima of amplitudes as accurately as the time step permits, and branches of doubled
+/// period are followed as well. `GET /v1/jobs/{id}/branches` has the points found so far, also while the job runs.
 #[utoipa::path(post, path = "/v1/branches", operation_id = "create_branches", tag = "jobs",
     params(("Idempotency-Key" = Option<String>, Header,
         description = "Repeating the request with this key repeats its answer and starts nothing.")),
@@ -58,10 +59,10 @@ pub(super) async fn create_branches(
     submit::accept(&state, &whose, key, &body.fingerprint, submission).await
 }
 
-/// Say what branches would do and cost, without starting anything.
+/// Plan branches of periodic responses: what they would do and cost. Starts nothing.
 ///
-/// Takes the body of `POST /v1/branches` and answers at once; if the reduction is stored, with scheme and step, and what a point and a branch
-/// that turns nowhere are expected to take, from a short calibration of this machine.
+/// Takes the body of `POST /v1/branches` and answers at once. If the reduction is stored, the plan has the scheme, the step, and
+/// the expected time of a point and of a branch that has no folds, from a short calibration of this machine.
 #[utoipa::path(post, path = "/v1/branches/plan", operation_id = "plan_branches", tag = "jobs",
     request_body = BranchesBody,
     responses(
@@ -75,22 +76,22 @@ pub(super) async fn plan_branches(
     Ok(Json(state.jobs.plan_branches(&whose, body.value.parts()?.0).await?))
 }
 
-/// What to draw of branches.
+/// Parameters of a drawing of branches.
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 pub(super) struct BranchesQuery {
-    /// Of the drawing: index of the sensor in the request; default 0.
+    /// Index, in the request, of the sensor that a drawing shows; default 0.
     #[serde(default)]
     sensor: u32,
-    /// Of the drawing of branches over speed: id of a sweep of the same model, whose speeds are drawn as dots. Its scene is taken as it is.
+    /// Id of a sweep of the same model, whose speeds are dots in a drawing of branches over speed. The sweep's scene may differ.
     #[param(max_length = 64)]
     sweep: Option<String>,
 }
 
 /// Download branches of periodic responses.
 ///
-/// Of a job that is not finished, failed or was dismissed those points that are there. In csv a line is a point, in the order of the
-/// branch; npz has an array per column of it.
+/// A job that is not finished, failed or was dismissed has the points found so far. In csv a line is a point, in the order of the
+/// branch; npz has an array for each column of the csv.
 #[utoipa::path(get, path = "/v1/jobs/{id}/branches", operation_id = "get_branches", tag = "results",
     params(("id" = String, Path, description = "Id of branches."), BranchesQuery, DownloadQuery),
     responses(

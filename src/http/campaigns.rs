@@ -1,4 +1,4 @@
-//! Campaigns: many designs of a scene, and what they say together.
+//! Campaigns: many designs of a scene, and the result of them all.
 
 use axum::Json;
 use axum::extract::State;
@@ -24,14 +24,15 @@ use crate::plot;
 use crate::store::jobs::{JobKind, JobRequest};
 use crate::tokens::Principal;
 
-/// The body: the request, and what the job is to be called.
+/// Body of a campaign: the request, and the labels of the job.
 type CampaignBody = Labelled<CampaignRequest>;
 
 /// Simulate many designs of a scene over speeds.
 ///
-/// One job, however many designs: numbers of the scene vary as `parameters` say, and `design` lays them out. All designs share the reduction, and
-/// each is held against the model before anything begins. The result so far is that of `GET /v1/jobs/{id}/campaign`. With
-/// `threshold.within`, designs are added where it is undecided whether the limit is met with the probability asked for.
+/// One job simulates all designs: `parameters` are the numbers of the scene that vary, and `design`, the design of experiments,
+/// chooses their values. All designs share the reduction, and each is checked against the model before any simulation begins.
+/// `GET /v1/jobs/{id}/campaign` has the result so far. With `threshold.within`, designs are added where it is undecided whether the
+/// limit is met with the requested probability.
 #[utoipa::path(post, path = "/v1/campaigns", operation_id = "create_campaign", tag = "jobs",
     params(("Idempotency-Key" = Option<String>, Header,
         description = "Repeating the request with this key repeats its answer and starts nothing.")),
@@ -74,10 +75,10 @@ pub(super) async fn create_campaign(
     submit::accept(&state, &whose, key, &body.fingerprint, submission).await
 }
 
-/// Say what a campaign would do and cost, without starting anything.
+/// Plan a campaign: what it would do and cost. Starts nothing.
 ///
-/// Takes the body of `POST /v1/campaigns` and answers at once, with the values of all designs; if the reduction is stored, with what they are
-/// expected to take together.
+/// Takes the body of `POST /v1/campaigns` and answers at once with the values of all designs and, if the reduction is stored, the
+/// expected cost of all their simulations together.
 #[utoipa::path(post, path = "/v1/campaigns/plan", operation_id = "plan_campaign", tag = "jobs",
     request_body = CampaignBody,
     responses(
@@ -91,19 +92,19 @@ pub(super) async fn plan_campaign(
     Ok(Json(state.jobs.plan_campaign(&whose, body.value.parts()?.0).await?))
 }
 
-/// What to draw of a campaign.
+/// Parameters of a drawing of a campaign.
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 pub(super) struct CampaignQuery {
-    /// Of the drawing: name of the parameter that stands beside the speed; default: that of the threshold, or else the first.
+    /// Name of the parameter that a drawing shows beside the speed; default: that of the threshold, or else the first.
     #[param(max_length = 64)]
     parameter: Option<String>,
 }
 
-/// Download what a campaign says, finished or not.
+/// Download the result of a campaign, finished or not.
 ///
-/// While the job runs, it is what the simulations finished so far say together. In csv a line is a design; npz has severities as `by_speed`,
-/// `[design][speed]`.
+/// While the job runs, the result covers the simulations finished so far. In csv a line is a design; npz has severities as
+/// `by_speed`, `[design][speed]`.
 #[utoipa::path(get, path = "/v1/jobs/{id}/campaign", operation_id = "get_campaign", tag = "results",
     params(("id" = String, Path, description = "Id of a campaign."), CampaignQuery, DownloadQuery),
     responses(

@@ -1,4 +1,4 @@
-//! Case studies: what happens at one speed; and the same of speeds of a sweep that has ended.
+//! Case studies: histories of one simulated speed, and of speeds of a sweep that has ended.
 
 use std::collections::BTreeSet;
 
@@ -24,9 +24,9 @@ use crate::tokens::Principal;
 
 type CaseStudyBody = Labelled<CaseStudyRequest>;
 
-/// Simulate one speed and record what happens: displacements, velocities, forces, energy.
+/// Simulate one speed and record its histories: displacements, velocities, forces, energy.
 ///
-/// The histories are those of `GET /v1/jobs/{id}/histories`. A sweep records them of its own speeds with `record`.
+/// `GET /v1/jobs/{id}/histories` has the histories. A sweep records those of its own speeds with `record`.
 #[utoipa::path(post, path = "/v1/case-studies", operation_id = "create_case_study", tag = "jobs",
     params(("Idempotency-Key" = Option<String>, Header,
         description = "Repeating the request with this key repeats its answer and starts nothing.")),
@@ -57,8 +57,8 @@ pub(super) async fn create_case_study(
 
 /// Record histories of a sweep that has ended.
 ///
-/// A job of its own simulates the speeds again, with all settings of the sweep: to the bit, by the same version on the same kind of
-/// processor.
+/// A new job simulates the speeds again with all settings of the sweep. The same version on the same kind of processor gives the
+/// same results to the bit.
 #[utoipa::path(post, path = "/v1/jobs/{id}/histories", operation_id = "create_histories", tag = "jobs",
     params(
         ("id" = String, Path, description = "Id of a sweep."),
@@ -93,7 +93,7 @@ pub(super) async fn create_histories(
     submit::accept(&state, &whose, key, &fingerprint, (submission, Labels::default())).await
 }
 
-/// Indices of the critical speeds, if they are asked for.
+/// Indices of the critical speeds, if the request asks for them; otherwise none.
 async fn critical(
     state: &AppState,
     id: JobId,

@@ -11,13 +11,13 @@ use super::stream;
 use crate::analysis::result::MeasuredCasing;
 use crate::casing_table::{self, TableError};
 
-/// A table of heights as docs/effects.md describes it.
+/// Table of a measured casing in CSV: heights as docs/effects.md describes them.
 #[derive(ToSchema)]
 #[schema(value_type = String)]
 #[expect(dead_code, reason = "describes the body in the OpenAPI document only")]
 pub(super) struct CasingTable(String);
 
-/// A body of CSV.
+/// Body of a request in CSV.
 pub(super) struct CsvBody(axum::body::Bytes);
 
 impl FromRequest<AppState> for CsvBody {
@@ -28,12 +28,12 @@ impl FromRequest<AppState> for CsvBody {
     }
 }
 
-/// Make a measured casing of a table in CSV.
+/// Make a measured casing from a table in CSV.
 ///
-/// Heights inward of the casing of revolution over the angle, by places along the chord or contact nodes: *wide*, with the header
-/// `angle_deg,0,0.5,1` or `angle_deg,node0,node1`, or *long*, `angle_deg,chord,height` or `angle_deg,node,height`; `angle_rad` for
-/// rad. Rows come in any order; comma, semicolon or tab part them; what is empty is missing. The answer's `measured` is what
-/// `scene.casing` takes. Nothing is kept.
+/// The table has heights, inward of the casing of revolution, over the angle and over positions along the chord or contact nodes:
+/// *wide*, with the header `angle_deg,0,0.5,1` or `angle_deg,node0,node1`, or *long*, `angle_deg,chord,height` or
+/// `angle_deg,node,height`; `angle_rad` for rad. Rows may be in any order; comma, semicolon or tab separates cells; an empty cell
+/// is a missing height. The answer's `measured` can be given as it is to `scene.casing`. Nothing is stored.
 #[utoipa::path(post, path = "/v1/casing-tables", operation_id = "read_casing_table", tag = "models",
     request_body(content = CasingTable, content_type = "text/csv"),
     responses(

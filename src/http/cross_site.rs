@@ -1,7 +1,7 @@
-//! Requests that a page of another site makes a browser send.
+//! Refusal of requests that a page of another site makes a browser send.
 //!
-//! A service without tokens knows no user, so that the browser's own word is all that tells a page of another site from the
-//! service's page. A `POST` without a body needs no preflight: it would be carried out, although that page cannot read the answer.
+//! A service without tokens knows no user, so that only the browser's own headers tell a page of another site from the service's
+//! page. A `POST` without a body needs no preflight: it would be carried out, although that page cannot read the answer.
 
 use axum::extract::{Request, State};
 use axum::http::{HeaderMap, HeaderName, HeaderValue, Method, header};
@@ -11,7 +11,7 @@ use axum::response::Response;
 use super::problem::{Kind, Problem};
 use super::state::AppState;
 
-/// Header in which browsers say how the page that asks is related to the service (Fetch Metadata).
+/// Header in which browsers state how the requesting page is related to the service (Fetch Metadata).
 const SITE: HeaderName = HeaderName::from_static("sec-fetch-site");
 
 /// Middleware: refuses requests that may change something and come from a page of another origin, unless the service has tokens,

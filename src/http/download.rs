@@ -1,4 +1,4 @@
-//! Downloads of results: in which form, whether the client has it already, and what is said of the answer.
+//! Downloads of results: the choice of a form, clients that have the result already, and the headers of the answer.
 
 use std::io::{self, Write};
 
@@ -23,37 +23,37 @@ use crate::plot::{self, PngError};
 use crate::store::jobs::Job;
 use crate::version;
 
-/// Pixels of a picture's width, if nobody says otherwise.
+/// Width of a picture by default, pixels.
 const WIDTH: u32 = 1200;
 
 /// Bytes that rendering takes per pixel of a square: the canvas, layers of it, and the file; sheets are higher than wide.
 const BYTES_PER_PIXEL: u64 = 16;
 
-/// Bytes that a figure takes: no more lines, samples and cells are in it than a screen shows.
+/// Bytes that a figure takes: it has no more lines, samples and cells than a screen shows.
 const FIGURE_BYTES: u64 = 32 << 20;
 
-/// In which form to download a result.
+/// Form in which to download a result.
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 pub(super) struct DownloadQuery {
-    /// Form of the result; by default the one that the `Accept` header prefers, and if that says nothing the first.
+    /// Form of the result; default: the form that the `Accept` header prefers or, without a preference, the first.
     #[param(inline)]
     format: Option<Form>,
-    /// Of a png: its width in pixels; default 1200.
+    /// Width of a png in pixels; default 1200.
     #[param(minimum = 200, maximum = 4000)]
     width: Option<u32>,
-    /// Adds, beside everything whose name ends with `_rad_s`, the same in this unit under a name that ends with `_rpm` or `_hz`: in
-    /// json, csv and npz.
+    /// Unit in which json, csv and npz have speeds as well: beside everything whose name ends with `_rad_s` the same in this unit,
+    /// under a name that ends with `_rpm` or `_hz`.
     #[param(inline)]
     units: Option<SpeedUnit>,
 }
 
-/// What a client wants of a result, and what it has already.
+/// Download that a client asks for: parameters, and headers with the forms it accepts and the entity tags it has.
 #[derive(Debug)]
 pub(super) struct Download {
     query: DownloadQuery,
     headers: HeaderMap,
-    /// Path and parameters of the request but for `format`, in one order.
+    /// Path and parameters of the request without `format`, sorted.
     target: String,
 }
 
@@ -77,26 +77,26 @@ impl<S: Send + Sync> FromRequestParts<S> for Download {
     }
 }
 
-/// A name for the state of a job, if its results do not change any more.
+/// Name of the state of a job, if its results do not change any more.
 pub(super) fn lasting(job: &Job) -> Option<String> {
     job.status.is_final().then(|| format!("job {} {}", job.id, job.updated_at))
 }
 
-/// A download whose form is known.
+/// Download whose form is chosen.
 #[derive(Debug)]
 pub(super) struct Answer {
     pub(super) form: Form,
     pub(super) unit: Option<SpeedUnit>,
     width: u32,
-    /// Entity tag, of what does not change any more.
+    /// Entity tag of a result that does not change any more.
     tag: Option<String>,
 }
 
-/// What is left to do for a download.
+/// Work that is left to do for a download.
 pub(super) enum Next {
-    /// Nothing.
+    /// Nothing: this is the answer.
     Done(Response),
-    /// All.
+    /// Everything: the result is to be read and written.
     Make(Answer),
 }
 
@@ -129,7 +129,7 @@ impl Download {
 }
 
 impl Answer {
-    /// Bytes that making it takes beside what it is made of.
+    /// Bytes that making the answer takes, beside the result from which it is made.
     pub(super) fn bytes(&self) -> u64 {
         match self.form {
             Form::Png => BYTES_PER_PIXEL * u64::from(self.width).pow(2),
@@ -138,7 +138,7 @@ impl Answer {
         }
     }
 
-    /// The result as numbers.
+    /// Answers with the numbers of the result in json, csv or npz.
     pub(super) fn numbers<T>(self, leave: Leave, result: T) -> Response
     where
         T: Export + Serialize + Send + 'static,
@@ -151,18 +151,18 @@ impl Answer {
         })
     }
 
-    /// The result as JSON, with speeds in another unit as well if that is wanted.
+    /// Answers with the result as JSON, with speeds in another unit as well if that is requested.
     pub(super) fn document(self, leave: Leave, result: impl Serialize + Send + 'static) -> Response {
         let unit = self.unit;
         self.written(leave, move |out| json(&result, unit, out))
     }
 
-    /// The figure that `make` makes.
+    /// Answers with the figure that `make` makes.
     pub(super) fn figure(self, leave: Leave, make: impl FnOnce() -> Figure + Send + 'static) -> Response {
         self.written(leave, move |out| Ok(serde_json::to_writer(out, &make())?))
     }
 
-    /// What `write` writes while it is sent.
+    /// Answers with the output of `write`, sent while it is written.
     pub(super) fn written(
         self,
         leave: Leave,
@@ -171,12 +171,12 @@ impl Answer {
         self.described(stream::written(leave, self.form.content_type(), write))
     }
 
-    /// What is there as a whole.
+    /// Answers with a body that is there as a whole.
     pub(super) fn whole(self, leave: Leave, body: impl AsRef<[u8]> + Send + 'static) -> Response {
         self.described(stream::whole(leave, self.form.content_type(), body))
     }
 
-    /// The drawing that `draw` makes, kept for the next time if it stays as it is.
+    /// Answers with the drawing that `draw` makes, and stores it for the next request if the result does not change any more.
     pub(super) async fn drawn(
         self,
         state: &AppState,
@@ -199,7 +199,7 @@ impl Answer {
         Ok(self.whole(leave, drawing))
     }
 
-    /// With what caches must know of it.
+    /// Adds the headers that caches need: `Vary`, and the entity tag if there is one.
     fn described(&self, mut response: Response) -> Response {
         let headers = response.headers_mut();
         headers.append(header::VARY, HeaderValue::from_static("accept"));
@@ -210,7 +210,7 @@ impl Answer {
     }
 }
 
-/// Why there is no picture.
+/// Problem of a drawing that cannot be rendered.
 fn not_rendered(error: PngError) -> Problem {
     match error {
         PngError::Width { .. } | PngError::Size { .. } => Problem::parameter("width", error.to_string()),
@@ -221,7 +221,7 @@ fn not_rendered(error: PngError) -> Problem {
     }
 }
 
-/// JSON, with speeds in `unit` as well.
+/// Writes JSON, with speeds in `unit` as well.
 fn json(result: &impl Serialize, unit: Option<SpeedUnit>, out: &mut dyn Write) -> io::Result<()> {
     match unit {
         None => Ok(serde_json::to_writer(out, result)?),
@@ -229,14 +229,14 @@ fn json(result: &impl Serialize, unit: Option<SpeedUnit>, out: &mut dyn Write) -
     }
 }
 
-/// A document with its speeds in `unit` as well.
+/// Document with its speeds in `unit` as well.
 pub(super) fn with_unit(document: &impl Serialize, unit: SpeedUnit) -> io::Result<Value> {
     let mut document = serde_json::to_value(document)?;
     export::add_to_json(&mut document, unit);
     Ok(document)
 }
 
-/// Digest of all that an answer depends on.
+/// Entity tag: digest of all that an answer depends on.
 fn tag(parts: &[&str]) -> String {
     let mut digest = Sha256::new();
     for part in parts {
@@ -246,7 +246,7 @@ fn tag(parts: &[&str]) -> String {
     format!("\"{:x}\"", digest.finalize())
 }
 
-/// Whether the client has what is tagged so (RFC 9110, 13.1.2).
+/// Whether the client has the entity with this tag (RFC 9110, 13.1.2).
 pub(super) fn has(headers: &HeaderMap, tag: &str) -> bool {
     let values = headers.get_all(header::IF_NONE_MATCH).iter().filter_map(|value| value.to_str().ok());
     let mut listed = values.flat_map(|value| value.split(',')).map(str::trim);

@@ -1,6 +1,7 @@
-//! A job as it changes (server-sent events).
+//! Events of a job as it changes (server-sent events).
 //!
-//! However many follow a job, it is read and written as JSON once after a change, by a task of its own that lives as long as they do.
+//! However many clients follow a job, it is read and written as JSON once after a change, by a task of its own that lives as long
+//! as any of them follows.
 
 use std::convert::Infallible;
 use std::time::Duration;
@@ -33,28 +34,28 @@ const BETWEEN_EVENTS: Duration = Duration::from_millis(334);
 /// Time between two attempts to read a job.
 const BETWEEN_ATTEMPTS: Duration = Duration::from_secs(1);
 
-/// Time between two looks whether the token of a stream still stands: with the second that the file's changes take, less than 5 s.
+/// Time between two checks of the token of a stream: with the second that changes of the token file take, less than 5 s.
 const BETWEEN_TOKEN_LOOKS: Duration = Duration::from_secs(3);
 
-/// Time without a word after which a comment is sent, so that nobody between the two takes the connection for dead.
+/// Time without an event after which a comment is sent, so that no proxy takes the connection for dead.
 const SILENCE: Duration = Duration::from_secs(15);
 
-/// One of the events of a job.
+/// Event of a job that is followed.
 #[derive(ToSchema)]
 #[expect(dead_code, reason = "says what a stream has, which is not written from it")]
 struct JobEvent {
-    /// `job`.
+    /// Name of the event: `job`.
     event: String,
-    /// What `GET /v1/jobs/{id}` says of the job then, as JSON in one line.
+    /// Answer of `GET /v1/jobs/{id}` at the time of the event, as JSON in one line.
     data: String,
 }
 
 /// Follow a job as it changes.
 ///
-/// Server-sent events: an event `job` at once, and after every change, but no more than three a second. Its data are what
-/// `GET /v1/jobs/{id}` says of the job then, in one line. After the event of a job that has ended, or once it is deleted, the stream
-/// ends; it may end before, when the service stops, has too many connections or does not know the token any more, and is asked for again. Lines that begin with a colon
-/// keep the connection alive.
+/// Server-sent events: an event `job` at once and after every change, but no more than three a second. The data of an event are the
+/// answer of `GET /v1/jobs/{id}` at that time, in one line. The stream ends after the event of a job that has ended, and once the
+/// job is deleted. It may end before, when the service stops, has too many connections or does not know the token any more; the
+/// client then asks for it again. Lines that begin with a colon keep the connection alive.
 #[utoipa::path(get, path = "/v1/jobs/{id}/events", operation_id = "follow_job", tag = "jobs",
     params(("id" = String, Path, description = "Id of the job.")),
     responses(
@@ -81,7 +82,7 @@ pub(super) async fn follow_job(
     Ok((Extension(Lasting), unbuffered, events).into_response())
 }
 
-/// Ends once `token` does not stand for `whose` any more; never on a service without tokens.
+/// Ends once `token` does not belong to `whose` any more; never on a service without tokens.
 async fn withdrawn(tokens: Option<Tokens>, token: Option<String>, whose: Principal) {
     let (Some(tokens), Some(token)) = (tokens, token) else { return std::future::pending().await };
     while tokens.principal(&token).as_ref() == Some(&whose) {
@@ -89,7 +90,7 @@ async fn withdrawn(tokens: Option<Tokens>, token: Option<String>, whose: Princip
     }
 }
 
-/// What is told from here on, beginning with the latest.
+/// Stream of the events of a job from here on, beginning with the latest.
 fn told(mut told: Receiver<Option<Event>>) -> impl Stream<Item = Result<Event, Infallible>> {
     told.mark_changed();
     let events = stream::unfold(told, |mut told| async {
@@ -100,7 +101,7 @@ fn told(mut told: Receiver<Option<Event>>) -> impl Stream<Item = Result<Event, I
     events.filter_map(async |event| event.map(Ok))
 }
 
-/// Tells those who follow a job, until it has ended or is gone, or nobody follows it any more.
+/// Sends the events of a job to those who follow it, until the job has ended or is gone, or nobody follows it any more.
 async fn tell(state: AppState, teller: Teller) {
     let change = state.store.changes().of(teller.id());
     let mut latest = String::new();
@@ -130,7 +131,7 @@ async fn tell(state: AppState, teller: Teller) {
     }
 }
 
-/// The job as JSON, and whether it has ended; `None` if it is not there any more.
+/// Reads the job as JSON, and whether it has ended; `None` if the job is gone.
 async fn look(state: &AppState, id: JobId) -> Result<Option<(String, bool)>, StoreError> {
     let Some(job) = state.store.job(id).await? else { return Ok(None) };
     let has_ended = job.status.is_final();

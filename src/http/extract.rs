@@ -1,4 +1,4 @@
-//! Reading requests: what axum's extractors refuse becomes a problem like all others.
+//! Extractors of requests: rejections of axum's extractors become problems like all others.
 
 use axum::body::Bytes;
 use axum::extract::rejection::BytesRejection;
@@ -14,10 +14,10 @@ use super::problem::{Kind, Problem, ProblemItem, excerpt};
 use super::state::AppState;
 use crate::store::jobs::JobId;
 
-/// Largest body that is read as a whole.
+/// Largest body that is read as a whole, bytes.
 pub(super) const WHOLE_BYTES: usize = 2 << 20;
 
-/// A JSON body.
+/// JSON body of a request.
 pub(super) struct JsonBody<T> {
     pub(super) value: T,
     /// Digest of route and body, for the idempotency key.
@@ -32,7 +32,7 @@ impl<T: DeserializeOwned + ToSchema> FromRequest<AppState> for JsonBody<T> {
     }
 }
 
-/// A merge patch (RFC 7396).
+/// Merge patch in the body of a request (RFC 7396).
 pub(super) struct MergePatch<T>(pub(super) T);
 
 impl<T: DeserializeOwned + ToSchema> FromRequest<AppState> for MergePatch<T> {
@@ -54,7 +54,7 @@ impl<T: DeserializeOwned + ToSchema> JsonBody<T> {
     }
 }
 
-/// The body of a request, whose declared type is one of `accepted`.
+/// Reads the body of a request, whose declared type is one of `accepted`.
 pub(super) async fn whole_body(
     request: Request,
     state: &AppState,
@@ -78,12 +78,12 @@ fn too_large() -> Problem {
     Problem::new(Kind::PayloadTooLarge, format!("the body of this request may have {WHOLE_BYTES} bytes"))
 }
 
-/// How long the body says it is.
+/// Length of the body as its header declares it, bytes.
 pub(super) fn declared_bytes(headers: &HeaderMap) -> Option<u64> {
     headers.get(header::CONTENT_LENGTH)?.to_str().ok()?.parse().ok()
 }
 
-/// A query string.
+/// Query string of a request.
 pub(super) struct Parameters<T>(pub(super) T);
 
 impl<T: DeserializeOwned, S: Send + Sync> FromRequestParts<S> for Parameters<T> {
@@ -97,7 +97,7 @@ impl<T: DeserializeOwned, S: Send + Sync> FromRequestParts<S> for Parameters<T> 
     }
 }
 
-/// The id of a model in the path.
+/// Id of a model in the path.
 pub(super) struct ModelPath(pub(super) String);
 
 impl<S: Send + Sync> FromRequestParts<S> for ModelPath {
@@ -111,7 +111,7 @@ impl<S: Send + Sync> FromRequestParts<S> for ModelPath {
     }
 }
 
-/// The id of a job in the path. What is no id is the id of no job.
+/// Id of a job in the path. Text that cannot be an id is the id of no job.
 pub(super) struct JobPath(pub(super) JobId);
 
 impl<S: Send + Sync> FromRequestParts<S> for JobPath {
@@ -125,7 +125,7 @@ impl<S: Send + Sync> FromRequestParts<S> for JobPath {
     }
 }
 
-/// The id of a job and the index of a speed in the path. What is no index is the index of no speed.
+/// Id of a job and index of a speed in the path. Text that cannot be an index is the index of no speed.
 pub(super) struct SpeedPath(pub(super) JobId, pub(super) Option<u32>);
 
 impl<S: Send + Sync> FromRequestParts<S> for SpeedPath {
@@ -141,7 +141,7 @@ impl<S: Send + Sync> FromRequestParts<S> for SpeedPath {
     }
 }
 
-/// A number has one spelling, so that a result has one path.
+/// Reads an index, which has one spelling only, so that a result has one path.
 fn parse_index(text: &str) -> Option<u32> {
     text.parse().ok().filter(|index: &u32| index.to_string() == text)
 }
@@ -150,12 +150,12 @@ pub(super) fn parse_job_id(text: &str) -> Result<JobId, Problem> {
     JobId::parse(text).ok_or_else(|| job_not_found(&excerpt(text)))
 }
 
-/// The problem of a job that is not there.
+/// Problem of a job that does not exist.
 pub(super) fn job_not_found(id: &impl std::fmt::Display) -> Problem {
     Problem::new(Kind::JobNotFound, format!("there is no job {id}"))
 }
 
-/// Refuses a body whose declared type is none of `accepted`, or that is encoded.
+/// Refuses a body that is encoded, or whose declared type is none of `accepted`.
 pub(super) fn expect_media_type(headers: &HeaderMap, accepted: &[&str]) -> Result<(), Problem> {
     if let Some(encoding) = headers.get(header::CONTENT_ENCODING)
         && !encoding.as_bytes().eq_ignore_ascii_case(b"identity")
@@ -185,14 +185,14 @@ pub(super) fn is_media_type(headers: &HeaderMap, wanted: &str) -> bool {
     media_type(headers).eq_ignore_ascii_case(wanted)
 }
 
-/// The declared type of the body without its parameters.
+/// Declared type of the body without its parameters.
 fn media_type(headers: &HeaderMap) -> &str {
     let declared =
         headers.get(header::CONTENT_TYPE).and_then(|value| value.to_str().ok()).unwrap_or_default();
     declared.split(';').next().unwrap_or_default().trim()
 }
 
-/// Reads one JSON document; says what is wrong with it: by line and column if it is not JSON, by pointer if it is.
+/// Reads one JSON document and reports what is wrong with it: by line and column if it is not JSON, by pointer if it is.
 fn read_json<T: DeserializeOwned + ToSchema>(contract: &Contract, body: &[u8]) -> Result<T, Problem> {
     let shape = contract.body(&T::name()).ok_or_else(|| {
         tracing::error!(body = %T::name(), "the contract does not have this body");

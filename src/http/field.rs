@@ -1,4 +1,4 @@
-//! What questions for fields have in common: which part, how it is written, and what is refused.
+//! Common parts of requests for fields: which part of the wheel, which view and form, and what is refused.
 
 use std::io;
 
@@ -24,30 +24,31 @@ use crate::store::models::StoredModel;
 use crate::store::results::Document;
 use crate::store::{Store, states};
 
-/// Frames over a period or over the recorded instants, unless somebody says otherwise.
+/// Frames of a pvd by default, over a period or over the recorded instants.
 const FRAMES: u32 = 24;
 
-/// What of a field to download.
+/// Part of a field to download, and its drawing.
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 pub(super) struct ShownQuery {
-    /// This sector alone, from 0; default all.
+    /// Index of the one sector to download, from 0; default all sectors.
     sector: Option<u32>,
-    /// Adds stress, in the model's units: that of the vibration, of a mode for a largest displacement of 1. The static part of the
-    /// centrifugal load is not in it unless `static` says so. Files say with `excluded` where none is claimed, near contact nodes.
+    /// Adds stress, in the model's units: that of the vibration, for a mode at a largest displacement of 1. The static part of the
+    /// centrifugal load is not included unless `static` says so. `excluded` in files marks where no stress is claimed, near contact
+    /// nodes.
     #[serde(default)]
     pub(super) stress: bool,
-    /// Of a drawing: from where the wheel is looked at; default `front`.
+    /// Direction from which a drawing shows the wheel; default `front`.
     #[param(inline)]
     view: Option<ViewWord>,
-    /// Of a pvd: files over one period, or over all recorded instants; default 24. Instants are made at once: more than memory has
-    /// room for are refused with the number that fits.
+    /// Number of files of a pvd, over one period or over all recorded instants; default 24. Instants are computed at once: more
+    /// than memory has room for are refused with the number that fits.
     #[param(minimum = 1, maximum = 96)]
     frames: Option<u32>,
 }
 
 impl ShownQuery {
-    /// One sector or the wheel; refuses a sector that is not there, and stress where there is no mesh to make it of.
+    /// Part that is asked for, one sector or the wheel; refuses a sector that does not exist, and stress where there is no mesh.
     pub(super) fn part(&self, facts: &ModelFacts) -> Result<Part, Problem> {
         if self.stress && facts.mesh.is_none() {
             let detail =
@@ -57,7 +58,7 @@ impl ShownQuery {
         part(self.sector, facts)
     }
 
-    /// Refuses what an answer in this form does not have.
+    /// Refuses parameters that do not apply to an answer in this form.
     pub(super) fn check(&self, form: Form) -> Result<(), Problem> {
         let refused = [
             ("frames", self.frames.is_some() && form != Form::Pvd, "only a pvd has frames"),
@@ -75,32 +76,32 @@ impl ShownQuery {
         }
     }
 
-    /// Frames of an answer in this form.
+    /// Number of frames of an answer in this form.
     pub(super) fn frames(&self, form: Form) -> usize {
         if form == Form::Pvd { self.frames.unwrap_or(FRAMES) as usize } else { 1 }
     }
 
-    /// From where a drawing of what is made of `source` looks at it.
+    /// View of a drawing of a field that is computed from `source`.
     pub(super) fn view(&self, source: &FieldSource) -> SurfaceView {
         self.view.unwrap_or_default().of(source)
     }
 }
 
-/// From where a drawing looks at the wheel.
+/// Direction from which a drawing shows the wheel.
 #[derive(Debug, Clone, Copy, Default, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum ViewWord {
-    /// Along the axis, from the side of the casing, where the blades are seen.
+    /// View along the axis, from the side of the casing, where the blades are seen.
     #[default]
     Front,
-    /// Along the axis, from the other side.
+    /// View along the axis, from the side opposite to the casing.
     Rear,
-    /// Across the axis.
+    /// View across the axis.
     Meridional,
 }
 
 impl ViewWord {
-    /// Of what is made of `source`.
+    /// View of a field that is computed from `source`: its casing decides which side of the axis is the front.
     pub(super) fn of(self, source: &FieldSource) -> SurfaceView {
         match (self, source.opens_along_axis()) {
             (Self::Front, true) | (Self::Rear, false) => SurfaceView::Front,
@@ -110,7 +111,7 @@ impl ViewWord {
     }
 }
 
-/// This sector, if there is one of that number, or the wheel.
+/// Part of a wheel: the sector of this index, if it exists, or the whole wheel.
 pub(super) fn part(sector: Option<u32>, facts: &ModelFacts) -> Result<Part, Problem> {
     match sector {
         None => Ok(Part::Wheel),
@@ -122,7 +123,7 @@ pub(super) fn part(sector: Option<u32>, facts: &ModelFacts) -> Result<Part, Prob
     }
 }
 
-/// What fields of a model are made of.
+/// Source of a model's fields: its reduction with so many modes per speed, which must have been computed.
 pub(super) async fn source(
     state: &AppState,
     model: &StoredModel,
@@ -162,7 +163,7 @@ pub(super) async fn answer(
     written(state, answer, bytes, make).await
 }
 
-/// Makes a field and writes it in the form of an answer that is no drawing.
+/// Makes a field and writes it in the form of an answer that is not a drawing.
 pub(super) async fn written(
     state: &AppState,
     answer: Answer,
@@ -207,7 +208,7 @@ impl From<FieldError> for Problem {
     }
 }
 
-/// Whether a basis was not kept, or is damaged.
+/// Whether a basis was not stored, or is damaged.
 fn is_lost(error: &io::Error) -> bool {
     use io::ErrorKind::{InvalidData, NotFound, UnexpectedEof};
 

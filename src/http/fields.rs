@@ -25,39 +25,40 @@ use crate::store::states::StatesError;
 use crate::store::{Store, StoreError};
 use crate::tokens::Principal;
 
-/// Which field to download, and how.
+/// Field to download: its speed, and an instant or a deflection shape.
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 pub(super) struct FieldsQuery {
-    /// Index of the speed in the request, of a case study in that of its sweep; default the first that was recorded.
+    /// Index of the speed in the request, for a case study in that of its sweep; default the first that was recorded.
     speed: Option<u32>,
-    /// Instant, counted from 0 among those recorded; default that of the largest displacement of a contact node.
+    /// Index of the instant among those recorded, from 0; default the instant of the largest displacement of a contact node.
     instant: Option<u32>,
-    /// Instead of an instant the deflection shape of this engine order, over all recorded revolutions; 0 is the mean.
+    /// Engine order of a deflection shape over all recorded revolutions, which replaces the instant; 0 is the mean.
     engine_order: Option<u32>,
-    /// Of a deflection shape: its phase, degrees; default 0.
+    /// Phase of a deflection shape, degrees; default 0.
     phase_deg: Option<f64>,
-    /// Of an instant: whether displacement and stress are those of the whole load or of the vibration alone; default `leave_out`.
+    /// Whether displacement and stress of an instant are those of the whole load or of the vibration alone; default `leave_out`.
     #[serde(rename = "static", default)]
     #[param(inline)]
     static_part: StaticPart,
 }
 
-/// What becomes of the static part of the centrifugal load.
+/// Treatment of the static part of the centrifugal load.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum StaticPart {
-    /// Displacement and stress are of the vibration alone.
+    /// Displacement and stress are those of the vibration alone.
     #[default]
     LeaveOut,
-    /// They contain it, as `largest` of a sweep's stress does; files have it apart, too, as `static_displacement` and `static_stress`.
+    /// Displacement and stress contain the static part, as `largest` of a sweep's stress does; files also have it separately, as
+    /// `static_displacement` and `static_stress`.
     Include,
 }
 
 /// Download the field of a recorded run, of the whole wheel or one sector: an instant, or the deflection shape of an engine order.
 ///
-/// `vtu` has all elements, `vtp` the skin, `npz` arrays, `pvd` a zip of files over time, svg and png a drawing of the skin. Of a package
-/// without a mesh there are points only.
+/// `vtu` has all elements, `vtp` the skin, `npz` arrays, `pvd` a zip of files over time, svg and png a drawing of the skin. A
+/// package without a mesh gives points only.
 ///
 /// A case study, or the histories of a sweep, must have recorded the quantity `state`.
 #[utoipa::path(get, path = "/v1/jobs/{id}/fields", operation_id = "get_fields", tag = "results",
@@ -154,7 +155,7 @@ pub(super) async fn get_fields(
     .await
 }
 
-/// Refuses more instants than fit into the memory that an answer can get: they are made at once.
+/// Refuses more instants than fit into the memory that an answer can get: they are computed at once.
 fn check_memory(instants: usize, most: Option<u64>, memory: impl Fn(usize) -> u64) -> Result<(), Problem> {
     let Some(most) = most.filter(|most| instants > 1 && memory(instants) > *most) else { return Ok(()) };
     let mib = |bytes: u64| bytes.div_ceil(1 << 20);
@@ -168,7 +169,7 @@ fn check_memory(instants: usize, most: Option<u64>, memory: impl Fn(usize) -> u6
     Err(Problem::parameter("frames", detail))
 }
 
-/// Refuses the static part where there is none.
+/// Refuses the static part where there is none: for deflection shapes, and for packages without a mesh.
 fn check_static(of_shape: bool, has_mesh: bool) -> Result<(), Problem> {
     let detail = match (of_shape, has_mesh) {
         (true, _) => {
@@ -180,7 +181,7 @@ fn check_static(of_shape: bool, has_mesh: bool) -> Result<(), Problem> {
     Err(Problem::parameter("static", detail))
 }
 
-/// Indices of the speeds of which states are recorded.
+/// Indices of the speeds whose states are recorded.
 pub(super) async fn recorded_speeds(store: &Store, job: JobId) -> Result<Vec<u32>, StoreError> {
     let of_states = |document| match document {
         Document::States(speed) => Some(speed),
@@ -189,7 +190,7 @@ pub(super) async fn recorded_speeds(store: &Store, job: JobId) -> Result<Vec<u32
     Ok(store.documents(job).await?.into_iter().filter_map(of_states).collect())
 }
 
-/// The document with the states of a speed, the index of that speed in the sweep, and its bytes.
+/// Document with the states of a speed, the index of that speed in the sweep, and the bytes of the document.
 async fn recorded(state: &AppState, job: &Job, speed: Option<u32>) -> Result<(Document, u32, u64), Problem> {
     let all = recorded_speeds(&state.store, job.id).await?;
     let found = match speed {

@@ -1,4 +1,4 @@
-//! Who follows which job, and who tells them.
+//! Followed jobs: who follows which job, and the task that sends its events to all of them.
 
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
@@ -9,13 +9,13 @@ use tokio::sync::watch::{self, Receiver, Sender};
 
 use crate::store::jobs::JobId;
 
-/// Jobs that somebody follows.
+/// Jobs that clients follow.
 #[derive(Debug, Clone, Default)]
 pub struct Followed {
     jobs: Arc<Mutex<HashMap<JobId, Sender<Option<Event>>>>>,
 }
 
-/// Tells those who follow a job; once it is dropped their streams end, after what was told last.
+/// Sender of a job's events to those who follow it; once it is dropped their streams end, after the last event.
 #[derive(Debug)]
 pub(super) struct Teller {
     followed: Followed,
@@ -24,7 +24,7 @@ pub(super) struct Teller {
 }
 
 impl Followed {
-    /// What is told of a job, and a teller if there is none yet, who is to be set to work.
+    /// Subscribes to the events of a job; with a teller if there is none yet, which the caller must set to work.
     pub(super) fn follow(&self, id: JobId) -> (Receiver<Option<Event>>, Option<Teller>) {
         match self.lock().entry(id) {
             Entry::Occupied(followed) => (followed.get().subscribe(), None),
@@ -42,12 +42,12 @@ impl Followed {
 }
 
 impl Teller {
-    /// Of which job.
+    /// Id of the followed job.
     pub(super) fn id(&self) -> JobId {
         self.id
     }
 
-    /// Tells all.
+    /// Sends an event to all who follow the job.
     pub(super) fn tell(&self, event: Event) {
         self.told.send_replace(Some(event));
     }
@@ -57,7 +57,7 @@ impl Teller {
         self.told.closed().await;
     }
 
-    /// Whether nobody follows the job any more; the next one who does finds another teller.
+    /// Whether nobody follows the job any more; if so, it is given up, and the next one who follows it starts another teller.
     pub(super) fn leaves(&self) -> bool {
         let mut followed = self.followed.lock();
         let alone = self.told.is_closed();

@@ -1,4 +1,4 @@
-//! Contact over speed and contact node.
+//! Contact forces and clearance consumption over speed and contact node.
 
 use axum::extract::State;
 use axum::response::Response;
@@ -17,19 +17,19 @@ use crate::analysis::run;
 use crate::plot::{self, ForceQuantity};
 use crate::tokens::Principal;
 
-/// Memory of a row of the map while it is made, over its contact in full; and of the map, over its numbers.
+/// Ratio of memory to stored numbers: of a row of the map while it is made, over its contact in full; and of the whole map.
 const ROW_MEMORY: u64 = 4;
 
-/// What to draw of contact.
+/// Parameters of a drawing of contact.
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 pub(super) struct ForcesQuery {
-    /// Of a drawing: what is drawn; default `peak`.
+    /// Quantity that a drawing shows; default `peak`.
     #[param(inline)]
     quantity: Option<Drawn>,
 }
 
-/// What is drawn over speed and contact node.
+/// Quantity that a drawing shows over speed and contact node.
 #[derive(Debug, Clone, Copy, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 enum Drawn {
@@ -43,9 +43,9 @@ enum Drawn {
     Consumption,
 }
 
-/// Download contact forces and clearance consumption: over speed and contact node, of every node its worst blade.
+/// Download contact forces and clearance consumption over speed and contact node, at every node those of its worst blade.
 ///
-/// While the job runs, the map has the speeds finished so far. `spectra/{index}` has one speed in full: every blade.
+/// While the job runs, the map has the speeds finished so far. `spectra/{index}` has one speed in full, with every blade.
 #[utoipa::path(get, path = "/v1/jobs/{id}/forces", operation_id = "get_forces", tag = "results",
     params(("id" = String, Path, description = "Id of a sweep."), ForcesQuery, DownloadQuery),
     responses(

@@ -1,4 +1,4 @@
-//! Forms of a download: which one is asked for, by `format` in the query or else by `Accept`, and which a result has.
+//! Forms of a download: the forms that a result has, and the choice among them by `format` in the query or else by `Accept`.
 
 use axum::http::{HeaderMap, header};
 use serde::Deserialize;
@@ -10,44 +10,44 @@ use super::problem::{Kind, Problem, ProblemItem};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum Form {
-    /// All numbers.
+    /// All numbers of a result.
     Json,
-    /// One table, for spreadsheets.
+    /// One table of a result, for spreadsheets.
     Csv,
-    /// All numbers as arrays of numpy.
+    /// All numbers of a result as arrays of numpy.
     Npz,
-    /// A drawing.
+    /// Drawing of a result.
     Svg,
-    /// A picture.
+    /// Picture of a result, in pixels.
     Png,
-    /// A figure for Plotly: `data` and `layout`.
+    /// Figure for Plotly: `data` and `layout`.
     Plotly,
-    /// A field on all elements: VTK's UnstructuredGrid, for ParaView and pyvista.
+    /// Field on all elements: VTK's UnstructuredGrid, for ParaView and pyvista.
     Vtu,
-    /// A field on the skin: VTK's PolyData.
+    /// Field on the skin: VTK's PolyData.
     Vtp,
-    /// A field over time: a zip with ParaView's list of files and the files.
+    /// Field over time: a zip with ParaView's list of files and the files.
     Pvd,
 }
 
 impl Form {
-    /// All that most results have. Of what a client takes equally, the first.
+    /// Forms of most results. Where a client takes several equally, it gets the first.
     pub(super) const ALL: [Self; 6] = [Self::Json, Self::Csv, Self::Npz, Self::Svg, Self::Png, Self::Plotly];
 
-    /// Those that are neither drawings nor figures.
+    /// Forms that are neither drawings nor figures.
     pub(super) const NUMBERS: [Self; 3] = [Self::Json, Self::Csv, Self::Npz];
 
-    /// Those of a field.
+    /// Forms of a field.
     pub(super) const FIELDS: [Self; 6] = [Self::Vtu, Self::Vtp, Self::Npz, Self::Pvd, Self::Svg, Self::Png];
 
-    /// Those of a mesh.
+    /// Forms of a mesh.
     pub(super) const MESH: [Self; 3] = [Self::Vtu, Self::Vtp, Self::Npz];
 
-    /// Those of a field beside a list.
+    /// Forms of a result that is a list, and a field for each of its entries.
     pub(super) const LIST_AND_FIELDS: [Self; 7] =
         [Self::Json, Self::Vtu, Self::Vtp, Self::Npz, Self::Pvd, Self::Svg, Self::Png];
 
-    /// Its word in a query.
+    /// Word for the form in a query.
     pub(super) fn word(self) -> &'static str {
         match self {
             Self::Json => "json",
@@ -62,7 +62,7 @@ impl Form {
         }
     }
 
-    /// Its media type; those of numpy and VTK have none that is registered.
+    /// Media type of the form; those of numpy and VTK are not registered.
     pub(super) fn media_type(self) -> &'static str {
         match self {
             Self::Json => "application/json",
@@ -77,7 +77,7 @@ impl Form {
         }
     }
 
-    /// What an answer says of its content.
+    /// Content type of an answer in this form.
     pub(super) fn content_type(self) -> &'static str {
         match self {
             Self::Csv => "text/csv; charset=utf-8",
@@ -85,17 +85,17 @@ impl Form {
         }
     }
 
-    /// Whether it is drawn.
+    /// Whether the form is a drawing.
     pub(super) fn is_drawing(self) -> bool {
         matches!(self, Self::Svg | Self::Png)
     }
 
-    /// Whether it is to be looked at: a drawing, or a figure of the same.
+    /// Whether the form is to be looked at: a drawing, or a figure of the same.
     pub(super) fn is_shown(self) -> bool {
         self.is_drawing() || self == Self::Plotly
     }
 
-    /// The form of a result that has `those`: what the query asks for, or else what `Accept` prefers.
+    /// Chooses the form of a result that has `those`: the one that the query asks for, or else the one that `Accept` prefers.
     pub(super) fn choose(query: Option<Self>, headers: &HeaderMap, those: &[Self]) -> Result<Self, Problem> {
         match query {
             Some(form) if those.contains(&form) => Ok(form),
@@ -134,10 +134,10 @@ fn not_acceptable(parameter: &str, asked: &str, those: &[Form]) -> Problem {
     })
 }
 
-/// One of the media ranges of `Accept`.
+/// Media range of an `Accept` header.
 struct Range<'a> {
     media_type: &'a str,
-    /// In thousandths.
+    /// Quality of the range, in thousandths.
     quality: u32,
 }
 
@@ -151,7 +151,7 @@ impl<'a> Range<'a> {
         Some(Self { media_type, quality: (1e3 * f64::clamp(quality, 0.0, 1.0)) as u32 })
     }
 
-    /// How specifically it names a form, if it does.
+    /// How specifically the range names a form; `None` if it does not.
     fn names(&self, form: Form) -> Option<u8> {
         let wanted = form.media_type();
         let all_of = |kind: &str| wanted.split('/').next().is_some_and(|own| own.eq_ignore_ascii_case(kind));
@@ -173,7 +173,7 @@ mod tests {
         Form::choose(None, &headers, those).ok()
     }
 
-    /// As in RFC 9110, 12.5.1.
+    /// Checks the order of preference of RFC 9110, 12.5.1.
     #[test]
     fn accept_is_read_by_quality_and_specificity() {
         let all = &Form::ALL;

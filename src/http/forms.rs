@@ -1,5 +1,5 @@
-//! The forms of one kind of result. Every result has its numbers as json, csv and npz, and, but for bare tables, its drawing as svg and
-//! png and the same as a figure for Plotly.
+//! Forms of one kind of result. Every result has its numbers as json, csv and npz, and, except for bare tables, its drawing as svg
+//! and png and the same as a figure for Plotly.
 //!
 //! To add a result: implement [`Export`] for it in `src/export`, take [`Download`] as an argument of its handler and
 //! [`DownloadQuery`](super::download::DownloadQuery) as parameters of its route, and answer with
@@ -22,10 +22,10 @@ use crate::store::jobs::{Job, JobId, JobRequest};
 use crate::store::results::Document;
 use crate::store::status::JobStatus;
 
-/// Memory of a document, over its text: the row and the text.
+/// Memory of a document, in multiples of its text: the row and the text.
 pub(super) const TEXT_MEMORY: u64 = 2;
 
-/// Memory of a document that is read and written in another form, over its text: the text, its numbers, and what is made of them.
+/// Memory of a document that is written in another form, in multiples of its text: the text, its numbers, and the other form.
 pub(super) const READ_MEMORY: u64 = 6;
 
 /// Makes the drawing of a result.
@@ -37,16 +37,16 @@ type Show<T> = Box<dyn FnOnce(&T) -> Figure + Send>;
 /// Changes a result before it is written.
 type Change<T> = Box<dyn FnOnce(&mut T) + Send>;
 
-/// The forms of a result.
+/// Forms of a result.
 pub(super) struct Forms<T> {
-    /// None of a result that is a table and nothing else.
+    /// Drawing and figure of the result; `None` if it is only a table.
     draw: Option<(Draw<T>, Show<T>)>,
-    /// What is done to a stored result first.
+    /// Change that is made to a stored result before it is written.
     change: Option<Change<T>>,
 }
 
 impl<T: Export + Serialize + Send + 'static> Forms<T> {
-    /// Of a result that `draw` draws and `figure` shows.
+    /// Forms of a result that `draw` draws and `figure` shows.
     pub(super) fn drawn_by(
         draw: impl FnOnce(&T) -> String + Send + 'static,
         figure: impl FnOnce(&T) -> Figure + Send + 'static,
@@ -54,7 +54,7 @@ impl<T: Export + Serialize + Send + 'static> Forms<T> {
         Self { draw: Some((Box::new(draw), Box::new(figure))), change: None }
     }
 
-    /// Of a result that has no drawing.
+    /// Forms of a result that has no drawing.
     pub(super) fn undrawn() -> Self {
         Self { draw: None, change: None }
     }
@@ -63,8 +63,8 @@ impl<T: Export + Serialize + Send + 'static> Forms<T> {
         if self.draw.is_some() { &Form::ALL } else { &Form::NUMBERS }
     }
 
-    /// Answers with what `read` reads, which may wait and takes so many bytes together with what is made of it. `lasting` names its
-    /// state, if that does not change any more.
+    /// Answers with the result of `read`, which may wait, and which takes `bytes` of memory together with everything made of it.
+    /// `lasting` names the state of the result, if that does not change any more.
     pub(super) async fn answer(
         self,
         state: &AppState,
@@ -79,7 +79,7 @@ impl<T: Export + Serialize + Send + 'static> Forms<T> {
         }
     }
 
-    /// Answers with what `read` reads, once the form is known.
+    /// Answers with the result of `read`, once the form is known.
     pub(super) async fn make(
         self,
         state: &AppState,
@@ -101,12 +101,12 @@ impl<T: Export + Serialize + Send + 'static> Forms<T> {
 }
 
 impl<T: Export + Serialize + DeserializeOwned + Send + 'static> Forms<T> {
-    /// Of a document that is put into another order first.
+    /// Lets `change` put a document into another order before it is written.
     pub(super) fn changed_by(self, change: impl FnOnce(&mut T) + Send + 'static) -> Self {
         Self { change: Some(Box::new(change)), ..self }
     }
 
-    /// Answers with a document that was computed at the end of a job: its JSON as it was stored, unless it is changed.
+    /// Answers with a document that was computed at the end of a job: its JSON as it was stored, unless something changes it.
     pub(super) async fn of_document(
         mut self,
         state: &AppState,
@@ -140,7 +140,7 @@ impl<T: Export + Serialize + DeserializeOwned + Send + 'static> Forms<T> {
     }
 }
 
-/// What reads the text of a document, on a thread that may wait.
+/// Reader of a document's text, for a thread that may wait.
 fn read(
     state: &AppState,
     job: JobId,
@@ -150,7 +150,7 @@ fn read(
     move || runtime.block_on(store.document(job, document))?.ok_or_else(|| job_not_found(&job))
 }
 
-/// Bytes of a document's text; the reason if there is none.
+/// Bytes of a document's text; a problem with the reason if there is no document.
 async fn stored_bytes(state: &AppState, job: &Job, document: Document) -> Result<u64, Problem> {
     if let Some(bytes) = state.store.document_bytes(job.id, document).await? {
         return Ok(bytes);

@@ -1,4 +1,4 @@
-//! Whether the service lives, and whether it can work.
+//! Health of the service: whether it lives, and whether it can work.
 
 use axum::Json;
 use axum::extract::State;
@@ -13,41 +13,41 @@ use super::state::AppState;
 use crate::jobs::Work;
 use crate::store::StoreError;
 
-/// A sign of life.
+/// Sign of life of the process.
 #[derive(Debug, Serialize, ToSchema)]
 pub(super) struct Health {
-    /// Always `ok`.
+    /// Status of the process, always `ok`.
     #[schema(example = "ok")]
     status: &'static str,
     /// Version of the program.
     version: &'static str,
-    /// Memory that reductions may take together, in bytes; absent where nothing is known about it, and on a service with tokens, which
-    /// tells it in its metrics.
+    /// Memory that all reductions together may take, in bytes; absent where it is not known, and on a service with tokens, which
+    /// reports it in its metrics.
     #[serde(skip_serializing_if = "Option::is_none")]
     memory_bytes: Option<u64>,
 }
 
-/// What was looked at to tell whether the service can work.
+/// Readiness of the service: everything that was checked to find out whether it can work.
 #[derive(Debug, Serialize, ToSchema)]
 pub(super) struct Readiness {
     #[serde(flatten)]
     health: Health,
-    /// All that is needed to work.
+    /// Checks of everything that is needed to work.
     checks: Vec<Check>,
 }
 
-/// One thing that is needed to work.
+/// Check of one thing that is needed to work.
 #[derive(Debug, Serialize, ToSchema)]
 pub(super) struct Check {
-    /// `database`, `disk`, `files` or `workers`.
+    /// Name of the check: `database`, `disk`, `files` or `workers`.
     #[schema(example = "disk")]
     name: &'static str,
     #[serde(skip)]
     fine: bool,
-    /// What was found.
+    /// Finding of the check, in words.
     #[schema(example = "7516192768 bytes are free, at least 67108864 are wanted")]
     detail: String,
-    /// The figure, where there is one: seconds, bytes, files or queues.
+    /// Figure that was found, where there is one: seconds, bytes, files or queues.
     #[serde(skip_serializing_if = "Option::is_none")]
     value: Option<f64>,
 }
@@ -62,17 +62,17 @@ impl Health {
     }
 }
 
-/// Tell that the process lives.
+/// Report that the process lives.
 #[utoipa::path(get, path = "/healthz", operation_id = "get_health", tag = "service",
     responses((status = 200, description = "The process lives.", body = Health)))]
 pub(super) async fn get_health(state: State<AppState>) -> Json<Health> {
     Json(Health::of(&state))
 }
 
-/// Tell whether the service can work.
+/// Report whether the service can work.
 ///
-/// A row is written to the database and read back, the disk has room, the process has files left, and the queues are being
-/// worked on.
+/// The service can work if a row is written to the database and read back, the disk has room, the process has files left, and the
+/// queues are being worked on.
 #[utoipa::path(get, path = "/readyz", operation_id = "get_readiness", tag = "service",
     responses(
         (status = 200, description = "It can.", body = Readiness),
@@ -112,7 +112,7 @@ async fn database(state: &AppState) -> Check {
     }
 }
 
-/// Room on the disk of the data folder.
+/// Free bytes on the disk of the data folder.
 pub(super) async fn free_bytes(state: &AppState) -> Result<u64, String> {
     let store = state.store.clone();
     let asked = tokio::task::spawn_blocking(move || store.free_bytes());

@@ -1,4 +1,4 @@
-//! Histories: what happened at a speed, and the first revolutions of a study.
+//! Histories of a speed, and of the first revolutions of a study.
 
 use axum::extract::State;
 use axum::response::Response;
@@ -19,30 +19,30 @@ use crate::store::jobs::{Job, JobKind, JobRequest};
 use crate::store::results::Document;
 use crate::tokens::Principal;
 
-/// Which histories to download.
+/// Histories to download, and their drawing.
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 pub(super) struct HistoriesQuery {
-    /// Index of the speed in the request, of a case study in that of its sweep; default the first that there is.
+    /// Index of the speed in the request, for a case study in that of its sweep; default the first that has histories.
     speed: Option<u32>,
-    /// Of a drawing: index of the sensor in the request; default 0.
+    /// Index, in the request, of the sensor that a drawing shows; default 0.
     #[serde(default)]
     sensor: u32,
-    /// Of a drawing of one speed: what is drawn; default `displacement`.
+    /// Quantity that a drawing of one speed shows; default `displacement`.
     #[param(inline)]
     quantity: Option<Drawn>,
-    /// Of a drawing of forces: the contact node; default 0.
+    /// Contact node whose forces a drawing shows; default 0.
     #[serde(default)]
     contact_node: u32,
 }
 
-/// What is drawn of the histories of a speed.
+/// Quantity that a drawing of the histories of a speed shows.
 #[derive(Debug, Clone, Copy, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 enum Drawn {
     /// Displacement of a sensor.
     Displacement,
-    /// Its velocity.
+    /// Velocity of a sensor.
     Velocity,
     /// Forces on a contact node, blade by blade.
     Force,
@@ -50,26 +50,25 @@ enum Drawn {
     Contact,
     /// Energy and its parts.
     Energy,
-    /// The radial sensors against the casing.
+    /// Motion of the radial sensors against the casing.
     Trajectories,
 }
 
-/// Histories.
+/// Histories of a job.
 #[derive(Serialize, ToSchema)]
 #[serde(untagged)]
 #[expect(dead_code, reason = "describes the body in the OpenAPI document only")]
 pub(super) enum HistoriesBody {
-    /// Of a case study or a sweep.
+    /// Histories of one speed of a case study or a sweep.
     Speed(Box<SpeedHistories>),
-    /// Of a study.
+    /// Histories of the first revolutions of a study.
     Study(Box<Histories>),
 }
 
-/// Download histories: of a case study or a sweep what happened at one speed; of a study the displacements of the first
-/// revolutions, one line per size.
+/// Download histories: those of one speed of a case study or a sweep, or the displacements of a study's first revolutions, one line per size.
 ///
-/// In csv a line is a sample and a column a history. In npz, of a speed, `displacement` and `velocity` are `[sensor][sample]` and
-/// `force` is `[sector][contact node][sample]`; of a study `displacement` is `[size][sensor][sample]`.
+/// In csv a line is a sample and a column a history. In npz, `displacement` and `velocity` of a speed are `[sensor][sample]` and
+/// its `force` is `[sector][contact node][sample]`; `displacement` of a study is `[size][sensor][sample]`.
 #[utoipa::path(get, path = "/v1/jobs/{id}/histories", operation_id = "get_histories", tag = "results",
     params(("id" = String, Path, description = "Id of a case study, sweep or study."), HistoriesQuery, DownloadQuery),
     responses(
@@ -122,7 +121,7 @@ pub(super) async fn get_histories(
     }
 }
 
-/// The first speed of a job that has histories; where none has, the first of all.
+/// Index of the first speed of a job that has histories; where none has, the first of all.
 async fn first(state: &AppState, job: &Job) -> Result<u32, Problem> {
     let recorded = state.store.documents(job.id).await?.into_iter().find_map(|document| match document {
         Document::Histories(speed) => Some(speed),
@@ -131,7 +130,7 @@ async fn first(state: &AppState, job: &Job) -> Result<u32, Problem> {
     Ok(recorded.unwrap_or(0))
 }
 
-/// Whether there are the sensor and the contact node that are to be drawn.
+/// Refuses a sensor or a contact node that does not exist and thus cannot be drawn.
 fn check_drawn(job: &Job, query: &HistoriesQuery) -> Result<(), Problem> {
     match &job.request {
         JobRequest::Sweep(sweep) => check_sensor(sweep.sensors(), query.sensor)?,
@@ -147,7 +146,7 @@ fn check_drawn(job: &Job, query: &HistoriesQuery) -> Result<(), Problem> {
 }
 
 impl HistoriesQuery {
-    /// What of a speed is drawn, of which sensor or contact node; no quantity is the trajectories.
+    /// Quantity of a speed that is drawn, and its sensor or contact node; no quantity means the trajectories.
     fn what(&self) -> (Option<HistoryQuantity>, usize) {
         let (sensor, node) = (self.sensor as usize, self.contact_node as usize);
         match self.quantity.unwrap_or(Drawn::Displacement) {

@@ -1,7 +1,7 @@
-//! The host that a request is meant for.
+//! Check of the host that a request is meant for.
 //!
-//! A web page that a user visits can make the name it came from mean 127.0.0.1 (DNS rebinding) and then talk to the service as if it
-//! were its own; the only sign is that name in `Host`.
+//! A web page that a user visits can make the name it came from mean 127.0.0.1 (DNS rebinding) and then use the service as if it
+//! were the page's own; the only sign of it is that name in `Host`.
 
 use axum::extract::{Request, State};
 use axum::http::uri::Authority;
@@ -16,7 +16,7 @@ use super::state::AppState;
 /// Longest name of a host (RFC 1035).
 const LONGEST: usize = 253;
 
-/// Middleware: refuses requests that do not say which host they are meant for, or name another.
+/// Middleware: refuses requests that do not name the host they are meant for, or name another.
 pub(super) async fn check(state: State<AppState>, request: Request, next: Next) -> Result<Response, Problem> {
     // HTTP/1.0 knows no `Host`, and no browser speaks it.
     if let Some(authority) = named(request.headers(), request.version())? {
@@ -28,7 +28,7 @@ pub(super) async fn check(state: State<AppState>, request: Request, next: Next) 
     Ok(next.run(request).await)
 }
 
-/// What `Host` says; exactly one is needed since HTTP/1.1.
+/// Host and port in the `Host` header; exactly one header is needed since HTTP/1.1.
 fn named(headers: &HeaderMap, version: Version) -> Result<Option<Authority>, Problem> {
     let mut values = headers.get_all(header::HOST).iter();
     let (first, second) = (values.next(), values.next());

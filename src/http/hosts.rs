@@ -1,8 +1,8 @@
-//! The hosts that the service answers for.
+//! Hosts for which the service answers.
 
 use std::net::IpAddr;
 
-/// For which hosts the service answers.
+/// Hosts for which the service answers: this machine, and names that were given.
 #[derive(Debug)]
 pub(super) struct Hosts {
     bound: IpAddr,
@@ -14,8 +14,7 @@ impl Hosts {
         Self { bound, names }
     }
 
-    /// Whether requests for `host` are answered: for all of them if the service can be reached from elsewhere and nobody said under
-    /// which names.
+    /// Whether requests for `host` are answered: for all hosts if the service can be reached from other machines and was given no names.
     pub(super) fn include(&self, host: &str) -> bool {
         if self.names.is_empty() && !self.bound.is_loopback() {
             return true;

@@ -1,4 +1,4 @@
-//! `Idempotency-Key`: a POST repeated with its key gets the first answer again, and nothing is done twice.
+//! Idempotency by `Idempotency-Key`: a POST repeated with its key gets the first answer again, and nothing is done twice.
 
 use axum::extract::FromRequestParts;
 use axum::http::request::Parts;
@@ -13,7 +13,7 @@ use crate::tokens::Principal;
 
 const HEADER: &str = "Idempotency-Key";
 
-/// The client's key, if it sent one.
+/// Idempotency key of a request, if the client sent one.
 pub(super) struct IdempotencyKey(Option<String>);
 
 impl<S: Send + Sync> FromRequestParts<S> for IdempotencyKey {
@@ -29,7 +29,7 @@ impl<S: Send + Sync> FromRequestParts<S> for IdempotencyKey {
 }
 
 impl IdempotencyKey {
-    /// The answer given before under this key; a problem if that was to another request.
+    /// Answer given before under this key; a problem if it was to another request.
     pub(super) async fn replay(
         &self,
         store: &Store,
@@ -45,14 +45,14 @@ impl IdempotencyKey {
         Ok(Some(respond(&answer)))
     }
 
-    /// The answer to keep under this key.
+    /// Answer to store under this key.
     pub(super) fn answer(&self, fingerprint: &str, answer: &Answer) -> Option<Answer> {
         let key = self.0.clone()?;
         Some(Answer { key, fingerprint: fingerprint.to_owned(), ..answer.clone() })
     }
 }
 
-/// Digest of route and body.
+/// Digest of the route and the body of a request.
 pub(super) fn fingerprint(path: &str, body: &[u8]) -> String {
     finish(start(path).chain_update(body))
 }
@@ -67,7 +67,7 @@ pub(super) fn finish(digest: Sha256) -> String {
     format!("{:x}", digest.finalize())
 }
 
-/// Sends an answer.
+/// Makes a response of a stored answer.
 pub(super) fn respond(answer: &Answer) -> Response {
     let status = StatusCode::from_u16(answer.status).unwrap_or(StatusCode::OK);
     let headers =

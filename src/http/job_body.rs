@@ -1,4 +1,4 @@
-//! A job as it is shown.
+//! Jobs as answers show them.
 
 use serde::Serialize;
 use utoipa::ToSchema;
@@ -13,91 +13,90 @@ use crate::impeller::ImpellerParameters;
 use crate::store::jobs::{Chosen, Job, JobHead, JobId, JobKind, JobRequest, SpeedCounts};
 use crate::store::status::JobStatus;
 
-/// A job.
+/// Job with its labels, state, times, and links to its results.
 #[derive(Debug, Serialize, ToSchema)]
 pub(super) struct JobBody {
-    /// Its id.
+    /// Id of the job.
     #[schema(example = "0198c5a2-7c1e-7d54-9f3b-2f6d7a6f4b10")]
     id: String,
-    /// Its kind.
+    /// Kind of the job.
     kind: JobKind,
-    /// What its owner calls it.
+    /// Name that the owner gave the job.
     #[serde(skip_serializing_if = "Option::is_none")]
     name: Option<String>,
-    /// Words to group by.
+    /// Words to group the job by.
     tags: Vec<String>,
-    /// What its owner has noted.
+    /// Notes of the owner.
     #[serde(skip_serializing_if = "Option::is_none")]
     notes: Option<String>,
-    /// How far it is.
+    /// Status of the job.
     status: JobStatus,
-    /// Percent of the work done; never falls, 100 only when successful.
+    /// Percent of the work done; never falls, and is 100 only when the job is successful.
     #[schema(minimum = 0, maximum = 100)]
     progress: u8,
-    /// What runs now, in words.
+    /// Part of the work that runs now, in words.
     #[serde(skip_serializing_if = "String::is_empty")]
     phase: String,
-    /// Id of the model it computes from; of a `model_generation`, the model it made, once it is successful.
+    /// Id of the model that the job computes from; for a `model_generation`, of the model it made, once it is successful.
     #[serde(skip_serializing_if = "Option::is_none")]
     model: Option<String>,
-    /// Its speeds, counted, of a campaign those of all designs; a `model_generation` has none.
+    /// Counts of the job's speeds, for a campaign those of all designs; a `model_generation` has none.
     #[serde(skip_serializing_if = "Option::is_none")]
     speeds: Option<SpeedCounts>,
-    /// Bytes that its results take in the data folder.
+    /// Bytes that the results of the job take in the data folder.
     stored_bytes: u64,
-    /// When it was accepted (RFC 3339).
+    /// Time at which the job was accepted (RFC 3339).
     created_at: String,
-    /// When computing began.
+    /// Time at which computing began (RFC 3339).
     #[serde(skip_serializing_if = "Option::is_none")]
     started_at: Option<String>,
-    /// When it ended.
+    /// Time at which the job ended (RFC 3339).
     #[serde(skip_serializing_if = "Option::is_none")]
     finished_at: Option<String>,
-    /// When it last changed its status or progress.
+    /// Time at which status or progress last changed (RFC 3339).
     updated_at: String,
-    /// Why it failed.
+    /// Reason why the job failed.
     #[serde(skip_serializing_if = "Option::is_none")]
     error: Option<Problem>,
-    /// The job itself and its results.
+    /// Links to the job itself and to its results.
     links: Vec<Link>,
 }
 
-/// A job and what was found about its model.
+/// Job with its settings and with the report of the reduction that it rests on.
 #[derive(Debug, Serialize, ToSchema)]
 pub(super) struct JobDetail {
-    /// The job.
+    /// Job as lists show it, with all its links.
     #[serde(flatten)]
     pub(super) job: JobBody,
-    /// What was asked for, with every default filled in, and with what `refine` or a threshold has added so far.
+    /// Request of the job with every default filled in, and with everything that `refine` or a threshold has added so far.
     pub(super) request: RequestBody,
-    /// The settings that were chosen for it, once they are, of a job that asks for an accuracy or gives a budget.
+    /// Settings that were chosen for the job, once they are, if its request asks for an accuracy or gives a budget.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) choice: Option<Chosen>,
-    /// The reduction that its results rest on, once there is one: residuals, sizes, and how far K(Ω) can be trusted
-    /// between the given speeds.
+    /// Reduction that the results of the job rest on, once there is one: residuals, sizes, and how far K(Ω) can be trusted between the given speeds.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) reduction: Option<ReductionReport>,
 }
 
-/// What a job was asked for.
+/// Request of a job, resolved.
 #[derive(Debug, Serialize, ToSchema)]
 #[serde(untagged)]
 pub(super) enum RequestBody {
-    /// Of a sweep.
+    /// Request of a sweep.
     Sweep(Box<SweepRequest>),
-    /// Of a modal analysis.
+    /// Request of a modal analysis.
     ModalAnalysis(ModalAnalysisRequest),
-    /// Of a study.
+    /// Request of a study.
     Study(Box<StudyRequest>),
-    /// Of a case study.
+    /// Request of a case study.
     CaseStudy(Box<CaseStudySettings>),
-    /// Of branches.
+    /// Request of branches.
     Branches(Box<BranchesSettings>),
-    /// Of run-ups.
+    /// Request of run-ups.
     RunUps(Box<RunUpSettings>),
-    /// Of a campaign, without its designs, which `GET /v1/jobs/{id}/campaign` has.
+    /// Request of a campaign, without its designs, which `GET /v1/jobs/{id}/campaign` has.
     Campaign(Box<CampaignSettings>),
-    /// Of a generated model.
+    /// Request of a generated model.
     ModelGeneration(Box<ImpellerParameters>),
 }
 
@@ -120,15 +119,16 @@ impl From<JobRequest> for RequestBody {
     }
 }
 
-/// A link to something related.
+/// Link to something related.
 #[derive(Debug, Serialize, ToSchema)]
 pub(super) struct Link {
     /// Path on this service.
     #[schema(example = "/v1/jobs/0198c5a2-7c1e-7d54-9f3b-2f6d7a6f4b10/interaction-map")]
     href: String,
-    /// What it is: `self`, `interaction-map`, `critical-speeds`, `wheel-critical-speeds`, `forces`, `spectra` (with a `{index}` to fill
-    /// in), `campbell`, `branches`, `run-ups`, `spectrogram` (of the first run), `campaign`, `work-precision`, `histories`, `report`, `archive` or `model`; where it is recorded, and not in lists of jobs,
-    /// `stress` and `fields`.
+    /// Relation of the linked thing: `self`, `interaction-map`, `critical-speeds`, `wheel-critical-speeds`, `forces`, `spectra`
+    /// (with a `{index}` to fill in), `campbell`, `branches`, `run-ups`, `spectrogram` (of the first run), `campaign`,
+    /// `work-precision`, `histories`, `report`, `archive` or `model`; where it is recorded, and not in lists of jobs, `stress` and
+    /// `fields`.
     rel: &'static str,
 }
 
@@ -157,20 +157,20 @@ impl From<JobHead> for JobBody {
     }
 }
 
-/// Of jobs that fit on a page.
+/// Link to the report, for jobs that fit on a page.
 const REPORT: (&str, &str) = ("report", "/report");
 
-/// Of jobs that can be repeated.
+/// Link to the archive, for jobs that can be repeated.
 const ARCHIVE: (&str, &str) = ("archive", "/archive");
 
-/// Of jobs that record stress, and of those that record states.
+/// Links of jobs that record stress, and of jobs that record states.
 pub(super) fn recorded(stress: bool, states: bool) -> Vec<(&'static str, &'static str)> {
     let stress = stress.then_some(("stress", "/stress"));
     stress.into_iter().chain(states.then_some(("fields", "/fields"))).collect()
 }
 
 impl JobDetail {
-    /// A job with all its links.
+    /// Job with all its links.
     pub(super) fn new(job: Job, reduction: Option<ReductionReport>) -> Self {
         let recorded = match &job.request {
             JobRequest::Sweep(sweep) => recorded(sweep.stress_outside().is_some(), sweep.records_states()),
@@ -183,7 +183,7 @@ impl JobDetail {
     }
 }
 
-/// Links of a job, with those of what it has `recorded` beside the results of its kind.
+/// Links of a job, including those of its `recorded` results beside the results of its kind.
 pub(super) fn links(
     id: JobId,
     kind: JobKind,

@@ -20,36 +20,36 @@ use crate::store::jobs::{Job, JobDeletion, JobFilter, JobHead, JobId, JobKind};
 use crate::store::status::JobStatus;
 use crate::tokens::Principal;
 
-/// Which jobs to list.
+/// Filters of a list of jobs, and its page.
 #[derive(Debug, Serialize, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 pub(super) struct JobQuery {
-    /// Only jobs with this status.
+    /// Status of the jobs to list; default any.
     #[serde(skip_serializing_if = "Option::is_none")]
     status: Option<JobStatus>,
-    /// Only jobs of this kind.
+    /// Kind of the jobs to list; default any.
     #[serde(skip_serializing_if = "Option::is_none")]
     kind: Option<JobKind>,
-    /// Only jobs that compute from the model of this id, or made it.
+    /// Id of a model: lists only jobs that compute from it, or made it.
     #[serde(skip_serializing_if = "Option::is_none")]
     model: Option<String>,
-    /// Only jobs with this in their names; letters a to z may be capitals or not.
+    /// Text in the names of the jobs to list; letters a to z may be capitals or not.
     #[serde(skip_serializing_if = "Option::is_none")]
     name: Option<String>,
-    /// Only jobs with this tag.
+    /// Tag of the jobs to list.
     #[serde(skip_serializing_if = "Option::is_none")]
     tag: Option<String>,
     /// Jobs per page, 1 to 500; default 50.
     #[param(minimum = 1, maximum = 500)]
     limit: Option<u32>,
-    /// Where the page begins: from `next` of the page before.
+    /// Cursor at which the page begins: from `next` of the page before.
     cursor: Option<String>,
 }
 
-/// A page of jobs.
+/// Page of a list of jobs.
 #[derive(Debug, Serialize, ToSchema)]
 pub(super) struct JobList {
-    /// Newest first.
+    /// Jobs of the page, newest first.
     jobs: Vec<JobBody>,
     /// Path of the next page; absent on the last.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -85,14 +85,14 @@ pub(super) async fn list_jobs(
     Ok(Json(JobList { jobs: jobs.into_iter().map(JobBody::from).collect(), next }))
 }
 
-/// What is stored is a second old, or older where the store takes nothing.
+/// Puts the present phase into a job: the stored one is a second old, or older while the store takes nothing.
 fn tell_phase(state: &AppState, job: &mut JobHead) {
     if let Some(phase) = state.jobs.phase(job.id) {
         job.phase = phase;
     }
 }
 
-/// Follow a job.
+/// Read the state of a job, its request, and links to its results.
 #[utoipa::path(get, path = "/v1/jobs/{id}", operation_id = "get_job", tag = "jobs",
     params(("id" = String, Path, description = "Id of the job.")),
     responses(
@@ -107,7 +107,7 @@ pub(super) async fn get_job(
     Ok(Json(detail(&state, job).await?))
 }
 
-/// A job with what is known beyond what is stored of it.
+/// Job with everything that is known beyond its stored row: the present phase, and the report of its reduction.
 pub(super) async fn detail(state: &AppState, mut job: Job) -> Result<JobDetail, StoreError> {
     tell_phase(state, &mut job.head);
     let reduction = match (job.request.model(), job.request.modes_per_speed()) {
@@ -120,9 +120,9 @@ pub(super) async fn detail(state: &AppState, mut job: Job) -> Result<JobDetail, 
     Ok(JobDetail::new(job, reduction))
 }
 
-/// Call a job otherwise.
+/// Change the labels of a job.
 ///
-/// A merge patch (RFC 7396): what is left out stays, null takes away. Nothing else of a job can be changed.
+/// Takes a merge patch (RFC 7396): a label that is left out stays, null removes it. Nothing else of a job can be changed.
 #[utoipa::path(patch, path = "/v1/jobs/{id}", operation_id = "label_job", tag = "jobs",
     params(("id" = String, Path, description = "Id of the job.")),
     request_body(content((LabelPatch = "application/merge-patch+json"), (LabelPatch = "application/json"))),
@@ -146,10 +146,10 @@ pub(super) async fn label_job(
     get_job(state, whose, JobPath(id)).await
 }
 
-/// Set a job aside.
+/// Pause a job.
 ///
-/// Computing stops within moments; what is finished stays and can be read. `POST /v1/jobs/{id}/continue` goes on where it was, also after
-/// the service was stopped in between. A job that is set aside already stays so.
+/// Computing stops within moments; finished results stay and can be read. `POST /v1/jobs/{id}/continue` continues the job where it
+/// was, also after the service was stopped in between. A job that is paused already stays paused.
 #[utoipa::path(post, path = "/v1/jobs/{id}/pause", operation_id = "pause_job", tag = "jobs",
     params(("id" = String, Path, description = "Id of the job.")),
     responses(
@@ -165,9 +165,10 @@ pub(super) async fn pause_job(
     set_paused(state, whose, id, true).await
 }
 
-/// Let a job go on that was set aside.
+/// Continue a paused job.
 ///
-/// It waits for its turn as a new one does, and computes nothing again that was finished. A job that was not set aside goes on as it did.
+/// The job waits for its turn as a new one does, and computes nothing again that was finished. A job that was not paused goes on as
+/// it did.
 #[utoipa::path(post, path = "/v1/jobs/{id}/continue", operation_id = "continue_job", tag = "jobs",
     params(("id" = String, Path, description = "Id of the job.")),
     responses(
@@ -200,19 +201,19 @@ async fn set_paused(
     }
 }
 
-/// What of a job is to go.
+/// Extent of a deletion.
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 pub(super) struct DeletionQuery {
-    /// Only cancel: a job that has ended, perhaps while this request was on its way, stays as it is. Such a request can be sent again.
+    /// Whether only to cancel: a job that has ended, perhaps while this request was on its way, stays as it is. Such a request can be sent again.
     #[serde(default)]
     cancel_only: bool,
 }
 
 /// Cancel a job that has not ended, or delete one that has.
 ///
-/// Computing stops within moments, and speeds that were finished stay readable (200 with the job). Of a job that has ended, cancelled
-/// ones included, everything is deleted and its room given back (204), unless only cancelling is asked for.
+/// Computing stops within moments, and speeds that were finished stay readable (200 with the job). A job that has ended, a
+/// cancelled one included, is deleted with everything it stored, and its room is freed (204), unless the request only cancels.
 #[utoipa::path(delete, path = "/v1/jobs/{id}", operation_id = "delete_job", tag = "jobs",
     params(("id" = String, Path, description = "Id of the job."), DeletionQuery),
     responses(

@@ -1,4 +1,4 @@
-//! What users call their jobs and models: beside the request for a job, in the query of an upload, changed later.
+//! Labels of jobs and models: beside the request for a job, in the query of an upload, or changed later.
 
 use std::borrow::Cow;
 use std::collections::BTreeSet;
@@ -16,7 +16,7 @@ use crate::store::labels::{LabelChanges, Labels};
 /// Longest name, in characters.
 const NAME: usize = 200;
 
-/// Most tags.
+/// Largest number of tags.
 const TAGS: usize = 20;
 
 /// Longest tag, in characters.
@@ -25,22 +25,22 @@ const TAG: usize = 50;
 /// Longest notes, in characters.
 const NOTES: usize = 4000;
 
-/// Labels as they come with a request.
+/// Labels that come with a request.
 #[derive(Debug, Default, Deserialize, ToSchema)]
 #[serde(default)]
 struct Given {
-    /// What it is to be called; nothing is computed from it.
+    /// Name of the job or model; nothing is computed from it.
     #[schema(max_length = 200)]
     name: Option<String>,
     /// Words to group by, of up to 50 characters without commas.
     #[schema(max_items = 20)]
     tags: Vec<String>,
-    /// Anything worth remembering.
+    /// Notes: anything worth remembering.
     #[schema(max_length = 4000)]
     notes: Option<String>,
 }
 
-/// A request for a job with what the job is to be called, which is no part of what is computed.
+/// Request for a job with labels, which are no part of what is computed.
 #[derive(Debug)]
 pub(super) struct Labelled<T> {
     request: T,
@@ -48,10 +48,10 @@ pub(super) struct Labelled<T> {
 }
 
 impl<T> Labelled<T> {
-    /// The request and its labels.
+    /// Splits into the request and its labels.
     ///
     /// # Errors
-    /// Labels that cannot be.
+    /// If a label is not valid.
     pub(super) fn parts(self) -> Result<(T, Labels), Problem> {
         Ok((self.request, self.given.labels()?))
     }
@@ -69,19 +69,19 @@ impl Given {
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 pub(super) struct LabelQuery {
-    /// Of a package: what the model is to be called in place of the package's own name, in up to 200 characters.
+    /// Name of the model in place of that of an uploaded package, in up to 200 characters.
     name: Option<String>,
-    /// Of a package: up to 20 words to group by, with commas between them.
+    /// Words to group an uploaded package by: up to 20, with commas between them.
     tags: Option<String>,
-    /// Of a package: anything worth remembering, in up to 4000 characters.
+    /// Notes on an uploaded package: anything worth remembering, in up to 4000 characters.
     notes: Option<String>,
 }
 
 impl LabelQuery {
-    /// The labels.
+    /// Reads the labels.
     ///
     /// # Errors
-    /// Labels that cannot be.
+    /// If a label is not valid.
     pub(super) fn labels(self) -> Result<Labels, Problem> {
         let tags = self.tags.as_deref().unwrap_or_default().split(',').filter(|tag| !tag.is_empty());
         let labels =
@@ -95,43 +95,43 @@ impl LabelQuery {
         }
     }
 
-    /// Whether there is none.
+    /// Whether the query has no labels.
     pub(super) fn is_empty(&self) -> bool {
         self.name.is_none() && self.tags.is_none() && self.notes.is_none()
     }
 }
 
-/// Changes of labels as a merge patch (RFC 7396): what is left out stays, null takes away.
+/// Changes of labels as a merge patch (RFC 7396): a label that is left out stays, null removes it.
 #[derive(Debug, Default, Deserialize, ToSchema)]
 #[serde(default, deny_unknown_fields)]
 pub(super) struct LabelPatch {
-    /// What it is to be called.
+    /// Name of the job or model.
     #[schema(max_length = 200)]
     #[serde(deserialize_with = "some")]
     #[schema(value_type = Option<String>)]
     name: Option<Option<String>>,
-    /// Words to group by in place of those there are, of up to 50 characters without commas.
+    /// Words to group by, which replace those there are, of up to 50 characters without commas.
     #[schema(max_items = 20)]
     #[serde(deserialize_with = "some")]
     #[schema(value_type = Option<Vec<String>>)]
     tags: Option<Option<Vec<String>>>,
-    /// Anything worth remembering.
+    /// Notes: anything worth remembering.
     #[schema(max_length = 4000)]
     #[serde(deserialize_with = "some")]
     #[schema(value_type = Option<String>)]
     notes: Option<Option<String>>,
 }
 
-/// Null is something else than nothing.
+/// Reads a field that is present: null is something else than a field that is left out.
 fn some<'de, T: Deserialize<'de>, D: Deserializer<'de>>(deserializer: D) -> Result<Option<T>, D::Error> {
     T::deserialize(deserializer).map(Some)
 }
 
 impl LabelPatch {
-    /// The changes.
+    /// Reads the changes.
     ///
     /// # Errors
-    /// Labels that cannot be.
+    /// If a label is not valid.
     pub(super) fn changes(self) -> Result<LabelChanges, Problem> {
         let changes = LabelChanges {
             name: self.name,
@@ -196,7 +196,7 @@ impl<T: ToSchema> ToSchema for Labelled<T> {
 }
 
 impl<T: PartialSchema> PartialSchema for Labelled<T> {
-    /// The schema of the request with the fields of labels.
+    /// Schema of the request, extended by the fields of labels.
     fn schema() -> RefOr<Schema> {
         let mut schema = T::schema();
         if let (RefOr::T(Schema::Object(object)), RefOr::T(Schema::Object(given))) =
@@ -209,7 +209,7 @@ impl<T: PartialSchema> PartialSchema for Labelled<T> {
 }
 
 impl<'de, T: DeserializeOwned> Deserialize<'de> for Labelled<T> {
-    /// Takes the labels out on the way: the request knows no such fields, and refuses what it does not know.
+    /// Takes the labels out while reading: the request has no such fields, and refuses fields that it does not have.
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         struct Apart<T>(std::marker::PhantomData<T>);
 
@@ -231,7 +231,7 @@ impl<'de, T: DeserializeOwned> Deserialize<'de> for Labelled<T> {
     }
 }
 
-/// What is in a map beside labels, which are put aside.
+/// Map without its labels, which go to `given` while it is read.
 struct WithoutLabels<'a, A> {
     map: A,
     given: &'a mut Given,

@@ -1,4 +1,4 @@
-//! Results that are kept leg by leg.
+//! Results that are stored leg by leg.
 
 use serde::de::DeserializeOwned;
 use tokio::runtime::Handle;
@@ -11,7 +11,7 @@ use crate::store::results::Document;
 use crate::store::status::JobStatus;
 use crate::store::{Followed, Store};
 
-/// Legs of a job, so far.
+/// Legs that a job has stored so far.
 pub(super) struct Legs {
     store: Store,
     runtime: Handle,
@@ -22,10 +22,10 @@ pub(super) struct Legs {
 }
 
 impl Legs {
-    /// Those of `job`.
+    /// Finds the legs of `job`.
     ///
     /// # Errors
-    /// That it has no `thing` yet, or never will.
+    /// If it has no `thing` yet, or never will.
     pub(super) async fn of(
         state: &AppState,
         job: &Job,
@@ -45,12 +45,12 @@ impl Legs {
         Ok(Self { store, runtime, job: job.id, followed, count, stored_bytes })
     }
 
-    /// Memory that reading them takes.
+    /// Memory that reading the legs takes, bytes.
     pub(super) fn bytes(&self) -> u64 {
         READ_MEMORY * self.stored_bytes
     }
 
-    /// Reads them, waiting.
+    /// Reads all legs; waits for the database.
     pub(super) fn read<L: DeserializeOwned>(&self) -> Result<Vec<L>, Problem> {
         let mut found = Vec::new();
         for index in 0..self.count {
@@ -59,7 +59,7 @@ impl Legs {
         Ok(found)
     }
 
-    /// Reads what is kept beside one of them, waiting.
+    /// Reads the document that is stored beside one leg, if there is one; waits for the database.
     pub(super) fn read_beside<B: DeserializeOwned>(&self, index: usize) -> Result<Option<B>, Problem> {
         self.followed.beside(index as u32).map_or(Ok(None), |document| self.document(document))
     }

@@ -1,4 +1,4 @@
-//! Interaction maps as they are shown: rows are read from the store while they are sent, as all of them may be larger than memory.
+//! Interaction maps as answers show them: rows are read from the store while they are sent, as all of them may be larger than memory.
 
 use std::io::{self, Write};
 
@@ -16,14 +16,14 @@ use crate::analysis::result::{
 use crate::dynamics::sector::Units;
 use crate::export::maps::Maps;
 
-/// What `sensors` decides.
+/// Interaction map of one sensor, or maps of several, as `sensors` decides.
 #[derive(Serialize, ToSchema)]
 #[serde(untagged)]
 #[expect(dead_code, reason = "describes the answer in the OpenAPI document only")]
 pub(super) enum MapBody {
-    /// Without `sensors`.
+    /// Map of one sensor: the request has no `sensors`.
     One(InteractionMap),
-    /// With `sensors`.
+    /// Maps of several sensors: the request has `sensors`.
     Several(SensorMaps),
 }
 
@@ -34,40 +34,40 @@ pub(super) struct SensorMaps {
     speeds_rad_s: Vec<f64>,
     /// Engine orders of the columns.
     engine_orders: Vec<f64>,
-    /// `[sensor][speed][engine order]`; a row is null where that speed has no result.
+    /// Amplitudes `[sensor][speed][engine order]`; a row is null where that speed has no result.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     amplitude: Vec<Vec<Option<Vec<f64>>>>,
-    /// What was recorded.
+    /// Sensors of the maps.
     sensors: Vec<Sensor>,
-    /// Restricted to this nodal diameter, if asked for.
+    /// Nodal diameter to which the maps are restricted, if one was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     nodal_diameter: Option<u32>,
     /// Units of the model.
     units: Units,
-    /// Credentials, one per finished speed, in the order of the speeds.
+    /// Credentials of the finished speeds, in the order of the speeds.
     points: Vec<Point>,
-    /// The worst verdict on K(Ω) of `points`; absent where none has one.
+    /// Worst verdict on K(Ω) of `points`; absent where none has one.
     #[serde(skip_serializing_if = "Option::is_none")]
     stiffening: Option<StiffeningVerdict>,
     /// Estimated errors of the amplitudes, once the job is successful; absent without control runs.
     #[serde(skip_serializing_if = "Option::is_none")]
     errors: Option<ErrorEstimate>,
-    /// What `refine` has added; absent without it.
+    /// Speeds that `refine` has added; absent without it.
     #[serde(skip_serializing_if = "Option::is_none")]
     refinement: Option<Refinement>,
-    /// What the sweep was expected to cost; absent before its speeds are queued.
+    /// Cost that the sweep was expected to have; absent before its speeds are queued.
     #[serde(skip_serializing_if = "Option::is_none")]
     plan: Option<Estimate>,
-    /// What its finished speeds have cost.
+    /// Cost of the finished speeds.
     spent: Spent,
-    /// The whole request as resolved.
+    /// Whole request as resolved.
     settings: SweepRequest,
     /// Version of the code.
     version: String,
 }
 
 impl SensorMaps {
-    /// All but the amplitudes.
+    /// Maps of several sensors without their amplitudes.
     fn of(map: &InteractionMap, sensors: Vec<Sensor>) -> Self {
         let InteractionMap {
             speeds_rad_s,
@@ -107,7 +107,7 @@ impl SensorMaps {
 /// Writes maps in one of the forms of numbers.
 ///
 /// # Errors
-/// Those of writing and of reading rows.
+/// Errors of writing and of reading rows.
 pub(super) fn write<R>(
     maps: &Maps<R>,
     form: Form,
@@ -142,12 +142,12 @@ where
     }
 }
 
-/// What is there as a whole, and amplitudes that are read while they are written.
+/// Map of which all but the amplitudes is in memory; those are read while they are written.
 #[derive(Serialize)]
 struct InPieces<'a, M, A> {
     amplitude: A,
     speed_indices: &'a [u32],
-    /// Without amplitudes.
+    /// Map without amplitudes.
     #[serde(flatten)]
     map: M,
 }

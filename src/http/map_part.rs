@@ -1,4 +1,4 @@
-//! Which part of a sweep's interaction maps is asked for, and its rows.
+//! Part of a sweep's interaction maps that a request asks for, and its rows.
 
 use serde::Deserialize;
 use tokio::runtime::Handle;
@@ -16,77 +16,77 @@ use crate::store::jobs::{Job, JobId};
 use crate::store::results::Document;
 use crate::store::{Store, StoreError};
 
-/// Which part of an interaction map to download.
+/// Part of an interaction map to download, and its drawing.
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 pub(super) struct MapQuery {
     /// Index of the sensor in the request; default 0.
     sensor: Option<u32>,
-    /// In place of `sensor`: indices of sensors and ranges of them, such as `0-2,5`. Amplitudes are then `[sensor][speed][engine order]`,
-    /// even of one.
+    /// Indices of sensors and ranges of them, such as `0-2,5`, in place of `sensor`. Amplitudes are then
+    /// `[sensor][speed][engine order]`, even of one.
     #[param(max_length = 1000)]
     sensors: Option<String>,
-    /// Only these speeds: indices in the request and ranges of them, or ranges in rpm, rad_s or hz, such as `0-9,15` or
-    /// `24000-28000rpm`. A drawing shows what is from the slowest to the fastest of them.
+    /// Speeds to download: indices in the request and ranges of them, or ranges in rpm, rad_s or hz, such as `0-9,15` or
+    /// `24000-28000rpm`; default all. A drawing shows everything from the slowest to the fastest of them.
     #[param(max_length = 1000)]
     speeds: Option<String>,
-    /// Only these engine orders: numbers and ranges, such as `0-8,12`. A drawing shows what is from the lowest to the highest.
+    /// Engine orders to download: numbers and ranges, such as `0-8,12`; default all. A drawing shows everything from the lowest to the highest.
     #[param(max_length = 1000)]
     orders: Option<String>,
-    /// Only the wheel's component in this nodal diameter.
+    /// Nodal diameter: only the wheel's component in it.
     nodal_diameter: Option<u32>,
-    /// Of a drawing, in place of `nodal_diameter`: a sheet with a map of each of these nodal diameters, such as `0-4`.
+    /// Nodal diameters of a sheet, such as `0-4`, in place of `nodal_diameter`: a drawing with a map of each of them.
     #[param(max_length = 1000)]
     nodal_diameters: Option<String>,
-    /// Of a drawing: the axis upwards; default `engine_order`. A sheet has engine orders.
+    /// Vertical axis of a drawing; default `engine_order`. A sheet has engine orders.
     #[param(inline)]
     pub(super) axis: Option<MapAxis>,
-    /// Of a drawing that is not a sheet: the frame in which the vibration is seen; default `rotating`. In the fixed frame `orders` are
+    /// Frame in which a drawing that is not a sheet shows the vibration; default `rotating`. In the fixed frame `orders` are
     /// multiples of the rotational frequency.
     #[param(inline)]
     pub(super) frame: Option<FrameWord>,
-    /// Of a drawing: what the level above the map, of a sheet the strip above each map, is coloured by; default `plain`.
+    /// Colour of the level above a drawn map, and of the strip above each map of a sheet; default `plain`.
     #[param(inline)]
     pub(super) colour: Option<MapColour>,
 }
 
-/// What the level of an interaction map is coloured by.
+/// Quantity by which the level of an interaction map is coloured.
 #[derive(Debug, Clone, Copy, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum MapColour {
-    /// Nothing.
+    /// No quantity: one colour.
     Plain,
-    /// The largest utilisation at each speed; critical speeds say theirs.
+    /// Largest utilisation at each speed; critical speeds are labelled with theirs.
     Utilisation,
 }
 
-/// Axis of an interaction map upwards.
+/// Vertical axis of an interaction map.
 #[derive(Debug, Clone, Copy, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum MapAxis {
-    /// Engine-order lines are horizontal.
+    /// Engine order: lines of equal engine order are horizontal.
     EngineOrder,
-    /// Engine-order lines rise with speed.
+    /// Frequency: lines of equal engine order rise with speed.
     Frequency,
 }
 
-/// The part of a sweep's maps that is asked for.
+/// Part of a sweep's maps that a request asks for.
 pub(super) struct Part {
-    /// Indices in the request, ascending.
+    /// Sensors with their indices in the request, ascending.
     pub(super) sensors: Vec<(u32, Sensor)>,
-    /// Whether they were asked for as several.
+    /// Whether the request has `sensors`, even with one index.
     pub(super) several: bool,
-    /// Indices in the request, ascending.
+    /// Indices of the speeds in the request, ascending.
     pub(super) speeds: Vec<u32>,
     /// Columns of the engine orders, ascending.
     pub(super) columns: Vec<usize>,
-    /// Whether these may be less than all.
+    /// Whether the request selects speeds, and whether it selects engine orders.
     selects: (bool, bool),
-    /// Nodal diameters; `None` is the whole wheel's motion.
+    /// Nodal diameters; `None` is the motion of the whole wheel.
     pub(super) diameters: Vec<Option<u32>>,
-    /// Whether these were asked for as several.
+    /// Whether the request has `nodal_diameters`: a sheet.
     pub(super) sheet: bool,
-    /// Of one map.
+    /// Frame of a map that is not on a sheet.
     pub(super) frame: Frame,
 }
 
@@ -148,7 +148,7 @@ impl Part {
         })
     }
 
-    /// The map of the first sensor, without rows.
+    /// Map of the first sensor, without rows.
     pub(super) fn head(&self, job: &Job, store: &Store, runtime: &Handle) -> Result<InteractionMap, Problem> {
         let (request, facts) = sweep(job)?;
         let errors = runtime.block_on(store.document(job.id, Document::Errors))?;
@@ -162,7 +162,7 @@ impl Part {
         Ok(InteractionMap { plan: job.plan.clone(), errors, amplitude: Vec::new(), ..map })
     }
 
-    /// The chosen columns of a row, of each nodal diameter one after the other.
+    /// Chosen columns of a row, of each nodal diameter one after the other.
     pub(super) fn row(
         &self,
         store: &Store,
@@ -182,7 +182,7 @@ impl Part {
         runtime.block_on(store.map_row(job, index, of))
     }
 
-    /// The maps of the first sensor with their rows, one per nodal diameter, or the one in the fixed frame.
+    /// Maps of the first sensor with their rows, one per nodal diameter, or the one in the fixed frame.
     pub(super) fn maps(
         &self,
         job: &Job,
@@ -226,7 +226,7 @@ impl Part {
         Ok(InteractionMap { engine_orders: self.seen(job)?, amplitude, ..head })
     }
 
-    /// Engine orders that a drawing of the whole has: in the fixed frame, multiples of the rotational frequency.
+    /// Engine orders of a drawing of the whole map; in the fixed frame, multiples of the rotational frequency.
     pub(super) fn seen(&self, job: &Job) -> Result<Vec<f64>, Problem> {
         let (request, facts) = sweep(job)?;
         Ok(match self.frame {
@@ -235,7 +235,7 @@ impl Part {
         })
     }
 
-    /// What a drawing shows: from the slowest to the fastest chosen speed, and from the lowest to the highest engine order.
+    /// Window of a drawing: from the slowest to the fastest chosen speed, and from the lowest to the highest chosen engine order.
     pub(super) fn window(&self, request: &ResolvedSweep) -> Result<Window, Problem> {
         let range = |name: &str, values: &mut dyn Iterator<Item = f64>| {
             let ends =
@@ -256,7 +256,7 @@ impl Part {
     }
 }
 
-/// All speeds and all columns of a sweep's maps.
+/// Indices of all speeds and all columns of a sweep's maps.
 pub(super) fn whole(request: &ResolvedSweep) -> (Vec<u32>, Vec<usize>) {
     let (speeds, orders) = (request.speeds().rad_s().len(), run::map_engine_orders(request).len());
     ((0..speeds as u32).collect(), (0..orders).collect())

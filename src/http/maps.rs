@@ -1,4 +1,4 @@
-//! Interaction maps.
+//! Interaction maps: amplitude over speed and engine order.
 
 use std::collections::BTreeSet;
 use std::io;
@@ -24,7 +24,7 @@ use crate::store::jobs::Job;
 use crate::store::results::Document;
 use crate::tokens::Principal;
 
-/// Memory of a map that is drawn, over its amplitudes.
+/// Memory of a map that is drawn, in multiples of its amplitudes.
 const DRAWN_MEMORY: u64 = 3;
 
 /// Download the interaction map: amplitude over speed and engine order.
@@ -91,7 +91,7 @@ pub(super) async fn get_interaction_map(
     }))
 }
 
-/// A drawing or a figure of one map, or a sheet of one per nodal diameter.
+/// Answers with a drawing or a figure of one map, or with a sheet of one map per nodal diameter.
 async fn draw(
     state: &AppState,
     job: Job,

@@ -1,4 +1,4 @@
-//! The mesh of a model.
+//! Mesh of a model.
 
 use axum::extract::State;
 use axum::response::Response;
@@ -17,18 +17,18 @@ use crate::export::fields::FieldFile;
 use crate::jobs;
 use crate::tokens::Principal;
 
-/// What of a mesh to download.
+/// Part of a mesh to download.
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 pub(super) struct MeshQuery {
-    /// This sector alone, from 0; default all.
+    /// Index of the one sector to download, from 0; default all sectors.
     sector: Option<u32>,
 }
 
-/// Download the mesh of the whole wheel or one sector, as it was sent.
+/// Download the mesh of the whole wheel or one sector, as it was uploaded.
 ///
-/// `vtu` has all elements, `vtp` the skin, `npz` arrays. Points say which `node` they are, of which `sector`, and with `contact` their place
-/// in the contact line, from 1; others have 0. Of a package without a mesh there are points only.
+/// `vtu` has all elements, `vtp` the skin, `npz` arrays. Every point has the number of its `node`, its `sector`, and in `contact`
+/// its position in the contact line, from 1; other points have 0. A package without a mesh gives points only.
 #[utoipa::path(get, path = "/v1/models/{id}/mesh", operation_id = "get_mesh", tag = "models",
     params(("id" = String, Path, description = "Id of the model."), MeshQuery, DownloadQuery),
     responses(

@@ -1,4 +1,4 @@
-//! The service in numbers, as Prometheus reads them.
+//! Metrics of the service, as Prometheus reads them.
 
 use std::fmt::Debug;
 use std::sync::atomic::Ordering;
@@ -19,10 +19,10 @@ use super::server::descriptors;
 use super::state::AppState;
 use super::{health, probe};
 
-/// Media type of the answer.
+/// Media type of an answer with metrics.
 const MEDIA_TYPE: &str = "application/openmetrics-text; version=1.0.0; charset=utf-8";
 
-/// Numbers as they are now.
+/// Metrics that are read at the moment of the request.
 struct Snapshot(Registry);
 
 impl Snapshot {
@@ -44,9 +44,9 @@ impl Snapshot {
     }
 }
 
-/// Read the service in numbers.
+/// Read the metrics of the service.
 ///
-/// In the text format of `OpenMetrics`, which Prometheus reads. What cannot be found out at the moment is left out.
+/// The answer is in the text format of `OpenMetrics`, which Prometheus reads. A metric that cannot be read at the moment is left out.
 #[utoipa::path(get, path = "/metrics", operation_id = "get_metrics", tag = "service",
     responses((status = 200, description = "The numbers.", body = String,
         content_type = "application/openmetrics-text")))]

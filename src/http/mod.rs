@@ -1,4 +1,4 @@
-//! The service as the world sees it. The only place that knows status codes; it computes nothing.
+//! HTTP interface of the service. Only this module has status codes; it computes nothing.
 
 mod access;
 pub mod archive;

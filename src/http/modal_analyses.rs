@@ -1,4 +1,4 @@
-//! Modal analyses.
+//! Modal analyses: natural frequencies over speed, and the linear interaction criterion.
 
 use axum::Json;
 use axum::extract::State;
@@ -15,7 +15,7 @@ use crate::analysis::run::ModalAnalysisPlan;
 use crate::jobs::Submission;
 use crate::tokens::Principal;
 
-/// The body: the request, and what the job is to be called.
+/// Body of a modal analysis: the request, and the labels of the job.
 type ModalAnalysisBody = Labelled<ModalAnalysisRequest>;
 
 /// Compute natural frequencies over speed and the linear interaction criterion.
@@ -41,7 +41,7 @@ pub(super) async fn create_modal_analysis(
     submit::accept(&state, &whose, key, &body.fingerprint, submission).await
 }
 
-/// Say what a modal analysis would do and cost, without starting anything.
+/// Plan a modal analysis: what it would do and cost. Starts nothing.
 ///
 /// Takes the body of `POST /v1/modal-analyses` and answers at once.
 #[utoipa::path(post, path = "/v1/modal-analyses/plan", operation_id = "plan_modal_analysis", tag = "jobs",

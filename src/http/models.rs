@@ -29,7 +29,7 @@ use crate::store::labels::Labels;
 use crate::store::models::{Deletion, ModelFilter, StoredModel};
 use crate::tokens::Principal;
 
-/// Parameters of the generator, and what job and model are to be called.
+/// Body of a generation: parameters of the generator, and the labels of job and model.
 type GenerationBody = Labelled<ImpellerRequest>;
 
 const JSON: &str = "application/json";
@@ -37,64 +37,63 @@ const JSON: &str = "application/json";
 /// Bytes of an upload that are written at once.
 const PIECE: usize = 1 << 20;
 
-/// A model.
+/// Model with its facts and labels.
 #[derive(Debug, Serialize, ToSchema)]
 pub(super) struct ModelBody {
-    /// Digest of the package's content: the same model is one model, however it was zipped.
+    /// Digest of the package's content: the same content is the same model, however it was zipped.
     #[schema(example = "9f86d081884c7d659a2feaa0c55ad015a3bf4f1b2b0b822cd15d6c15b0f00a08")]
     id: String,
-    /// Its `name` is that of the package, unless its owner calls it otherwise.
+    /// Facts of the model; its `name` is that of the package, unless its owner gave it another.
     #[serde(flatten)]
     facts: ModelFacts,
-    /// Words to group by.
+    /// Words to group the model by.
     tags: Vec<String>,
-    /// What its owner has noted.
+    /// Notes of the owner.
     #[serde(skip_serializing_if = "Option::is_none")]
     notes: Option<String>,
-    /// Size of the zip as uploaded.
+    /// Size of the zip as uploaded, bytes.
     size_bytes: u64,
-    /// When it was uploaded first (RFC 3339).
+    /// Time at which the model was first uploaded (RFC 3339).
     created_at: String,
 }
 
-/// A model and what was found about it.
+/// Model with the reports of its reductions.
 #[derive(Debug, Serialize, ToSchema)]
 pub(super) struct ModelDetail {
     #[serde(flatten)]
     model: ModelBody,
-    /// One report per reduction made so far: residuals, sizes, and how far K(Ω) can be trusted between the given
-    /// speeds.
+    /// Reports of the reductions made so far: residuals, sizes, and how far K(Ω) can be trusted between the given speeds.
     reductions: Vec<ReductionReport>,
 }
 
-/// Which models to list.
+/// Filters of a list of models, and its page.
 #[derive(Debug, Serialize, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 pub(super) struct ModelQuery {
-    /// Only models with this in their names; letters a to z may be capitals or not.
+    /// Text in the names of the models to list; letters a to z may be capitals or not.
     #[serde(skip_serializing_if = "Option::is_none")]
     name: Option<String>,
-    /// Only models with this tag.
+    /// Tag of the models to list.
     #[serde(skip_serializing_if = "Option::is_none")]
     tag: Option<String>,
     /// Models per page, 1 to 500; default 50.
     #[param(minimum = 1, maximum = 500)]
     limit: Option<u32>,
-    /// Where the page begins: from `next` of the page before.
+    /// Cursor at which the page begins: from `next` of the page before.
     cursor: Option<String>,
 }
 
-/// A page of models.
+/// Page of a list of models.
 #[derive(Debug, Serialize, ToSchema)]
 pub(super) struct ModelList {
-    /// Newest first.
+    /// Models of the page, newest first.
     models: Vec<ModelBody>,
     /// Path of the next page; absent on the last.
     #[serde(skip_serializing_if = "Option::is_none")]
     next: Option<String>,
 }
 
-/// A zip file as docs/package.md describes it.
+/// Package of a model: a zip file as docs/package.md describes it.
 #[derive(ToSchema)]
 #[schema(value_type = String, format = Binary)]
 #[expect(dead_code, reason = "describes the body in the OpenAPI document only")]
@@ -109,17 +108,17 @@ impl From<StoredModel> for ModelBody {
     }
 }
 
-/// Upload a model package, or have an impeller generated from parameters.
+/// Upload a model package, or start a job that generates an impeller from parameters.
 ///
-/// A package (`application/zip`) is checked completely before it is kept. A package whose content is known already,
-/// whatever its name and compression, is not kept twice.
+/// A package (`application/zip`) is checked completely before it is stored. A package whose content is known already, whatever its
+/// name and compression, is not stored twice.
 ///
-/// Parameters of the generator (`application/json`; what they leave out comes from the preset) become a job of kind
-/// `model_generation`. When it is successful its `model` is the id of the model, the same as of an uploaded package with
-/// that content.
+/// Parameters of the generator (`application/json`; the preset supplies those that are left out) become a job of kind
+/// `model_generation`. When it is successful its `model` is the id of the model, which is that of an uploaded package with the same
+/// content.
 ///
-/// What the model is to be called comes in the query of a package, and beside the parameters of the generator, where the job is
-/// called so as well. A model that is known keeps what it is called; `PATCH` changes it.
+/// Labels of the model are given in the query of a package, and beside the parameters of the generator, where they are also those
+/// of the job. A model that is known keeps its labels; `PATCH` changes them.
 #[utoipa::path(post, path = "/v1/models", operation_id = "create_model", tag = "models",
     params(LabelQuery, ("Idempotency-Key" = Option<String>, Header,
         description = "Repeating the request with this key repeats its answer.")),
@@ -194,7 +193,7 @@ pub(super) async fn create_model(
     Ok(idempotency::respond(&answer))
 }
 
-/// Say what generating a model would make and take, without starting anything.
+/// Plan the generation of a model: what it would make and cost. Starts nothing.
 #[utoipa::path(post, path = "/v1/models/plan", operation_id = "plan_model_generation", tag = "models",
     request_body(content = GenerationBody),
     responses(
@@ -266,7 +265,7 @@ pub(super) async fn list_models(
     Ok(Json(ModelList { models: models.into_iter().map(ModelBody::from).collect(), next }))
 }
 
-/// Read a model's facts and what its reductions found.
+/// Read the facts of a model and the reports of its reductions.
 #[utoipa::path(get, path = "/v1/models/{id}", operation_id = "get_model", tag = "models",
     params(("id" = String, Path, description = "Id of the model.")),
     responses(
@@ -282,10 +281,10 @@ pub(super) async fn get_model(
     Ok(Json(ModelDetail { model: model.into(), reductions }))
 }
 
-/// Call a model otherwise.
+/// Change the labels of a model.
 ///
-/// A merge patch (RFC 7396): what is left out stays, null takes away; without a name of its own a model has that of its package.
-/// Of a model that several owners have each changes what he calls it.
+/// Takes a merge patch (RFC 7396): a label that is left out stays, null removes it; a model whose name is removed has that of its
+/// package. If several owners have the same model, each owner changes only their own labels.
 #[utoipa::path(patch, path = "/v1/models/{id}", operation_id = "label_model", tag = "models",
     params(("id" = String, Path, description = "Id of the model.")),
     request_body(content((LabelPatch = "application/merge-patch+json"), (LabelPatch = "application/json"))),
@@ -310,7 +309,7 @@ pub(super) async fn label_model(
 
 /// Delete a model with its package and reductions.
 ///
-/// Jobs that are finished keep their results. Jobs that are not keep the model: cancel them first.
+/// Finished jobs keep their results. A model that unfinished jobs need is not deleted: cancel them first.
 #[utoipa::path(delete, path = "/v1/models/{id}", operation_id = "delete_model", tag = "models",
     params(("id" = String, Path, description = "Id of the model.")),
     responses(

@@ -1,4 +1,4 @@
-//! Mode shapes of a model.
+//! Mode shapes and natural frequencies of a model.
 
 use axum::extract::State;
 use axum::response::Response;
@@ -18,35 +18,34 @@ use crate::export::fields::FieldFile;
 use crate::store::models::StoredModel;
 use crate::tokens::Principal;
 
-/// Bytes of an answer in JSON and the eigenproblems before it.
+/// Bytes that an answer in JSON and its eigenproblems take.
 const LIST_MEMORY: u64 = 64 << 20;
 
-/// Which mode to download, and how.
+/// Mode to download, and its speed, motion and phase.
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 pub(super) struct ModesQuery {
-    /// Of which reduction; default the finest that there is.
+    /// Modes per speed of the reduction; default the finest that there is.
     #[param(minimum = 1)]
     modes_per_speed: Option<u32>,
     /// Speed of rotation, rad/s; default 0. Modes are those of K(Ω) where the model has it, without Coriolis forces.
     #[serde(default)]
     #[param(minimum = 0.0)]
     speed_rad_s: f64,
-    /// Nodal diameter; a field needs one.
+    /// Nodal diameter of the mode; a field needs one.
     nodal_diameter: Option<u32>,
-    /// Mode, from 1 by ascending frequency; default 1.
+    /// Number of the mode, from 1 by ascending frequency; default 1.
     #[param(minimum = 1)]
     mode: Option<u32>,
-    /// How it moves; default `standing`.
+    /// Motion of the mode; default `standing`.
     #[param(inline)]
     motion: Option<Motion>,
-    /// Phase, degrees; default 0: of a standing mode it turns the pattern about the wheel, of a travelling one it says how far that has
-    /// come.
+    /// Phase, degrees; default 0: turns the pattern of a standing mode about the wheel, and is how far a travelling mode has come.
     phase_deg: Option<f64>,
 }
 
 impl ModesQuery {
-    /// Refuses what belongs to a shape where the frequencies of all are listed.
+    /// Refuses parameters of a shape where the frequencies of all modes are listed.
     fn check_list(&self) -> Result<(), Problem> {
         let given = [
             ("nodal_diameter", self.nodal_diameter.is_some()),
@@ -64,21 +63,21 @@ impl ModesQuery {
     }
 }
 
-/// Natural frequencies at a speed.
+/// Natural frequencies of a model at a speed.
 #[derive(Debug, Serialize, ToSchema)]
 pub(super) struct ModesBody {
     /// Speed of rotation, rad/s.
     speed_rad_s: f64,
-    /// The reduction they are of.
+    /// Modes per speed of the reduction.
     modes_per_speed: u32,
-    /// By nodal diameter.
+    /// Natural frequencies by nodal diameter.
     nodal_diameters: Vec<ShapeFrequencies>,
 }
 
-/// Download a mode shape of the whole wheel or one sector, or the frequencies of all.
+/// Download a mode shape of the whole wheel or one sector, or the natural frequencies of all modes.
 ///
-/// `vtu` has all elements, `vtp` the skin, `npz` arrays, `pvd` a zip of files over one period, svg and png a drawing of the skin; json lists the frequencies of all nodal
-/// diameters. The largest displacement is 1. Of a package without a mesh there are points only.
+/// `vtu` has all elements, `vtp` the skin, `npz` arrays, `pvd` a zip of files over one period, svg and png a drawing of the skin;
+/// json lists the frequencies of all nodal diameters. The largest displacement is 1. A package without a mesh gives points only.
 ///
 /// The model must have been reduced, which every sweep and modal analysis does.
 #[utoipa::path(get, path = "/v1/models/{id}/modes", operation_id = "get_modes", tag = "models",

@@ -1,4 +1,4 @@
-//! What the contract says beside its paths, and the route that it is read from.
+//! Head of the contract, which stands beside its paths, and the route that serves the whole.
 
 use axum::extract::State;
 use axum::http::header;
@@ -8,7 +8,7 @@ use utoipa::OpenApi;
 use super::state::AppState;
 use super::submit::Receipt;
 
-/// All that the document says beside its paths.
+/// Parts of the document beside its paths.
 #[derive(OpenApi)]
 #[openapi(
     info(
@@ -34,7 +34,7 @@ use super::submit::Receipt;
 )]
 pub(super) struct ApiDoc;
 
-/// Read this document.
+/// Read this contract as a document.
 #[utoipa::path(get, path = "/openapi.json", operation_id = "get_openapi", tag = "service",
     responses((status = 200, description = "The OpenAPI 3.1 document.", body = Object)))]
 pub(super) async fn get_openapi(state: State<AppState>) -> impl IntoResponse {

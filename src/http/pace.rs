@@ -1,11 +1,11 @@
-//! The pace of a client: how long it keeps the service waiting for each piece of what it sends or takes.
+//! Pace of a client: how long it keeps the service waiting for each piece that it sends or takes.
 
 use std::time::Duration;
 
-/// Bytes of a piece. A byte now and then wins no time.
+/// Bytes of a piece; the wait is limited for a whole piece, so that a byte now and then wins no time.
 pub(super) const PIECE: u64 = 64 << 10;
 
-/// How a body comes or an answer is taken.
+/// Pace at which a body comes or an answer is taken.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(super) struct Pace {
     waited: Duration,
@@ -18,7 +18,7 @@ impl Pace {
         self.waited
     }
 
-    /// So many bytes more came or were taken, after a further wait.
+    /// Counts `bytes` more that came or were taken after a further wait.
     pub(super) fn moves(&mut self, bytes: u64, after: Duration) {
         self.waited += after;
         self.moved += bytes;

@@ -1,4 +1,4 @@
-//! Pictures of a report: the wheel when a tip had moved most, at speeds whose states were recorded.
+//! Pictures of a report: the wheel at the instant of the largest tip displacement, at speeds whose states were recorded.
 
 use tokio::runtime::Handle;
 
@@ -17,21 +17,21 @@ use crate::store::jobs::Job;
 use crate::store::results::Document;
 use crate::store::{Store, StoreError};
 
-/// Most speeds of which there are pictures.
+/// Largest number of speeds with pictures.
 const MOST: usize = 2;
 
-/// What they are drawn from.
+/// Source of the pictures of a report.
 #[derive(Debug)]
 pub(super) struct Pictures {
     source: FieldSource,
-    /// Index of each speed.
+    /// Indices of the speeds that have pictures.
     speeds: Vec<u32>,
-    /// Memory while they are made.
+    /// Memory that the pictures take while they are made, bytes.
     pub(super) bytes: u64,
 }
 
 impl Pictures {
-    /// Of the first speeds of a sweep with states; none without any, or of a model without mesh or reduction.
+    /// Finds the first speeds of a sweep with states; `None` if there are none, or the model has no mesh or reduction.
     pub(super) async fn find(
         state: &AppState,
         job: &Job,
@@ -57,7 +57,7 @@ impl Pictures {
         Ok(Some(Self { source, speeds, bytes }))
     }
 
-    /// The skin of the whole wheel at every speed. What cannot be read any more is left out of a report, and logged.
+    /// Draws the skin of the whole wheel at every speed. A picture that cannot be made any more is left out of the report, and logged.
     pub(super) fn draw(
         &self,
         (store, runtime): (&Store, &Handle),

@@ -1,4 +1,4 @@
-//! Who sends a request: from its bearer token, where the service has tokens.
+//! Principals of requests: found by the bearer token, where the service has tokens.
 
 use axum::extract::{FromRequestParts, Request, State};
 use axum::http::header::{AUTHORIZATION, WWW_AUTHENTICATE};
@@ -11,10 +11,10 @@ use super::problem::{Kind, Problem};
 use super::web;
 use crate::tokens::{Principal, Scope, Tokens};
 
-/// Paths that tell nothing about anybody, for those who watch over the process. The page is as open.
+/// Paths that disclose nothing about any user, for those who monitor the process. The page is as open.
 const OPEN: [&str; 2] = ["/healthz", "/readyz"];
 
-/// Middleware before every handler: finds out who asks, and refuses who may not.
+/// Middleware before every handler: finds out who sends a request, and refuses those who may not.
 pub(super) async fn authenticate(
     tokens: State<Option<Tokens>>,
     mut request: Request,

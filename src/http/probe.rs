@@ -1,4 +1,4 @@
-//! The latest look at the database.
+//! Cache of the latest probe of the database.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -8,21 +8,21 @@ use tokio::time::timeout;
 
 use crate::store::Store;
 
-/// How long is waited for the database and the disk.
+/// Longest wait for the database and the disk.
 pub(super) const PATIENCE: Duration = Duration::from_secs(2);
 
-/// How long a look at the database counts: each is a write and a flush, and anybody may ask.
+/// Time for which a probe of the database counts: each is a write and a flush, and anybody may ask.
 const COUNTS: Duration = Duration::from_secs(1);
 
-/// The latest look at the database. Locked while somebody looks.
+/// Latest probe of the database. Locked while one runs.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Probed(Arc<Mutex<Option<Look>>>);
 
-/// One look at the database.
+/// Probe of the database.
 #[derive(Debug)]
 struct Look {
     ended: Instant,
-    /// How long it took, or what went wrong.
+    /// Time that the probe took, or the error that it met.
     outcome: Result<Duration, String>,
 }
 
@@ -35,7 +35,7 @@ impl Look {
 }
 
 impl Probed {
-    /// Looks, unless somebody just did. In a task of its own: a write that nobody waits for any more still comes to its end.
+    /// Probes the database, unless that was just done. In a task of its own: a write that nobody waits for any more still ends.
     pub(super) async fn look(&self, store: &Store) -> Result<Duration, String> {
         let (latest, store) = (Arc::clone(&self.0), store.clone());
         let looking = async {

@@ -1,4 +1,4 @@
-//! Every error as an RFC 9457 problem: one table of kinds, and the translations from the layers below.
+//! Problems (RFC 9457), which every error becomes: one table of kinds, and the translations from the layers below.
 
 use axum::Json;
 use axum::extract::Request;
@@ -30,26 +30,26 @@ const PLANS_S: u32 = 1;
 /// `Retry-After` of a locked store and a lack of descriptors, s, which pass by themselves.
 const BUSY_S: u32 = 5;
 
-/// Most items in `errors`; of more, the last one says how many.
+/// Largest number of items in `errors`; if there are more, the last one says how many.
 pub(super) const MOST_ITEMS: usize = 20;
 
-/// Most characters that are shown of a value.
+/// Largest number of characters of a value that are shown.
 pub(super) const EXCERPT: usize = 60;
 
-/// Most characters of a text in a problem, whoever wrote it.
+/// Largest number of characters of a text in a problem, whoever wrote it.
 const LONGEST_TEXT: usize = 2000;
 
-/// What went wrong, for programs and people (RFC 9457).
+/// Problem that a request met, for programs and people (RFC 9457).
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, ToSchema)]
 pub struct Problem {
     /// Kind of problem: a URI that never changes, `urn:rubmap:problem:…`.
     #[schema(example = "urn:rubmap:problem:unknown-field")]
     pub r#type: &'static str,
-    /// The kind in words.
+    /// Kind of problem in words.
     pub title: &'static str,
     /// HTTP status.
     pub status: u16,
-    /// What happened this time, and what to do about it.
+    /// Description of this occurrence, and what to do about it.
     pub detail: String,
     /// Path of the request.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -63,7 +63,7 @@ pub struct Problem {
     pub errors: Vec<ProblemItem>,
 }
 
-/// One of the things that are wrong.
+/// Item of a problem: one of the things that are wrong.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, ToSchema)]
 pub struct ProblemItem {
     /// RFC 6901 pointer into the request body, or into `file` if that is given.
@@ -81,7 +81,7 @@ pub struct ProblemItem {
     /// Column within the line, from 1.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub column: Option<u64>,
-    /// What is wrong and what would be right.
+    /// Description of what is wrong and of what would be right.
     pub detail: String,
 }
 
@@ -106,21 +106,21 @@ kinds! {
     InvalidParameter = BAD_REQUEST, "invalid-parameter", "A parameter is not valid";
     /// The request cannot be read for another reason.
     BadRequest = BAD_REQUEST, "bad-request", "The request cannot be read";
-    /// No token, or none that is known.
+    /// The request has no token, or one that is not known.
     Unauthorized = UNAUTHORIZED, "unauthorized", "The service wants a token";
-    /// The token does not allow it.
+    /// The token does not allow the request.
     Forbidden = FORBIDDEN, "forbidden", "The token does not allow this";
     /// A page of another site asks for a change.
     CrossSite = FORBIDDEN, "cross-site", "A page of another site may not change anything here";
-    /// No such route.
+    /// The route does not exist.
     NotFound = NOT_FOUND, "not-found", "There is nothing here";
-    /// No such model.
+    /// The model does not exist.
     ModelNotFound = NOT_FOUND, "model-not-found", "There is no such model";
-    /// No such job.
+    /// The job does not exist.
     JobNotFound = NOT_FOUND, "job-not-found", "There is no such job";
     /// The job has ended.
     JobEnded = CONFLICT, "job-ended", "The job has ended";
-    /// No such speed in the job, or none computed.
+    /// The job has no such speed, or did not compute it.
     SpeedNotFound = NOT_FOUND, "speed-not-found", "There is no such speed";
     /// The model has no such reduction, or its basis is gone.
     NotReduced = CONFLICT, "not-reduced", "The model has no such reduction";
@@ -128,7 +128,7 @@ kinds! {
     HistoryNotRecorded = NOT_FOUND, "history-not-recorded", "There are no histories of this speed";
     /// No stress of that speed was recorded.
     StressNotRecorded = NOT_FOUND, "stress-not-recorded", "There is no stress";
-    /// The route knows other methods.
+    /// The route has other methods only.
     MethodNotAllowed = METHOD_NOT_ALLOWED, "method-not-allowed", "The method is not allowed here";
     /// The result does not have the form that was asked for.
     NotAcceptable = NOT_ACCEPTABLE, "not-acceptable", "The result does not come in this form";
@@ -140,7 +140,7 @@ kinds! {
     ResultNotReady = CONFLICT, "result-not-ready", "The result is not ready yet";
     /// The result will never come.
     ResultUnavailable = CONFLICT, "result-unavailable", "The job ended without this result";
-    /// The client stopped sending.
+    /// The client stopped sending the body.
     UploadStalled = REQUEST_TIMEOUT, "upload-stalled", "The body stopped coming";
     /// The request is meant for another host.
     Misdirected = MISDIRECTED_REQUEST, "misdirected-request", "The request is meant for another host";
@@ -148,7 +148,7 @@ kinds! {
     PayloadTooLarge = PAYLOAD_TOO_LARGE, "payload-too-large", "The body is too large";
     /// The body is of the wrong type.
     UnsupportedMediaType = UNSUPPORTED_MEDIA_TYPE, "unsupported-media-type", "The body is of the wrong type";
-    /// A field that does not exist.
+    /// The request has a field that does not exist.
     UnknownField = UNPROCESSABLE_ENTITY, "unknown-field", "The request has a field that does not exist";
     /// The request does not make sense.
     InvalidRequest = UNPROCESSABLE_ENTITY, "invalid-request", "The request cannot be met";
@@ -162,7 +162,7 @@ kinds! {
     NothingCompleted = UNPROCESSABLE_ENTITY, "nothing-completed", "No speed of the sweep was completed";
     /// The job needs more memory than the service may take.
     OutOfMemory = INSUFFICIENT_STORAGE, "out-of-memory", "The job needs more memory than allowed";
-    /// The owner has too much already.
+    /// The owner has reached a limit.
     LimitReached = TOO_MANY_REQUESTS, "limit-reached", "A limit of yours is reached";
     /// The disk of the data folder is full.
     DiskFull = INSUFFICIENT_STORAGE, "disk-full", "There is no room for it on the disk";
@@ -175,7 +175,7 @@ kinds! {
 }
 
 impl Problem {
-    /// A problem of `kind`.
+    /// Makes a problem of `kind`.
     pub fn new(kind: Kind, detail: impl Into<String>) -> Self {
         let (status, r#type, title) = kind.entry();
         Self {
@@ -189,19 +189,19 @@ impl Problem {
         }
     }
 
-    /// With the thing that is wrong.
+    /// Adds the one thing that is wrong.
     #[must_use]
     pub fn with(self, item: ProblemItem) -> Self {
         self.with_all(vec![item])
     }
 
-    /// With all that is wrong.
+    /// Adds everything that is wrong.
     #[must_use]
     pub fn with_all(self, items: Vec<ProblemItem>) -> Self {
         self.with_first_of(items.len(), items)
     }
 
-    /// With the first `items` of `total` things that are wrong.
+    /// Adds the first `items` of `total` things that are wrong.
     fn with_first_of(mut self, total: usize, mut items: Vec<ProblemItem>) -> Self {
         if total > MOST_ITEMS {
             items.truncate(MOST_ITEMS - 1);
@@ -215,14 +215,14 @@ impl Problem {
         self
     }
 
-    /// That may be gone after so many seconds.
+    /// Adds the time after which the problem may be gone, s.
     #[must_use]
     pub fn retry_after(mut self, seconds: u32) -> Self {
         self.retry_after_s = Some(seconds);
         self
     }
 
-    /// A parameter that cannot be used.
+    /// Problem of a parameter that cannot be used.
     pub fn parameter(name: &str, detail: impl Into<String>) -> Self {
         let detail = detail.into();
         Self::new(Kind::InvalidParameter, format!("{name}: {detail}")).with(ProblemItem {
@@ -232,12 +232,12 @@ impl Problem {
         })
     }
 
-    /// A request with these violations.
+    /// Problem of a request with these violations.
     pub fn violations(kind: Kind, violations: Vec<Violation>) -> Self {
         Self::first_violations(kind, violations.len(), violations)
     }
 
-    /// A request with `total` violations, of which `first` are the first.
+    /// Problem of a request with `total` violations, of which `first` are the first.
     pub(super) fn first_violations(kind: Kind, total: usize, first: Vec<Violation>) -> Self {
         let items = first.into_iter().take(MOST_ITEMS).map(ProblemItem::from).collect();
         let problem = Self::new(kind, "").with_first_of(total, items);
@@ -249,7 +249,7 @@ impl Problem {
         Self { detail, ..problem }
     }
 
-    /// The problem that an error answer without a body stands for.
+    /// Problem for an error answer that has no body.
     pub(super) fn from_status(status: StatusCode) -> Self {
         let (kind, detail) = match status {
             StatusCode::NOT_FOUND => (Kind::NotFound, "no route matches this path; see /openapi.json"),
@@ -267,12 +267,12 @@ impl Problem {
     }
 }
 
-/// A value as it is shown in a message.
+/// Excerpt of a value, for messages.
 pub(super) fn excerpt(text: &str) -> String {
     cut(text.chars().take(EXCERPT + 1).collect(), EXCERPT)
 }
 
-/// The first `most` characters of a text.
+/// Cuts a text to its first `most` characters.
 fn cut(mut text: String, most: usize) -> String {
     if let Some((end, _)) = text.char_indices().nth(most) {
         text.truncate(end);
@@ -406,7 +406,7 @@ impl IntoResponse for Problem {
     }
 }
 
-/// Middleware around everything: errors without a problem get one, and problems learn the path of their request.
+/// Middleware around everything: gives a problem to errors without one, and adds the path of the request to every problem.
 pub(super) async fn complete(request: Request, next: Next) -> Response {
     let path = request.uri().path().to_owned();
     let mut response = next.run(request).await;
@@ -425,7 +425,7 @@ pub(super) async fn complete(request: Request, next: Next) -> Response {
     completed
 }
 
-/// The answer when a handler panics.
+/// Answer when a handler panics.
 pub(super) fn panicked(_: Box<dyn std::any::Any + Send>) -> Response {
     tracing::error!("a handler panicked");
     Problem::new(Kind::Internal, "a defect of the program; the service's log says more").into_response()

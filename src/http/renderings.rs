@@ -1,32 +1,32 @@
-//! Drawings that were made already, so that a page that shows ten of them does not have them drawn at every visit.
+//! Drawings that were made already and are stored in memory, so that a page with ten of them does not have them drawn at every visit.
 
 use std::collections::{HashMap, VecDeque};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use axum::body::Bytes;
 
-/// Bytes that are kept. A drawing has some hundred thousand.
+/// Bytes of all stored drawings. One drawing has some hundred thousand.
 const MOST: usize = 32 << 20;
 
-/// Drawings of what does not change any more, by their entity tags. The oldest make room for new ones.
+/// Drawings of results that do not change any more, by their entity tags. The oldest make room for new ones.
 #[derive(Debug, Default)]
 pub struct Renderings(Mutex<Kept>);
 
 #[derive(Debug, Default)]
 struct Kept {
     by_tag: HashMap<String, Bytes>,
-    /// Oldest first.
+    /// Entity tags of the drawings, oldest first.
     order: VecDeque<String>,
     bytes: usize,
 }
 
 impl Renderings {
-    /// The drawing with this tag, if it is still there.
+    /// Drawing with this tag, if it is still stored.
     pub(super) fn get(&self, tag: &str) -> Option<Bytes> {
         self.lock().by_tag.get(tag).cloned()
     }
 
-    /// Keeps a drawing, unless it would take the place of most others.
+    /// Stores a drawing, unless it would take the place of most others.
     pub(super) fn keep(&self, tag: &str, drawing: Bytes) {
         if drawing.len() > MOST / 4 {
             return;

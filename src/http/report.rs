@@ -1,4 +1,4 @@
-//! A job as one page.
+//! Reports: a job as one page.
 
 use axum::extract::State;
 use axum::http::header::CONTENT_SECURITY_POLICY;
@@ -24,19 +24,20 @@ use crate::store::{Store, StoreError};
 use crate::tokens::Principal;
 use crate::version;
 
-/// Nothing is loaded from anywhere; styles and images are in the page.
+/// Content security policy of a report: nothing is loaded from anywhere; styles and images are in the page.
 const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; img-src data:";
 
-/// Most speeds whose histories are drawn.
+/// Largest number of speeds whose histories are drawn.
 const MOST_HISTORIES: usize = 3;
 
-/// Memory of a row of a map: as read, and as it is drawn.
+/// Memory of a row of a map, in multiples of its amplitudes: as read, and as it is drawn.
 const MAP_MEMORY: u64 = 3;
 
 /// Download a job as one page of HTML that needs nothing else, for a browser or for paper.
 ///
-/// What was asked, warnings, credentials, the interaction map at one sensor, critical speeds at all of them, the largest responses,
-/// contact forces, recorded histories of up to three speeds, pictures of up to two whose state was recorded, settings and version; natural frequencies where a modal analysis of the same model was successful, of several the latest.
+/// The page has the request, warnings, credentials, the interaction map at one sensor, critical speeds at all of them, the largest
+/// responses, contact forces, recorded histories of up to three speeds, pictures of up to two whose state was recorded, settings
+/// and version; natural frequencies where a modal analysis of the same model was successful, of several the latest.
 #[utoipa::path(get, path = "/v1/jobs/{id}/report", operation_id = "get_report", tag = "results",
     params(("id" = String, Path, description = "Id of a sweep or of a modal analysis."), SensorQuery),
     responses(
@@ -101,7 +102,7 @@ pub(super) async fn get_report(
     Ok(([(CONTENT_SECURITY_POLICY, POLICY)], page).into_response())
 }
 
-/// The latest modal analysis that the job's owner has of its model.
+/// Latest successful modal analysis of the job's model that the job's owner has.
 async fn latest_modal_analysis(store: &Store, job: &Job) -> Result<Option<JobId>, StoreError> {
     let filter = JobFilter {
         owner: Some(job.owner.clone()),
@@ -113,14 +114,14 @@ async fn latest_modal_analysis(store: &Store, job: &Job) -> Result<Option<JobId>
     Ok(store.jobs(filter, 1).await?.first().map(|job| job.id))
 }
 
-/// What a report is read from, on a thread that may wait.
+/// Sources of a report, which are read on a thread that may wait.
 struct Found<'a> {
     job: &'a Job,
     store: &'a Store,
     runtime: &'a Handle,
-    /// Of which job the natural frequencies are.
+    /// Job that computed the natural frequencies.
     campbell: Option<JobId>,
-    /// Histories to be drawn.
+    /// Histories that are drawn.
     histories: &'a [Document],
     /// Pictures of recorded states.
     pictures: Option<&'a Pictures>,
@@ -168,7 +169,7 @@ impl Found<'_> {
         }
     }
 
-    /// The map at one sensor, as a whole.
+    /// Whole map at one sensor.
     fn map(
         &self,
         request: &ResolvedSweep,
@@ -197,7 +198,7 @@ impl Found<'_> {
     }
 }
 
-/// What stands at the top.
+/// Head of a report.
 fn head(job: &Job, campbell: Option<JobId>) -> Head {
     let kind = match job.kind {
         JobKind::ModalAnalysis => "Modal analysis",

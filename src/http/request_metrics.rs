@@ -1,4 +1,4 @@
-//! Requests as they are counted.
+//! Metrics of requests, which are counted as they are answered.
 
 use std::time::{Duration, Instant};
 
@@ -11,7 +11,7 @@ use prometheus_client::registry::Registry;
 
 use crate::version;
 
-/// Prefix of all names.
+/// Prefix of the names of all metrics.
 pub(super) const PREFIX: &str = "rubmap";
 
 #[derive(Debug, Clone, PartialEq, Eq, Hash, EncodeLabelSet)]
@@ -19,7 +19,7 @@ struct Answered {
     method: &'static str,
     /// Template of the route; `none` for paths without one.
     route: String,
-    /// `none` if the client was gone before there was one.
+    /// Status of the answer; `none` if the client was gone before there was one.
     status: String,
 }
 
@@ -29,7 +29,7 @@ struct Asked {
     route: String,
 }
 
-/// What is counted as it happens.
+/// Metrics of requests, with the registry that writes them.
 #[derive(Debug)]
 pub(super) struct Metrics {
     pub(super) registry: Registry,
@@ -63,7 +63,7 @@ impl Default for Metrics {
 }
 
 impl Metrics {
-    /// A request was answered, or its client is gone.
+    /// Counts a request that was answered or whose client is gone.
     pub(super) fn request(&self, method: &'static str, route: &str, status: Option<u16>, took: Duration) {
         let status = status.map_or_else(|| "none".to_owned(), |status| status.to_string());
         self.requests.get_or_create(&Answered { method, route: route.to_owned(), status }).inc();

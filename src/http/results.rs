@@ -21,7 +21,7 @@ use crate::store::results::Document;
 use crate::store::status::JobStatus;
 use crate::tokens::Principal;
 
-/// Which table of critical speeds to download.
+/// Sensor whose result to download.
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 pub(super) struct SensorQuery {
@@ -30,26 +30,26 @@ pub(super) struct SensorQuery {
     pub(super) sensor: u32,
 }
 
-/// In which order critical speeds come.
+/// Order of critical speeds.
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 pub(super) struct RankQuery {
-    /// What critical speeds are ranked by, the largest first; without it those of a sensor ascend in speed, and those of the wheel
-    /// begin with the most severe.
+    /// Quantity by which critical speeds are ranked, the largest first; without it those of a sensor ascend in speed, and those of
+    /// the wheel begin with the most severe.
     #[param(inline)]
     rank: Option<RankWord>,
 }
 
-/// What critical speeds can be ranked by.
+/// Quantity by which critical speeds can be ranked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum RankWord {
-    /// The largest utilisation at the speed; speeds without one come last. Of a sweep that recorded stress.
+    /// Largest utilisation at the speed; speeds without one come last. The sweep must have recorded stress.
     Utilisation,
 }
 
 impl RankQuery {
-    /// The forms of a table of `request`, ranked as it is asked for; `by_utilisation` does so.
+    /// Forms of a table of `request`, ranked as the query asks for; `by_utilisation` ranks it so.
     pub(super) fn ranked<T>(
         &self,
         forms: Forms<T>,
@@ -72,8 +72,8 @@ impl RankQuery {
 
 /// Download the critical speeds of a sweep beside the linear prediction.
 ///
-/// They are said of all speeds together, once the job is successful. Of a job that is not finished, failed or was dismissed the
-/// interaction map has the speeds that are done.
+/// Critical speeds are found from all speeds together, once the job is successful. If it is not finished, failed or was dismissed,
+/// the interaction map has the speeds that are finished.
 #[utoipa::path(get, path = "/v1/jobs/{id}/critical-speeds", operation_id = "get_critical_speeds", tag = "results",
     params(("id" = String, Path, description = "Id of a sweep."), SensorQuery, RankQuery, DownloadQuery),
     responses(
@@ -104,27 +104,27 @@ pub(super) async fn get_critical_speeds(
     .await
 }
 
-/// Which frequencies over speed to download.
+/// Parameters of a drawing of natural frequencies over speed.
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 pub(super) struct CampbellQuery {
-    /// Of a drawing: the frame in which the vibration is seen; default `rotating`.
+    /// Frame in which a drawing shows the vibration; default `rotating`.
     #[param(inline)]
     frame: Option<FrameWord>,
 }
 
-/// Frame in which vibration is seen.
+/// Frame of reference of a vibration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum FrameWord {
-    /// On the wheel.
+    /// Frame of the wheel.
     Rotating,
-    /// On the casing.
+    /// Frame of the casing.
     Fixed,
 }
 
 impl FrameWord {
-    /// The frame of a drawing.
+    /// Frame of a drawing; rotating unless another is asked for.
     pub(super) fn frame(asked: Option<Self>) -> Frame {
         match asked {
             Some(Self::Fixed) => Frame::Fixed,
@@ -162,13 +162,13 @@ pub(super) async fn get_campbell(
     forms.of_document(&state, download, &job, Document::Campbell).await
 }
 
-/// The job `id`, if who asks may see it: jobs of others are as if they were not there.
+/// Finds the job `id`, if the principal may see it: jobs of others are reported as missing.
 pub(super) async fn find(state: &AppState, whose: &Principal, id: JobId) -> Result<Job, Problem> {
     let job = state.store.job(id).await?.filter(|job| whose.sees(&job.owner));
     job.ok_or_else(|| job_not_found(&id))
 }
 
-/// Refuses a job that was not successful, and says what there is `instead`.
+/// Refuses a job that was not successful; the message names what there is `instead`.
 pub(super) fn expect_successful(job: &Job, instead: &str) -> Result<(), Problem> {
     let (kind, how) = match job.status {
         JobStatus::Successful => return Ok(()),
@@ -180,7 +180,7 @@ pub(super) fn expect_successful(job: &Job, instead: &str) -> Result<(), Problem>
     Err(Problem::new(kind, format!("the job is {how}; {instead}")))
 }
 
-/// The request of a sweep and the facts of its model.
+/// Request of a sweep and the facts of its model; refuses jobs of other kinds.
 pub(super) fn sweep(job: &Job) -> Result<(&ResolvedSweep, &ModelFacts), Problem> {
     match (&job.request, &job.facts) {
         (JobRequest::Sweep(request), Some(facts)) => Ok((request, facts)),
@@ -188,7 +188,7 @@ pub(super) fn sweep(job: &Job) -> Result<(&ResolvedSweep, &ModelFacts), Problem>
     }
 }
 
-/// Speeds of the sweep with this id, of the same model as `job`, that are drawn beside; none of none.
+/// Speeds of the sweep with this id, which are drawn beside the result of `job` and must be of the same model; none without an id.
 pub(super) async fn swept(
     state: &AppState,
     whose: &Principal,

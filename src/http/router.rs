@@ -1,4 +1,4 @@
-//! All routes.
+//! Router of the service: all routes, and the layers around them.
 
 use std::sync::Arc;
 
@@ -25,7 +25,7 @@ use super::{
     version, web, wheel,
 };
 
-/// The routes with their descriptions.
+/// Routes with their descriptions.
 pub(super) fn routes() -> OpenApiRouter<AppState> {
     OpenApiRouter::with_openapi(openapi::ApiDoc::openapi())
         .routes(routes!(models::create_model, models::list_models))
@@ -76,7 +76,7 @@ pub(super) fn routes() -> OpenApiRouter<AppState> {
         .routes(routes!(openapi::get_openapi))
 }
 
-/// What can be asked of a process that serves nobody's jobs: whether it lives and can work, and its numbers.
+/// Routes of a process that serves nobody's jobs: whether it lives and can work, and its metrics.
 pub fn observation(state: AppState) -> Router {
     Router::new()
         .route("/healthz", get(health::get_health))
@@ -87,8 +87,7 @@ pub fn observation(state: AppState) -> Router {
         .with_state(state)
 }
 
-/// The service. From outside to inside: what holds for every answer, what may refuse a request before its route sees it, and the
-/// routes.
+/// Router of the service. From outside to inside: layers for every answer, layers that may refuse a request before its route sees it, and the routes.
 pub fn router(state: AppState) -> Router {
     let sniffing = SetResponseHeaderLayer::overriding(
         header::X_CONTENT_TYPE_OPTIONS,
@@ -120,7 +119,7 @@ pub fn router(state: AppState) -> Router {
     router.merge(web::routes()).fallback(|| async { StatusCode::NOT_FOUND }).layer(layers).with_state(state)
 }
 
-/// What pages from `origins`, if there are any, may do: all that other clients may.
+/// Layer that lets pages from `origins`, if there are any, do all that other clients may.
 fn cors(origins: &[HeaderValue]) -> Option<CorsLayer> {
     let idempotency_key = HeaderName::from_static("idempotency-key");
     let layer = CorsLayer::new()

@@ -1,4 +1,4 @@
-//! Run-ups and run-downs: a scene whose speed changes.
+//! Run-ups and run-downs: responses of a scene whose speed changes.
 
 use axum::Json;
 use axum::extract::State;
@@ -32,9 +32,9 @@ type RunUpBody = Labelled<RunUpRequest>;
 
 /// Run a wheel up or down through its critical speeds.
 ///
-/// The speed changes at given rates, a run for each, or through given points; stiffness, modes, clearances given cold and all that acts by the
-/// angle follow it. What was found so far is that of `GET /v1/jobs/{id}/run-ups` and `GET /v1/jobs/{id}/spectrogram`, while it is computed,
-/// too. With several rates and a `limit` it is said how fast one must pass.
+/// The speed changes at given rates, a run for each, or through given points; stiffness, modes, clearances given cold and all that
+/// depends on the angle follow it. `GET /v1/jobs/{id}/run-ups` and `GET /v1/jobs/{id}/spectrogram` have the results so far, also
+/// while the job runs. With several rates and a `limit`, the result has the rate at which the wheel must pass to stay below it.
 #[utoipa::path(post, path = "/v1/run-ups", operation_id = "create_run_ups", tag = "jobs",
     params(("Idempotency-Key" = Option<String>, Header,
         description = "Repeating the request with this key repeats its answer and starts nothing.")),
@@ -63,10 +63,10 @@ pub(super) async fn create_run_ups(
     submit::accept(&state, &whose, key, &body.fingerprint, submission).await
 }
 
-/// Say what run-ups would do and cost, without starting anything.
+/// Plan run-ups: what they would do and cost. Starts nothing.
 ///
-/// Takes the body of `POST /v1/run-ups` and answers at once: durations, revolutions and pieces of one speed; if the reduction is stored, steps
-/// and the times that they are expected to take, from a short calibration of this machine.
+/// Takes the body of `POST /v1/run-ups` and answers at once with durations, revolutions and pieces of one speed; if the reduction
+/// is stored, also with steps and their expected times, from a short calibration of this machine.
 #[utoipa::path(post, path = "/v1/run-ups/plan", operation_id = "plan_run_ups", tag = "jobs",
     request_body = RunUpBody,
     responses(
@@ -80,22 +80,22 @@ pub(super) async fn plan_run_ups(
     Ok(Json(state.jobs.plan_run_ups(&whose, body.value.parts()?.0).await?))
 }
 
-/// What to draw of run-ups.
+/// Parameters of a drawing of run-ups.
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 pub(super) struct RunUpsQuery {
-    /// Of the drawing: index of the sensor in the request; default 0.
+    /// Index, in the request, of the sensor that a drawing shows; default 0.
     #[serde(default)]
     sensor: u32,
-    /// Of the drawing: id of a sweep of the same model, whose speeds are drawn as dots. Its scene is taken as it is.
+    /// Id of a sweep of the same model, whose speeds a drawing shows as dots. The sweep's scene may differ.
     #[param(max_length = 64)]
     sweep: Option<String>,
 }
 
-/// Download what run-ups came to: envelopes over the speed.
+/// Download the envelopes of run-ups over the speed.
 ///
-/// Of a job that is not finished, failed or was dismissed those frames that are there. In csv a line is a frame; npz has an array per column of
-/// it. Spectra are those of `GET /v1/jobs/{id}/spectrogram`.
+/// A job that is not finished, failed or was dismissed has the frames found so far. In csv a line is a frame; npz has an array for
+/// each column of the csv. `GET /v1/jobs/{id}/spectrogram` has the spectra.
 #[utoipa::path(get, path = "/v1/jobs/{id}/run-ups", operation_id = "get_run_ups", tag = "results",
     params(("id" = String, Path, description = "Id of run-ups."), RunUpsQuery, DownloadQuery),
     responses(
@@ -125,7 +125,7 @@ pub(super) async fn get_run_ups(
     Forms::drawn_by(draw, figure).answer(&state, download, lasting(&job), bytes, read).await
 }
 
-/// Which spectrogram to download.
+/// Spectrogram to download, and its drawing.
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 pub(super) struct SpectrogramQuery {
@@ -135,27 +135,27 @@ pub(super) struct SpectrogramQuery {
     /// Index of the sensor in the request; default 0.
     #[serde(default)]
     sensor: u32,
-    /// Of the drawing: what stands beside the speed.
+    /// Axis of a drawing beside the speed; default `order`.
     #[serde(default)]
     #[param(inline)]
     over: Over,
 }
 
-/// What the lines of a drawn spectrogram are told by.
+/// Axis beside the speed in a drawn spectrogram.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum Over {
-    /// The engine order; the default.
+    /// Engine order; the default.
     #[default]
     Order,
-    /// The frequency in Hz: engine orders fan out.
+    /// Frequency in Hz: engine orders fan out.
     Hz,
 }
 
 /// Download the amplitudes of a run over engine order and speed.
 ///
-/// Of a job that is not finished those frames that are there. In csv a line is a frame, a column an engine order; npz has `amplitudes` as
-/// `[frame][line]`.
+/// A job that is not finished has the frames found so far. In csv a line is a frame and a column an engine order; npz has
+/// `amplitudes` as `[frame][line]`.
 #[utoipa::path(get, path = "/v1/jobs/{id}/spectrogram", operation_id = "get_spectrogram", tag = "results",
     params(("id" = String, Path, description = "Id of run-ups."), SpectrogramQuery, DownloadQuery),
     responses(
@@ -208,7 +208,7 @@ pub(super) async fn get_spectrogram(
     Forms::drawn_by(draw, figure).answer(&state, download, lasting(&job), bytes, read).await
 }
 
-/// A spectrogram with the run that it is drawn beside.
+/// Spectrogram with the run that is drawn beside it.
 #[derive(Serialize)]
 #[serde(transparent)]
 struct Drawn {
@@ -227,7 +227,7 @@ impl Export for Drawn {
     }
 }
 
-/// What a job lacks that has only begun.
+/// Name, for messages, of the part that a job still lacks when it has only begun.
 const FRAME: &str = "frame of a run";
 
 fn asked(job: &Job) -> Result<(&ResolvedRunUps, &ModelFacts), Problem> {

@@ -19,14 +19,14 @@ use crate::plot::{self, SectionView};
 use crate::store::jobs::JobId;
 use crate::tokens::Principal;
 
-/// Memory of a node while its table is read, shown and drawn; a node has three unknowns, seldom fewer.
+/// Memory of a node while its table is read, shown and drawn, bytes; a node has three unknowns, seldom fewer.
 const NODE_MEMORY: u64 = 1 << 10;
 
-/// Which section to download.
+/// Section to download, and its drawing.
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 pub(super) struct SectionQuery {
-    /// Of a drawing: from where the sector is looked at; default `meridional`.
+    /// Direction from which a drawing shows the sector; default `meridional`.
     #[param(inline)]
     view: Option<ViewWord>,
     /// Id of a sweep of this model, whose casing is shown with its clearance.
@@ -34,17 +34,17 @@ pub(super) struct SectionQuery {
     sweep: Option<String>,
 }
 
-/// From where a sector is looked at.
+/// Direction from which a drawing shows a sector.
 #[derive(Debug, Clone, Copy, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum ViewWord {
-    /// Across the axis: all nodes turned into one plane, with the contact line and the casing.
+    /// View across the axis: all nodes turned into one plane, with the contact line and the casing.
     Meridional,
-    /// Along the axis: the cyclic faces and what is clamped.
+    /// View along the axis: the cyclic faces and the clamped nodes.
     Cyclic,
 }
 
-/// Download where the nodes of a model are, or a section through its sector.
+/// Download the positions of a model's nodes, or a section through its sector.
 ///
 /// In csv a line is a node; in npz positions are `[node][r, θ, z]`.
 #[utoipa::path(get, path = "/v1/models/{id}/section", operation_id = "get_section", tag = "models",

@@ -1,15 +1,15 @@
-//! Parts of results: `speeds`, `orders` and `sensors` of a query.
+//! Selections of parts of results: `speeds`, `orders` and `sensors` of a query.
 
 use super::problem::{Problem, excerpt};
 use crate::analysis::request::SpeedUnit;
 
-/// How far a number may be from an engine order to mean it: engine orders are quotients.
+/// Largest difference between a number and the engine order that it names: engine orders are quotients.
 const SAME_ORDER: f64 = 1e-9;
 
 /// Indices of the speeds that `text` names: indices and ranges of them, or ranges in a unit; in ascending order.
 ///
 /// # Errors
-/// What is wrong with it, here and below.
+/// If `text` is not a selection, or selects what the job does not have; also for the functions below.
 pub(super) fn speeds(text: &str, speeds_rad_s: &[f64]) -> Result<Vec<u32>, Problem> {
     let wrong = |detail| Problem::parameter("speeds", detail);
     let mut chosen = vec![false; speeds_rad_s.len()];
@@ -39,7 +39,7 @@ pub(super) fn sensors(text: &str, sensors: usize) -> Result<Vec<u32>, Problem> {
     list("sensors", text, sensors, "sensor")
 }
 
-/// Indices that `text` names of `total` things.
+/// Indices, from 0 to `total` − 1, that `text` names.
 pub(super) fn list(parameter: &str, text: &str, total: usize, thing: &str) -> Result<Vec<u32>, Problem> {
     let mut chosen = vec![false; total];
     for item in text.split(',').map(str::trim) {
@@ -95,7 +95,7 @@ fn choose_indices(chosen: &mut [bool], item: &str, thing: &str) -> Result<(), St
     Ok(())
 }
 
-/// A number, or a range of them.
+/// Reads a number, or a range of numbers.
 fn reals(item: &str) -> Result<(f64, f64), String> {
     let number = |text: &str| text.trim().parse().ok().filter(|number: &f64| number.is_finite());
     let (from, to) = match item.split_once('-') {
@@ -111,7 +111,7 @@ fn reals(item: &str) -> Result<(f64, f64), String> {
     }
 }
 
-/// A range in a unit, and the unit.
+/// Splits a range in a unit into the range and its unit.
 fn unit(item: &str) -> Option<(&str, SpeedUnit)> {
     let units = [("rpm", SpeedUnit::Rpm), ("rad_s", SpeedUnit::RadS), ("hz", SpeedUnit::Hz)];
     units.into_iter().find_map(|(word, unit)| Some((item.strip_suffix(word)?, unit)))

@@ -21,30 +21,30 @@ use crate::plot;
 use crate::store::jobs::{Job, JobId};
 use crate::tokens::Principal;
 
-/// Memory of spectra that are being read, over what they take unpacked: the row, its numbers deflated and inflated, the spectra.
+/// Memory of spectra that are being read, in multiples of their unpacked size: the row, its numbers deflated and inflated, the spectra.
 pub(super) const ROW_MEMORY: u64 = 4;
 
-/// Which spectra of a speed to download.
+/// Part of the spectra of a speed to download, and their drawing.
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 pub(super) struct SpectraQuery {
-    /// Only these sensors: indices in the request and ranges of them, such as `0-2,5`.
+    /// Sensors to download: indices in the request and ranges of them, such as `0-2,5`; default all.
     #[param(max_length = 1000)]
     sensors: Option<String>,
-    /// Only these engine orders: numbers and ranges, such as `0-8,12`.
+    /// Engine orders to download: numbers and ranges, such as `0-8,12`; default all.
     #[param(max_length = 1000)]
     orders: Option<String>,
-    /// Of a drawing: index of the sensor in the request; default the first of `sensors`.
+    /// Index, in the request, of the sensor that a drawing shows; default the first of `sensors`.
     sensor: Option<u32>,
-    /// Of a drawing: the frame in which the vibration is seen; default `rotating`.
+    /// Frame in which a drawing shows the vibration; default `rotating`.
     #[param(inline)]
     frame: Option<FrameWord>,
 }
 
-/// One speed of a sweep.
+/// Spectra, wear and contact of one speed of a sweep.
 #[derive(Debug, Serialize, ToSchema)]
 pub(super) struct SpectraBody {
-    /// Credentials and summary.
+    /// Credentials and summary of the speed.
     point: Point,
     /// Units of the model.
     units: Units,
@@ -53,7 +53,7 @@ pub(super) struct SpectraBody {
     /// Wear of an abradable coating; absent without one.
     #[serde(skip_serializing_if = "Option::is_none")]
     wear: Option<WearMap>,
-    /// Contact over the window, blade by blade; absent without.
+    /// Contact over the window, blade by blade; absent without contact.
     #[serde(skip_serializing_if = "Option::is_none")]
     contact: Option<ContactForces>,
     /// Indices of the sensors in the request.
@@ -74,7 +74,7 @@ impl Export for SpectraBody {
     }
 }
 
-/// What is drawn of a speed that has none.
+/// Empty spectra, which are drawn of a speed that has none.
 static NO_SPECTRA: SpeedSpectra = SpeedSpectra { engine_orders: Vec::new(), sensors: Vec::new() };
 
 impl SpectraBody {
@@ -86,11 +86,11 @@ impl SpectraBody {
 /// Wear of an abradable coating at one speed of a sweep.
 #[derive(Debug, Serialize, ToSchema)]
 pub(super) struct WearBody {
-    /// Credentials and summary.
+    /// Credentials and summary of the speed.
     point: Point,
     /// Units of the model.
     units: Units,
-    /// Depths.
+    /// Depths of the wear.
     wear: WearMap,
 }
 
@@ -167,7 +167,7 @@ pub(super) async fn get_spectra(
         .await
 }
 
-/// Download what the blades wore off an abradable coating at one speed.
+/// Download the wear of an abradable coating at one speed.
 #[utoipa::path(get, path = "/v1/jobs/{id}/wear/{index}", operation_id = "get_wear", tag = "results",
     params(
         ("id" = String, Path, description = "Id of a sweep."),
@@ -208,7 +208,7 @@ pub(super) async fn get_wear(
         .await
 }
 
-/// The chosen part of spectra.
+/// Chosen part of spectra.
 fn chosen(spectra: SpeedSpectra, sensors: &[u32], orders: Option<&str>) -> Result<SpeedSpectra, Problem> {
     let SpeedSpectra { engine_orders, sensors: all } = spectra;
     let mut sensors: Vec<_> = all
@@ -236,7 +236,7 @@ pub(super) fn check_index(job: &Job, index: Option<u32>) -> Result<u32, Problem>
     })
 }
 
-/// A problem unless the speed has ended.
+/// Refuses a speed that has not ended.
 async fn finished(state: &AppState, job: &Job, index: u32) -> Result<(), Problem> {
     if state.store.is_speed_finished(job.id, index).await? {
         return Ok(());
@@ -249,7 +249,7 @@ async fn finished(state: &AppState, job: &Job, index: u32) -> Result<(), Problem
     })
 }
 
-/// What reads a finished speed, on a thread that may wait.
+/// Reader of a finished speed, for a thread that may wait.
 fn speed(
     state: &AppState,
     job: JobId,
@@ -259,7 +259,7 @@ fn speed(
     move || runtime.block_on(store.speed_result(job, index))?.ok_or_else(|| job_not_found(&job))
 }
 
-/// Why a speed that has ended has nothing to show.
+/// Problem of a speed that has ended without this result.
 fn unavailable(point: &Point, what: &str) -> Problem {
     let message = point.message.as_deref().unwrap_or("it was not completed");
     Problem::new(Kind::ResultUnavailable, format!("speed {} has no {what}: {message}", point.index))

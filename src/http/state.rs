@@ -1,4 +1,4 @@
-//! What handlers work with.
+//! State of the service that handlers work with.
 
 use std::sync::Arc;
 
@@ -15,35 +15,35 @@ use crate::store::Store;
 use crate::store::limits::Limits;
 use crate::tokens::Tokens;
 
-/// What handlers work with.
+/// State of the service that handlers work with.
 #[derive(Debug, Clone)]
 pub struct AppState {
-    /// What is remembered.
+    /// Store of models, jobs and results.
     pub store: Store,
-    /// Bounds what large answers take.
+    /// Bounds on the number, memory and room of large answers.
     pub answers: LargeAnswers,
     /// Drawings that were made already.
     pub renderings: Arc<Renderings>,
-    /// Who may use the service; `None`: whoever reaches it.
+    /// Tokens of those who may use the service; `None`: anybody who reaches it may.
     pub tokens: Option<Tokens>,
-    /// What one owner may have.
+    /// Limits of what one owner may have.
     pub limits: Limits,
-    /// What is computed.
+    /// Jobs that are queued and computed.
     pub jobs: Jobs,
     /// Largest upload, in bytes as sent.
     pub upload_bytes: u64,
-    /// Limits while reading an uploaded package.
+    /// Limits while an uploaded package is read.
     pub package_limits: package::Limits,
-    /// Memory that reductions may take together; `None` where nothing is known about it.
+    /// Memory that all reductions together may take, bytes; `None` where it is not known.
     pub memory_bytes: Option<u64>,
-    /// Jobs that somebody follows.
+    /// Jobs that clients follow.
     pub followed: Followed,
-    /// Told when the service stops: answers that last as long as a job end then.
+    /// Token that is cancelled when the service stops: answers that last as long as a job end then.
     pub stop: CancellationToken,
-    /// What connections and requests are subject to and counted by.
+    /// Limits, checks and counters of connections and requests.
     pub transport: Arc<Transport>,
-    /// The contract, as JSON.
+    /// Contract as JSON.
     pub openapi: Arc<str>,
-    /// The contract, as requests are held against it.
+    /// Contract against which requests are checked.
     pub contract: Arc<Contract>,
 }

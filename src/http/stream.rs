@@ -25,22 +25,22 @@ use crate::jobs::{Allowance, Jobs};
 /// Media type of archives.
 pub(super) const ZIP: &str = "application/zip";
 
-/// Bytes of a piece.
+/// Bytes of a piece of an answer.
 const PIECE: usize = 1 << 16;
 
-/// Pieces that wait for the client.
+/// Number of pieces of an answer that wait for the client in memory.
 const WAITING: usize = 4;
 
-/// Time for which an answer keeps its place for a client that is slower than it is made.
+/// Time for which an answer keeps its place for a client that takes it more slowly than it is made.
 const PATIENCE: Duration = Duration::from_secs(1);
 
-/// Time for which each piece waits for its client, or for room in the file, where files have no room for it.
+/// Longest wait of each piece for its client where files have no room, or for room in the file.
 const STALLED: Duration = Duration::from_secs(30);
 
-/// Bytes of all answers that wait for slow clients in files.
+/// Largest number of bytes of all answers that wait for slow clients in files.
 const MOST_SPOOLED: u64 = 4 << 30;
 
-/// Bounds how many large answers are made at once, the memory they take, and the room of those that wait for their clients.
+/// Bounds on large answers: how many are made at once, the memory they take, and the room of those that wait for their clients.
 #[derive(Debug, Clone)]
 pub struct LargeAnswers {
     turns: Arc<Semaphore>,
@@ -49,8 +49,8 @@ pub struct LargeAnswers {
     spool: Arc<Spool>,
 }
 
-/// Leave to make a large answer, for as long as it is made: it goes with what is read and drawn from thread to thread, whether or
-/// not somebody still waits for the answer.
+/// Permission to make a large answer, for as long as it is made: it goes with what is read and drawn from thread to thread, whether
+/// or not anybody still waits for the answer.
 #[derive(Debug)]
 pub(super) struct Leave {
     _turn: Option<OwnedSemaphorePermit>,
@@ -60,13 +60,13 @@ pub(super) struct Leave {
 }
 
 impl LargeAnswers {
-    /// No more than `most` at once; what waits for slow clients lies in `folder`.
+    /// Allows `most` answers at once; those that wait for slow clients lie in `folder`.
     pub fn new(most: usize, folder: &Path) -> Self {
         let spool = Spool { folder: folder.to_owned(), bytes: AtomicU64::new(0), most: MOST_SPOOLED };
         Self { turns: Arc::new(Semaphore::new(most)), waiting: Arc::default(), spool: Arc::new(spool) }
     }
 
-    /// Bytes that wait for slow clients.
+    /// Bytes of answers that wait for slow clients.
     pub(super) fn spooled_bytes(&self) -> u64 {
         self.spool.bytes.load(Ordering::Relaxed)
     }
@@ -102,7 +102,7 @@ impl Drop for Waits<'_> {
     }
 }
 
-/// What `read` gives, read on a thread that may wait and compute.
+/// Runs `read` on a thread that may wait and compute.
 pub(super) async fn blocking<T, F>(read: F) -> Result<T, Problem>
 where
     T: Send + 'static,
@@ -113,7 +113,7 @@ where
         .map_err(|_| Problem::new(Kind::Internal, "a defect of the program; the service's log says more"))
 }
 
-/// An answer that is there as a whole.
+/// Answers with a body that is there as a whole.
 pub(super) fn whole(
     leave: Leave,
     content_type: &'static str,
@@ -122,7 +122,7 @@ pub(super) fn whole(
     written(leave, content_type, move |pieces| pieces.write_all(body.as_ref()))
 }
 
-/// A zip archive of this name, which `write` writes on a thread that may wait and compute.
+/// Answers with a zip archive of this name, which `write` writes on a thread that may wait and compute.
 pub(super) fn zip(
     leave: Leave,
     name: &str,
@@ -132,8 +132,9 @@ pub(super) fn zip(
     ([disposition], written(leave, ZIP, write)).into_response()
 }
 
-/// An answer that `write` writes on a thread that may wait and compute. A client that takes it more slowly than it is made gets the rest from a
-/// file, so that its place and memory are free for others. What fails once the answer has begun breaks it off, so that nobody takes it for whole.
+/// Answers with a body that `write` writes on a thread that may wait and compute. A client that takes it more slowly than it is
+/// made gets the rest from a file, so that its place and memory are free for others. An error after the answer has begun breaks it
+/// off, so that nobody takes it for whole.
 pub(super) fn written(
     leave: Leave,
     content_type: &'static str,
@@ -163,14 +164,14 @@ pub(super) fn written(
     ([(header::CONTENT_TYPE, content_type)], Body::from_stream(sent(receiver, rest))).into_response()
 }
 
-/// How far an answer has been sent.
+/// Progress of sending an answer.
 enum Sent {
     Pieces(Receiver<Bytes>, oneshot::Receiver<io::Result<Option<Later>>>),
     File(tokio::fs::File, Held),
     All,
 }
 
-/// First what was taken at once, then what waits in a file. After a panic it is not whole, and must not look so.
+/// Body of an answer: first the pieces that were taken at once, then those that wait in a file. After a panic it is not whole, and must not look so.
 fn sent(
     receiver: Receiver<Bytes>,
     rest: oneshot::Receiver<io::Result<Option<Later>>>,
@@ -212,12 +213,12 @@ fn broken_off() -> io::Error {
     io::Error::other("the answer broke off")
 }
 
-/// Files in which answers wait for slow clients. They have no names: what is left of them goes with the process.
+/// Files in which answers wait for slow clients. They have no names, so that the rest of them goes with the process.
 #[derive(Debug)]
 struct Spool {
     folder: PathBuf,
     bytes: AtomicU64,
-    /// Most bytes of all answers together.
+    /// Largest number of bytes of all answers together.
     most: u64,
 }
 
@@ -227,7 +228,7 @@ struct Later {
     held: Held,
 }
 
-/// Bytes of the spool, for as long as they lie there.
+/// Bytes of the spool that an answer holds; dropping gives them back.
 struct Held {
     spool: Arc<Spool>,
     bytes: u64,
@@ -241,7 +242,7 @@ impl Spool {
 }
 
 impl Later {
-    /// Writes a piece behind the others; false, with the file as it was, where there is no room for it.
+    /// Writes a piece behind the others; returns false, with the file as it was, where there is no room for it.
     fn add(&mut self, piece: &[u8]) -> io::Result<bool> {
         let (end, length) = (self.held.bytes, piece.len() as u64);
         if !self.held.reserve(length) {
@@ -281,11 +282,11 @@ impl Drop for Held {
     }
 }
 
-/// Sends what is written, piece by piece, as long as the client takes them in time, and writes the rest to a file.
+/// Writer of an answer: sends it piece by piece, as long as the client takes them in time, and writes the rest to a file.
 struct Pieces {
     sender: Sender<Bytes>,
     piece: Vec<u8>,
-    /// Time for which the client will still be waited for before the rest goes to a file.
+    /// Time for which the client is still waited for before the rest goes to a file.
     patience: Duration,
     /// Answers that wait for a turn: while there are any, no client is waited for.
     waiting: Arc<AtomicUsize>,
@@ -325,7 +326,7 @@ impl Pieces {
     }
 }
 
-/// Time between two looks whether there is room again.
+/// Time between two checks for room.
 const FOR_ROOM: Duration = Duration::from_millis(50);
 
 fn stalled(reason: &str) -> io::Error {
@@ -377,11 +378,11 @@ impl Write for Pieces {
     }
 }
 
-/// A sequence whose items are read as they are written.
+/// Sequence whose items are read as they are written.
 pub(super) struct Read<F> {
     /// Number of items.
     pub(super) items: u32,
-    /// Reads the item of this index.
+    /// Reader of the item of an index.
     pub(super) item: F,
 }
 
@@ -458,7 +459,7 @@ mod tests {
         }
     }
 
-    /// Two answers of which one fits: the other goes on once its client or the first one's reads.
+    /// Checks two answers of which one fits: the other goes on once its client or the first one's reads.
     #[tokio::test(flavor = "multi_thread")]
     async fn a_full_spool_delays_answers_and_cuts_none_off() {
         let folder = tempfile::tempdir().unwrap();

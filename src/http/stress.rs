@@ -1,4 +1,4 @@
-//! Stress and margin over speed.
+//! Stress and margin of a sweep over speed.
 
 use axum::extract::State;
 use axum::response::Response;
@@ -19,34 +19,34 @@ use crate::plot::{self, HaighColour};
 use crate::store::status::JobStatus;
 use crate::tokens::Principal;
 
-/// Memory of a speed's point with its cycles: its text, its numbers, and what is made of them.
+/// Memory of a speed's point with its cycles, bytes: its text, its numbers, and what is made of them.
 const SPEED_MEMORY: u64 = 32 * 1024;
 
-/// Which stress to download, and how to draw it.
+/// Stress to download, and its drawing.
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 pub(super) struct StressQuery {
-    /// Only the speed of this index in the request; default all.
+    /// Index, in the request, of the one speed to download; default all speeds.
     speed: Option<u32>,
-    /// Of a drawing: what the dots are coloured by; default `speed`.
+    /// Quantity by which the dots of a drawing are coloured; default `speed`.
     #[param(inline)]
     colour: Option<Colour>,
 }
 
-/// What the dots of a Haigh diagram are coloured by.
+/// Quantity by which the dots of a Haigh diagram are coloured.
 #[derive(Debug, Clone, Copy, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 enum Colour {
-    /// The speed.
+    /// Rotational speed.
     Speed,
-    /// The utilisation.
+    /// Utilisation of the material.
     Utilisation,
 }
 
-/// Download stress and margin over speed: the largest stress, and the cycles of the most utilised places with what the materials bear.
+/// Download stress and margin over speed: the largest stress, and the cycles of the most utilised places with the strengths of their materials.
 ///
-/// While the job runs, the speeds finished so far. In csv a line is a cycle; in npz the same columns, and what is largest as a number per
-/// speed. The drawing is a Haigh diagram.
+/// While the job runs, the result has the speeds finished so far. In csv a line is a cycle; npz has the same columns, and the
+/// largest values as a number per speed. The drawing is a Haigh diagram.
 #[utoipa::path(get, path = "/v1/jobs/{id}/stress", operation_id = "get_stress", tag = "results",
     params(("id" = String, Path, description = "Id of a sweep."), StressQuery, DownloadQuery),
     responses(
@@ -86,7 +86,7 @@ pub(super) async fn get_stress(
         .await
 }
 
-/// The speed that is asked for, or all; why, if nothing was recorded: for this reason if one is known.
+/// Selects the speed that is asked for, or all; if nothing was recorded, fails with `reason` or, if that is not known, with what it takes.
 fn recorded(
     mut stress: SweepStress,
     speed: Option<u32>,
@@ -116,7 +116,7 @@ mod tests {
 
     use super::*;
 
-    /// Speeds 1 and 3 of a sweep.
+    /// Stress of speeds 1 and 3 of a sweep.
     fn stress() -> SweepStress {
         let speed = |index: u32| {
             json!({"index": index, "speed_rad_s": 1.0, "stress": {

@@ -1,4 +1,4 @@
-//! Convergence studies: what accuracy costs in time.
+//! Convergence studies: accuracy of settings and its cost in time.
 
 use axum::extract::State;
 use axum::response::Response;
@@ -24,38 +24,38 @@ use crate::store::jobs::{Job, JobKind, JobRequest};
 use crate::store::results::Document;
 use crate::tokens::Principal;
 
-/// The body: the request, and what the job is to be called.
+/// Body of a study: the request, and the labels of the job.
 type StudyBody = Labelled<StudyRequest>;
 
-/// What to download of a study.
+/// Parameters of a drawing of a study.
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 pub(super) struct WorkPrecisionQuery {
-    /// Of the drawing: whose error; default `amplitude`.
+    /// Quantity whose error a drawing shows; default `amplitude`.
     #[param(inline)]
     quantity: Option<Quantity>,
-    /// Of the drawing: index of the speed in the request; default 0.
+    /// Index, in the request, of the speed that a drawing shows; default 0.
     #[serde(default)]
     speed: u32,
-    /// Of the drawing: over what the error is drawn; default `time`.
+    /// Axis over which a drawing shows the error; default `time`.
     #[param(inline)]
     over: Option<Over>,
 }
 
-/// What errors are drawn over.
+/// Axis over which errors are drawn.
 #[derive(Debug, Clone, Copy, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum Over {
     /// CPU time.
     Time,
-    /// The time step.
+    /// Time step.
     Step,
 }
 
 /// Compare a grid of settings with a reference one level finer: errors, times, observed orders.
 ///
-/// Every combination of the grid is run at every speed, and a setting that is unstable is listed with the reason. Runs are kept: a
-/// study that shares settings with an earlier one on the same scene computes the others only.
+/// Every combination of the grid is run at every speed, and a setting that is unstable is listed with the reason. Runs are stored:
+/// a study that shares settings with an earlier one on the same scene computes only the others.
 #[utoipa::path(post, path = "/v1/studies", operation_id = "create_study", tag = "jobs",
     params(("Idempotency-Key" = Option<String>, Header,
         description = "Repeating the request with this key repeats its answer and starts nothing.")),
@@ -91,7 +91,7 @@ pub(super) async fn create_study(
 
 /// Download errors and times of a study.
 ///
-/// In csv a line is a run; npz has an array per column of it.
+/// In csv a line is a run; npz has an array for each column of the csv.
 #[utoipa::path(get, path = "/v1/jobs/{id}/work-precision", operation_id = "get_work_precision", tag = "results",
     params(("id" = String, Path, description = "Id of a study."), WorkPrecisionQuery, DownloadQuery),
     responses(
@@ -121,7 +121,7 @@ pub(super) async fn get_work_precision(
     Forms::drawn_by(draw, figure).of_document(&state, download, &job, Document::WorkPrecision).await
 }
 
-/// The request of a study that has so many speeds.
+/// Request of a study; refuses jobs of other kinds, and a speed that the study does not have.
 pub(super) fn check_speed(job: &Job, speed: u32) -> Result<&ResolvedStudy, Problem> {
     let JobRequest::Study(request) = &job.request else { return Err(wrong_kind(job, JobKind::Study)) };
     let total = job.speeds.total;

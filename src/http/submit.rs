@@ -1,4 +1,4 @@
-//! Accepting a job, whatever its kind.
+//! Acceptance of jobs of all kinds.
 
 use axum::http::StatusCode;
 use axum::response::Response;
@@ -17,21 +17,21 @@ use crate::store::labels::Labels;
 use crate::store::status::JobStatus;
 use crate::tokens::Principal;
 
-/// A job just accepted.
+/// Receipt of a job just accepted.
 #[derive(Debug, Serialize, ToSchema)]
 pub(super) struct Receipt {
     /// Id of the job.
     #[schema(example = "0198c5a2-7c1e-7d54-9f3b-2f6d7a6f4b10")]
     id: String,
-    /// Its kind.
+    /// Kind of the job.
     kind: JobKind,
-    /// Always `accepted`.
+    /// Status of the job, always `accepted`.
     status: JobStatus,
-    /// Where to follow it.
+    /// Links to the job, to follow it, and to its results.
     links: Vec<Link>,
 }
 
-/// Accepts a job, called as its labels say, or repeats the answer given before under its key.
+/// Accepts a job with its labels, or repeats the answer given before under its key.
 pub(super) async fn accept(
     state: &AppState,
     whose: &Principal,

@@ -1,4 +1,4 @@
-//! Sweeps of contact simulations.
+//! Sweeps of contact simulations over rotational speeds.
 
 use axum::Json;
 use axum::extract::State;
@@ -15,15 +15,15 @@ use crate::analysis::run::SweepPlan;
 use crate::jobs::Submission;
 use crate::tokens::Principal;
 
-/// The body: the request, and what the job is to be called.
+/// Body of a sweep: the request, and the labels of the job.
 type SweepBody = Labelled<SweepRequest>;
 
 /// Simulate contact over rotational speeds.
 ///
-/// The request is checked against its model at once; all violations come in one answer. So is what only the reduced model
-/// can tell (fixed numbers of steps or kept modes against the stability limit, friction against what lets the tips slide), if the
-/// reduction is stored; if not, it fails the job before its first speed, with the same pointers. `POST /v1/sweeps/plan` refuses
-/// the same requests.
+/// The request is checked against its model at once; all violations come in one answer. If the reduction is stored, it is also
+/// checked against the reduced model (fixed numbers of steps or kept modes against the stability limit, friction against what lets
+/// the tips slide); if not, such a violation fails the job before its first speed, with the same pointers. `POST /v1/sweeps/plan`
+/// refuses the same requests.
 #[utoipa::path(post, path = "/v1/sweeps", operation_id = "create_sweep", tag = "jobs",
     params(("Idempotency-Key" = Option<String>, Header,
         description = "Repeating the request with this key repeats its answer and starts nothing.")),
@@ -60,11 +60,11 @@ pub(super) async fn create_sweep(
     submit::accept(&state, &whose, key, &body.fingerprint, submission).await
 }
 
-/// Say what a sweep would do and cost, without starting anything.
+/// Plan a sweep: what it would do and cost. Starts nothing.
 ///
-/// Takes the body of `POST /v1/sweeps` and answers at once: effects on and off, symmetry, contact pairs, and, if the reduction is
-/// stored, unknowns, scheme and step with the reason that set them, and the expected computing time and memory, from a
-/// short calibration of this machine. The results of a sweep repeat the estimate beside what was spent.
+/// Takes the body of `POST /v1/sweeps` and answers at once with effects on and off, symmetry, contact pairs, and, if the reduction
+/// is stored, unknowns, scheme and step with the reason that set them, and the expected computing time and memory, from a short
+/// calibration of this machine. The results of a sweep repeat the estimate beside the cost that was spent.
 #[utoipa::path(post, path = "/v1/sweeps/plan", operation_id = "plan_sweep", tag = "jobs",
     request_body(content = SweepBody),
     responses(

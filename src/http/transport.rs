@@ -1,4 +1,4 @@
-//! What connections and requests are subject to and counted by, whatever their route.
+//! Limits, checks and counters of connections and requests, whatever their route.
 
 use std::net::IpAddr;
 use std::time::Duration;
@@ -11,24 +11,24 @@ use super::request_metrics::Metrics;
 use super::server::{Figures, Limits};
 use crate::config::TransportConfig;
 
-/// What connections and requests are subject to and counted by.
+/// Limits, checks and counters of connections and requests.
 #[derive(Debug)]
 pub struct Transport {
-    /// Of connections.
+    /// Limits of connections.
     pub limits: Limits,
-    /// What became of connections.
+    /// Counters of connections.
     pub connections: Figures,
     pub(super) hosts: Hosts,
     pub(super) cors_origins: Vec<HeaderValue>,
     pub(super) metrics: Metrics,
-    /// The latest look at the database.
+    /// Latest probe of the database.
     pub(super) probed: Probed,
-    /// Room on the disk below which the service is not ready, in bytes.
+    /// Free bytes on the disk below which the service is not ready.
     pub(super) min_free_bytes: u64,
 }
 
 impl Transport {
-    /// Of a service that listens on `bound` and has files for so many `connections`.
+    /// Transport of a service that listens on `bound` and has files for so many `connections`.
     pub fn new(config: TransportConfig, bound: IpAddr, connections: usize) -> Self {
         let TransportConfig {
             head_seconds,

@@ -1,6 +1,6 @@
-//! The page in the browser: our own files, and Plotly's script beside them.
+//! Page for the browser: our own files, and Plotly's script beside them.
 //!
-//! It is a client as others are and no part of the contract. Anybody may read it; what it shows, it asks for with a token where the
+//! The page is a client like any other and no part of the contract. Anybody may read it; its own requests have a token where the
 //! service wants one.
 
 use std::collections::BTreeMap;
@@ -23,20 +23,20 @@ use super::download;
 use super::problem::{Kind, Problem};
 use super::state::AppState;
 
-/// The one that the others are asked from, at `/`.
+/// File at `/`, which loads the others.
 const INDEX: &str = "index.html";
 
-/// Where the index wants the address of Plotly's script.
+/// Placeholder in the index for the address of Plotly's script.
 const PLACE_OF_SCRIPT: &str = "{{plotly}}";
 
-/// What is asked for again whenever the page is opened, and answered with 304 if it is the same.
+/// Cache control of files that browsers ask for again whenever the page is opened; the answer is 304 if they are the same.
 const CHECKED: HeaderValue = HeaderValue::from_static("no-cache");
 
-/// What has a digest of its content in its name.
+/// Cache control of files that have a digest of their content in their name.
 const FOREVER: HeaderValue = HeaderValue::from_static("public, max-age=31536000, immutable");
 
-/// What browsers may do with the page: nothing but what it is made of and asks this service for. The digests are of the two texts
-/// that Plotly puts into style attributes: none, and how the picture of a heat map is to be scaled.
+/// Content security policy of the page: browsers load only its own parts and the answers of this service. The digests are of the
+/// two texts that Plotly puts into style attributes: an empty one, and how the picture of a heat map is to be scaled.
 const POLICY: HeaderValue = HeaderValue::from_static(
     "default-src 'none'; script-src 'self'; \
      style-src 'self' 'unsafe-hashes' 'sha256-47DEQpj8HBSa+/TImW+5JCeuQeRkm5NMpJWZG3hSuFU=' \
@@ -48,22 +48,22 @@ const POLICY: HeaderValue = HeaderValue::from_static(
 #[folder = "web/"]
 struct Files;
 
-/// The page, compressed when it is first asked for.
+/// Page, compressed when it is first asked for.
 static PAGE: LazyLock<io::Result<Page>> = LazyLock::new(Page::new);
 
-/// All files, by the rest of their path.
+/// Files of the page, by the rest of their path.
 struct Page {
     files: BTreeMap<String, File>,
 }
 
-/// A file as it is sent.
+/// File of the page as it is sent.
 struct File {
     content_type: HeaderValue,
     cache: HeaderValue,
-    /// Entity tag, without the mark of weakness: plain and compressed, it is the same.
+    /// Entity tag without the mark of weakness; the plain and the compressed file have the same.
     tag: String,
     gzipped: Bytes,
-    /// For the few who do not take it compressed.
+    /// Plain content, for the few clients that do not take it compressed.
     plain: OnceLock<Bytes>,
 }
 
@@ -72,7 +72,7 @@ pub(super) fn is_of_page(path: &str) -> bool {
     path == "/" || path.starts_with("/page/")
 }
 
-/// The routes of the page.
+/// Routes of the page.
 pub(super) fn routes() -> Router<AppState> {
     Router::new().route("/", get(async |headers: HeaderMap| answer(INDEX, &headers))).route(
         "/page/{*file}",
@@ -153,7 +153,7 @@ impl File {
         Ok(self.plain.get_or_init(|| plain.into()).clone())
     }
 
-    /// What every answer says, those without the content as well.
+    /// Headers of every answer, also of those without the content.
     fn headers(&self) -> impl Iterator<Item = (HeaderName, HeaderValue)> {
         let tag = HeaderValue::try_from(format!("W/{}", self.tag)).ok();
         let always = [
@@ -171,7 +171,7 @@ fn tag(content: &[u8]) -> String {
     format!("\"{:x}\"", Sha256::digest(content))
 }
 
-/// Whether the client takes what is compressed by gzip (RFC 9110, 12.5.3).
+/// Whether the client accepts content compressed by gzip (RFC 9110, 12.5.3).
 fn takes_gzip(headers: &HeaderMap) -> bool {
     let values = headers.get_all(header::ACCEPT_ENCODING).iter().filter_map(|value| value.to_str().ok());
     values.flat_map(|value| value.split(',')).any(|coding| {

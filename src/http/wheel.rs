@@ -1,4 +1,4 @@
-//! Critical speeds of the wheel as a whole.
+//! Critical speeds of the whole wheel.
 
 use axum::extract::State;
 use axum::response::Response;
@@ -13,9 +13,10 @@ use crate::analysis::result::{WheelCriticalSpeeds, most_utilised_first};
 use crate::store::results::Document;
 use crate::tokens::Principal;
 
-/// Download the critical speeds of the wheel, the most severe or the most utilised first: over all contact nodes, components and blades.
+/// Download the critical speeds of the wheel over all contact nodes, components and blades, the most severe or the most utilised first.
 ///
-/// The views of the sensors are beside them in json; `critical-speeds` has one of them with the linear prediction, and its drawing.
+/// In json the critical speeds that each sensor sees are beside them; `critical-speeds` has those of one sensor with the linear
+/// prediction, and its drawing.
 #[utoipa::path(get, path = "/v1/jobs/{id}/critical-speeds/wheel", operation_id = "get_wheel_critical_speeds", tag = "results",
     params(("id" = String, Path, description = "Id of a sweep."), RankQuery, DownloadQuery),
     responses(

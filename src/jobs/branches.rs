@@ -1,4 +1,4 @@
-//! Branches: followed leg by leg.
+//! Branches of periodic responses, followed leg by leg.
 
 use super::engine::{Engine, Live};
 use super::error::Interruption;

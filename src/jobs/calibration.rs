@@ -1,4 +1,4 @@
-//! What steps cost on this machine.
+//! Costs of steps on this machine.
 
 use std::sync::Arc;
 
@@ -9,7 +9,7 @@ use super::pool::{CpuPool, Panicked};
 use crate::analysis::run::Calibration;
 use crate::store::{Store, StoreError};
 
-/// What steps cost on this machine: from the store, or measured at first use.
+/// Costs of steps on this machine: from the store, or measured at first use.
 #[derive(Debug)]
 pub(super) struct Calibrated {
     store: Store,
@@ -21,7 +21,7 @@ impl Calibrated {
         Self { store, known: OnceCell::new() }
     }
 
-    /// Measures on a thread of `pool`, if need be.
+    /// Gives the costs; measures them on a thread of `pool` where none are stored.
     pub(super) async fn get<E: From<StoreError> + From<Panicked>>(
         &self,
         pool: &CpuPool,

@@ -17,7 +17,7 @@ use crate::analysis::run::{self, Choice, ModelFacts, ModesChoice, Next, NextMode
 use crate::store::StoreError;
 use crate::store::jobs::{Chosen, FailureCause, JobRequest};
 
-/// The job with the settings that pilot runs choose for its sweep; as it is where nothing is to be chosen (any more).
+/// Chooses the settings of a sweep by pilot runs and returns the job with them; returns the job as it is where nothing is left to choose.
 pub(super) async fn sweep(
     engine: &Engine,
     job: Arc<Live>,
@@ -39,7 +39,7 @@ pub(super) async fn sweep(
     engine.choose(&job, chosen, Chosen::Setting(choice)).await
 }
 
-/// The setting that pilot runs choose for a wheel of `sectors`.
+/// Chooses, by pilot runs, the setting for a wheel of `sectors`.
 async fn setting(
     engine: &Engine,
     job: &Live,
@@ -70,8 +70,8 @@ async fn setting(
     }
 }
 
-/// What `choosing` ends with, if that is within the time that an accuracy allows it from `begin` on. Otherwise what still computes for
-/// it stops, and is waited for: whoever asks again finds what it kept.
+/// Waits for `choosing` for the time that an accuracy allows from `begin` on, and returns its outcome. When the time is over, what
+/// still computes for it is stopped and waited for: whoever asks again finds what it stored.
 async fn in_time<T>(
     job: &Live,
     modes: Modes,
@@ -85,7 +85,7 @@ async fn in_time<T>(
         return outcome;
     }
     job.watch.dismiss();
-    // It was dismissed, and says so.
+    // The dismissed choice returns an error, which is expected.
     let _ = choosing.await;
     let message = format!(
         "nothing was found within {} s that is known to be as accurate: ask for a larger target, or give more time; the next job with \
@@ -95,7 +95,7 @@ async fn in_time<T>(
     Err(AnalysisError::Refused(vec![Violation::new("/accuracy/seconds", message)]).into())
 }
 
-/// The choice for a resolved sweep, if all that it rests on is stored.
+/// Choice for a resolved sweep, if all that it rests on is stored.
 pub(super) async fn stored(
     engine: &Engine,
     request: &ResolvedSweep,
@@ -116,7 +116,7 @@ pub(super) async fn stored(
     }
 }
 
-/// The same for a modal analysis, by its reductions.
+/// Chooses the modes of a modal analysis by its reductions and returns the job with them; returns the job as it is where nothing is left to choose.
 pub(super) async fn modal_analysis(
     engine: &Engine,
     job: Arc<Live>,
@@ -132,7 +132,7 @@ pub(super) async fn modal_analysis(
     engine.choose(&job, chosen, Chosen::Modes(choice)).await
 }
 
-/// The modes that reductions choose.
+/// Chooses the modes of a modal analysis by reductions.
 async fn modes(
     engine: &Engine,
     job: &Live,
@@ -160,7 +160,7 @@ async fn modes(
     }
 }
 
-/// The choice for a resolved modal analysis, if the reductions that it rests on are stored.
+/// Choice of modes for a resolved modal analysis, if the reductions that it rests on are stored.
 pub(super) async fn stored_modes(
     engine: &Engine,
     request: &ResolvedModalAnalysis,
@@ -174,7 +174,7 @@ pub(super) async fn stored_modes(
     })
 }
 
-/// Facts of the model that `job` computes from, and when it began.
+/// Facts of the model that `job` computes from, and time at which the job began.
 async fn begun(engine: &Engine, job: &Live) -> Result<(ModelFacts, DateTime<Utc>), Interruption> {
     let stored = engine.store.job(job.id).await?.ok_or(Interruption::NotWanted)?;
     let begin = stored.started_at.as_deref().and_then(|time| DateTime::parse_from_rfc3339(time).ok());
@@ -182,7 +182,7 @@ async fn begun(engine: &Engine, job: &Live) -> Result<(ModelFacts, DateTime<Utc>
     Ok((stored.facts.ok_or(Interruption::NotWanted)?, begin))
 }
 
-/// By the clock on the wall: what was spent before the service was stopped counts, and so does the pause.
+/// Seconds since `begin` by the clock on the wall: what was spent before the service was stopped counts, and so does the pause.
 fn seconds_since(begin: DateTime<Utc>) -> f64 {
     (Utc::now() - begin).as_seconds_f64().max(0.0)
 }
@@ -192,7 +192,7 @@ pub(super) async fn facts(engine: &Engine, job: &Live) -> Result<ModelFacts, Int
     Ok(begun(engine, job).await?.0)
 }
 
-/// The largest reduction that is stored with fewer than `modes`.
+/// Number of modes of the largest stored reduction that has fewer than `modes`.
 fn largest_below(modes: u32, resources: &Resources) -> Option<u32> {
     resources.reductions.iter().map(|&(k, _)| k).filter(|&k| k < modes).max()
 }

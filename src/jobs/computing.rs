@@ -1,5 +1,5 @@
 //! Computations of jobs on the threads that compute: each is marked in the store while it runs, so that the next start knows
-//! what this service died under; and caution with jobs it died under before.
+//! under which jobs this service died; and caution with jobs under which it died before.
 
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -13,24 +13,23 @@ use super::progress::Watch;
 use crate::store::Store;
 use crate::store::jobs::JobId;
 
-/// Deaths of the service while something was being computed for a job, with nothing of it finished in between, after which
-/// the job is given up.
+/// Deaths of the service while something was being computed for a job, with nothing of it finished in between, after which the job is given up.
 pub(super) const MOST_CRASHES: u32 = 12;
 
-/// Such deaths from which on a job is suspected: it computes when no other suspect does, and not at once.
+/// Deaths of the service under a job from which on the job is suspected: it computes when no other suspect does, and not at once.
 const SUSPICIOUS: u32 = 3;
 
-/// Longest time after the start before a suspect computes.
+/// Longest time after the start of the service before a suspected job computes.
 const LONGEST_PAUSE: Duration = Duration::from_secs(60);
 
-/// Computations of jobs.
+/// Computations of jobs on a pool of threads.
 #[derive(Debug)]
 pub(super) struct Computing {
     store: Store,
     pool: CpuPool,
-    /// Jobs that something was being computed for when the service died, and how often.
+    /// Jobs for which something was being computed when the service died, with the number of its deaths.
     crashes: Mutex<HashMap<JobId, u32>>,
-    /// Held by the suspect that computes.
+    /// Lock held by the suspected job that computes.
     suspects: Arc<tokio::sync::Mutex<()>>,
 }
 
@@ -39,12 +38,12 @@ impl Computing {
         Self { store, pool, crashes: Mutex::default(), suspects: Arc::default() }
     }
 
-    /// Threads that compute.
+    /// Number of threads that compute.
     pub(super) fn threads(&self) -> usize {
         self.pool.threads()
     }
 
-    /// Computes on one thread for the job of `watch`.
+    /// Runs `compute` on one thread for the job of `watch`.
     pub(super) async fn run<T, F>(&self, watch: &Arc<Watch>, compute: F) -> Result<T, Interruption>
     where
         T: Send + 'static,
@@ -54,7 +53,7 @@ impl Computing {
         Ok(self.pool.run(self.marked(watch, alone, compute)).await?)
     }
 
-    /// The same for work that is parallel in itself.
+    /// Runs `compute`, which is parallel in itself, for the job of `watch`.
     pub(super) async fn run_parallel<T, F>(&self, watch: &Arc<Watch>, compute: F) -> Result<T, Interruption>
     where
         T: Send + 'static,
@@ -64,8 +63,8 @@ impl Computing {
         Ok(self.pool.run_parallel(self.marked(watch, alone, compute)).await?)
     }
 
-    /// `compute` with a mark from its beginning to its end: what waits for a thread is not marked. What it holds it holds to
-    /// its end as well, whether or not somebody still waits for it.
+    /// Wraps `compute` with a mark from its beginning to its end: what waits for a thread is not marked. What it holds it
+    /// holds to its end as well, whether or not somebody still waits for it.
     fn marked<T, F: FnOnce() -> T>(
         &self,
         watch: &Watch,
@@ -80,17 +79,17 @@ impl Computing {
         }
     }
 
-    /// The service died so often under a job.
+    /// Records that the service died `crashes` times under a job.
     pub(super) fn suspect(&self, job: JobId, crashes: u32) {
         self.lock().insert(job, crashes);
     }
 
-    /// Something of the job is finished: it is not what the service dies under.
+    /// Clears a job of suspicion: something of it is finished, so it is not what the service dies under.
     pub(super) fn acquit(&self, job: JobId) {
         self.lock().remove(&job);
     }
 
-    /// Lets the job of `watch` compute. Of suspects one computes at a time, so that the next death tells which of them it is.
+    /// Lets the job of `watch` compute. Suspected jobs compute one at a time, so that the next death tells which of them it is.
     async fn admit(&self, watch: &Arc<Watch>) -> Result<Option<OwnedMutexGuard<()>>, Interruption> {
         let crashes = self.lock().get(&watch.job()).copied().unwrap_or(0);
         let mut alone = None;
@@ -105,9 +104,9 @@ impl Computing {
     }
 }
 
-/// How long after a start a job waits that the service died under so often: a suspect a second, and twice as long each time. A
-/// machine that is killed all the time, for reasons of its own, gets on with the others meanwhile, and does not even come to
-/// what would be blamed for it.
+/// Time after a start that a job waits under which the service died `crashes` times: a suspect waits a second, and twice as
+/// long for each further death. A machine that is killed all the time, for reasons of its own, meanwhile gets on with the
+/// other jobs, and does not even come to the one that would be blamed.
 pub(super) fn pause(crashes: u32) -> Duration {
     if crashes < SUSPICIOUS {
         return Duration::ZERO;
@@ -137,7 +136,7 @@ mod tests {
         assert!(alone.is_some());
         assert!(computing.admit(&two).now_or_never().is_none());
         assert!(matches!(computing.admit(&innocent).now_or_never(), Some(Ok(None))));
-        // Something of it is finished: it is not what the service dies under.
+        // A finished part acquits the job: the service does not die under it.
         computing.acquit(two.job());
         assert!(matches!(computing.admit(&two).now_or_never(), Some(Ok(None))));
         two.dismiss();

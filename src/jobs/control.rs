@@ -11,7 +11,7 @@ use crate::analysis::result::Point;
 use crate::analysis::run::{self, ErrorEstimate, FinerRun};
 use crate::store::jobs::{Chosen, FailureCause};
 
-/// Estimated errors of all speeds, if any are to be simulated again.
+/// Estimated errors of all speeds of a sweep, if any speeds are to be simulated again.
 pub(super) async fn errors(
     engine: &Engine,
     job: &Live,
@@ -31,7 +31,7 @@ pub(super) async fn errors(
     let requests = |controls: &[(u32, _, run::TrialRequest)]| controls.iter().map(|c| c.2.clone()).collect();
     match trials.obtain(engine, job, requests(&controls), tell).await {
         Err(Interruption::Failed(failure)) if failure.cause == FailureCause::Memory => {
-            // No memory for more modes: then more steps alone, and the settings say so.
+            // There is no memory for more modes: then there are more steps alone, and the settings say so.
             controls = run::control_requests(request, sectors, points, Some(request.modes_per_speed()));
             trials.obtain(engine, job, requests(&controls), tell).await?;
         }

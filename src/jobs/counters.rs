@@ -1,20 +1,20 @@
-//! What is counted as it happens.
+//! Counters of the work of this process.
 
 use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};
 
-/// What is counted as it happens.
+/// Counters of the work of this process.
 #[derive(Debug, Default)]
 pub(super) struct Counters {
     /// Queues that are being worked on.
     pub(super) workers: AtomicU32,
-    /// Those that shall be.
+    /// Queues that shall be worked on.
     pub(super) queues: AtomicU32,
     pub(super) speeds_running: AtomicU64,
     pub(super) speeds_finished: AtomicU64,
     pub(super) steps: AtomicU64,
 }
 
-/// A speed that is being computed, for as long as this is held.
+/// Guard that counts a speed as being computed for as long as it is held.
 #[derive(Debug)]
 pub(super) struct RunningSpeed<'a>(&'a Counters);
 

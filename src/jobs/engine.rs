@@ -1,4 +1,4 @@
-//! What all tasks share.
+//! State that all tasks of jobs share.
 
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
@@ -25,32 +25,32 @@ use crate::store::limits::Limits;
 use crate::store::status::JobStatus;
 use crate::store::{Store, StoreError};
 
-/// How long a job waits for the package of its model to be put back.
+/// Time that a job waits for the package of its model to be put back.
 const MISSING_PACKAGE: Duration = Duration::from_secs(600);
 
-/// What all tasks share.
+/// State that all tasks of jobs share.
 #[derive(Debug)]
 pub(super) struct Engine {
     pub(super) store: Store,
     pub(super) tasks: Tasks,
     pub(super) computing: Arc<Computing>,
-    /// Reads and writes packages, so that uploads do not wait behind speeds.
+    /// Threads that read and write packages, so that uploads do not wait behind speeds.
     pub(super) importer: CpuPool,
-    /// Plans, which are wanted at once.
+    /// Threads that make plans, which are wanted at once.
     pub(super) planner: Planner,
     pub(super) reductions: Reductions,
     pub(super) calibrated: Calibrated,
-    /// What all computations may take together.
+    /// Memory that all computations may take together.
     pub(super) memory: Arc<Memory>,
     pub(super) counters: Counters,
-    /// What one owner may have.
+    /// Limits on what one owner may have.
     pub(super) limits: Limits,
-    /// Notified when a job was deleted, whose room can be given back.
+    /// Notification that a job was deleted, whose room can be given back.
     pub(super) deleted: Notify,
-    /// Set when the service stops: computations end, their jobs stay as they are.
+    /// Flag set when the service stops: computations end, their jobs stay as they are.
     pub(super) stopping: Arc<AtomicBool>,
     live: Mutex<HashMap<JobId, Arc<Live>>>,
-    /// Progress of all jobs, to be written down.
+    /// Progress of all jobs, to be stored.
     pub(super) reports: Arc<PendingReports>,
 }
 
@@ -61,15 +61,15 @@ pub(super) struct Live {
     pub(super) owner: String,
     pub(super) request: JobRequest,
     pub(super) speeds: u32,
-    /// Its speeds in the order in which each starts from the end of the one before; none where each is on its own.
+    /// Speeds of the job in the order in which each starts from the end of the one before; `None` where each is on its own.
     pub(super) chain: Option<Vec<u32>>,
-    /// Memory that a speed holds while it runs, once that is planned.
+    /// Memory in bytes that a speed holds while it runs, once that is planned.
     pub(super) speed_bytes: AtomicU64,
     pub(super) watch: Arc<Watch>,
 }
 
 impl Live {
-    /// It, as far as its tasks go.
+    /// Owner and id of the job, by which its tasks are queued.
     pub(super) fn whose(&self) -> Whose<'_> {
         Whose {
             owner: &self.owner,
@@ -79,7 +79,7 @@ impl Live {
         }
     }
 
-    /// The speeds before and after `speed` in the chain, if there are such.
+    /// Neighbours of `speed` in the chain: the speed before and the one after, where there are such.
     pub(super) fn neighbours(&self, speed: u32) -> (Option<u32>, Option<u32>) {
         let Some(chain) = &self.chain else { return (None, None) };
         let at = |place: Option<usize>| place.and_then(|place| chain.get(place)).copied();
@@ -88,7 +88,7 @@ impl Live {
     }
 }
 
-/// The chain of a sweep up or down.
+/// Chain of a sweep up or down: its speeds in the order in which each starts from the end of the one before.
 fn chain(request: &JobRequest) -> Option<Vec<u32>> {
     match request {
         JobRequest::Sweep(sweep) => sweep.chain(),
@@ -130,7 +130,7 @@ impl Engine {
         })
     }
 
-    /// The job, if it still wants work.
+    /// Job in memory, if it still wants work.
     pub(super) async fn live(&self, id: JobId) -> Result<Option<Arc<Live>>, Interruption> {
         if self.stopping.load(Ordering::Relaxed) {
             return Err(Interruption::NotWanted);
@@ -149,7 +149,7 @@ impl Engine {
             self.forget(id);
             return Ok(None);
         }
-        // One that was set aside since and goes on has another.
+        // A job that was paused since and goes on has another watch.
         let watch = known.map(|live| Arc::clone(&live.watch)).filter(|watch| !watch.is_cancelled());
         let watch = watch.unwrap_or_else(|| {
             Watch::new(id, speeds.total, Arc::clone(&self.stopping), Arc::clone(&self.reports))
@@ -167,13 +167,13 @@ impl Engine {
         Ok(Some(live))
     }
 
-    /// Keeps a job in memory, unless another task was faster; what is newer takes the place of what others may have changed.
+    /// Keeps a job in memory, unless another task was faster; a newer job takes the place of one that other processes may have changed.
     fn keep(&self, live: Live) -> Arc<Live> {
         let mut all = self.lock_live();
         let kept = all.entry(live.id);
         let live = match &kept {
             Entry::Occupied(known) if !self.tasks.are_shared() => return Arc::clone(known.get()),
-            // Tasks that run are told by the watch that they have.
+            // The watch tells running tasks that they have the older job.
             Entry::Occupied(known) if !known.get().watch.is_cancelled() => {
                 Live { watch: Arc::clone(&known.get().watch), ..live }
             }
@@ -213,7 +213,7 @@ impl Engine {
         Ok(Arc::clone(current))
     }
 
-    /// Keeps the settings that were chosen for a job and goes on with the request that has them.
+    /// Stores the settings that were chosen for a job and goes on with the request that has them.
     pub(super) async fn choose(
         &self,
         job: &Live,
@@ -224,7 +224,7 @@ impl Engine {
         self.revise(job, request, job.speeds).await
     }
 
-    /// Stops all computations of a job that has ended or is set aside, and drops its waiting tasks.
+    /// Stops all computations of a job that has ended or is paused, and drops its waiting tasks.
     pub(super) fn retire(&self, id: JobId) {
         self.tasks.withdraw(id);
         self.computing.acquit(id);
@@ -238,8 +238,9 @@ impl Engine {
         }
     }
 
-    /// Works on a task of job `id` to its end, and records it if that matters. A task that the store lets down for a while
-    /// is begun again until it can: what it has finished it finds there. Whether it was wanted to the end.
+    /// Works on a task of job `id` to its end, and records its failure. While the store fails for a time, the task is
+    /// begun again and again; what it has finished before, it finds stored. Returns whether the task was wanted to the
+    /// end.
     pub(super) async fn attend<T>(&self, id: JobId, mut task: impl FnMut() -> T) -> bool
     where
         T: Future<Output = Result<(), Interruption>>,
@@ -281,8 +282,9 @@ impl Engine {
         }
     }
 
-    /// Has a job prepared again that wants work though somebody was just told to stop: one that was set aside and goes on drops what is
-    /// under way, and what was under way is not begun a second time. Shared tasks are missed by those who look for jobs without any.
+    /// Prepares a job again that wants work though its computations were just told to stop: a job that was paused and goes on drops
+    /// what is under way, and what was under way is not begun a second time. Shared tasks are missed by those who look for jobs without
+    /// any.
     pub(super) async fn take_up_again(&self, id: JobId) {
         if self.tasks.are_shared() || self.stopping.load(Ordering::Relaxed) {
             return;
@@ -300,7 +302,7 @@ impl Engine {
         self.lock_live().keys().copied().collect()
     }
 
-    /// Ends what is computed for a job in memory that has ended or was paused elsewhere.
+    /// Ends the computations of a job in memory that has ended or was paused elsewhere.
     #[cfg(feature = "cluster")]
     pub(super) async fn look_at(&self, id: JobId) {
         if !self.lock_live().contains_key(&id) {
@@ -313,7 +315,7 @@ impl Engine {
         }
     }
 
-    /// What a job does or waits for now, if it has said so.
+    /// Phase of a job: what it does or waits for now, if it has reported that.
     pub(super) fn phase(&self, id: JobId) -> Option<String> {
         let live = self.lock_live().get(&id).cloned()?;
         live.watch.phase()
@@ -335,7 +337,7 @@ impl Engine {
         }
         self.store.advance_job(id, JobStatus::Failed, Some(failure)).await?;
         self.retire(id);
-        // It may have been set aside before, and go on.
+        // The job may have been paused before, and go on.
         self.take_up_again(id).await;
         Ok(())
     }

@@ -1,4 +1,4 @@
-//! Why a task of a job ended early.
+//! Reasons why a task of a job ended early.
 
 use super::memory::TooLarge;
 use super::pool::Panicked;
@@ -11,23 +11,23 @@ use crate::store::StoreError;
 use crate::store::jobs::{Failure, FailureCause};
 use crate::store::limits::LimitReached;
 
-/// How to get more memory.
+/// Advice on how to get more memory.
 const MORE_MEMORY: &str = "let the service take more (--memory-bytes or RUBMAP_MEMORY_BYTES, of which seven eighths go to \
                            one large model), or run it on a machine with more memory";
 
-/// Why a task of a job ended early.
+/// Reason why a task of a job ended early.
 #[derive(Debug)]
 pub(super) enum Interruption {
-    /// The job was dismissed, or the service is stopping: nothing to record.
+    /// Task that is not wanted any more: the job was dismissed, or the service is stopping. Nothing to record.
     NotWanted,
-    /// The job cannot be computed.
+    /// Job that cannot be computed.
     Failed(Failure),
-    /// What is needed could not be read or kept.
+    /// Data that the task needs could not be read or stored.
     Store(StoreError),
 }
 
 impl Interruption {
-    /// The stored package of a model cannot be read: for a while, or because it is not what it was.
+    /// Interruption by a stored package that cannot be read: for a while, or because it is not what it was.
     pub(super) fn stored_package(error: PackageError) -> Self {
         match error {
             PackageError::Io { source } => Self::Store(StoreError::Package(source)),
@@ -38,13 +38,13 @@ impl Interruption {
         }
     }
 
-    /// A model whose matrices were written with few digits cannot be reduced, probably for that reason.
+    /// Failure of a model whose matrices were written with few digits and that cannot be reduced, probably for that reason.
     pub(super) fn few_digits(error: &ModelError, digits: &DigitNoise) -> Self {
         let message = format!("{error}. A likely cause: {}", digits.warning());
         Self::Failed(Failure { cause: FailureCause::Model, message, violations: Vec::new() })
     }
 
-    /// One speed of the job needs more memory than there is for all.
+    /// Failure of a job of which one speed needs more memory than there is for all.
     pub(super) fn speed_memory(TooLarge { needed, allowed }: TooLarge) -> Self {
         let mib = |bytes: u64| bytes as f64 / f64::from(1 << 20);
         let message = format!(
@@ -56,13 +56,13 @@ impl Interruption {
         Self::Failed(Failure { cause: FailureCause::Memory, message, violations: Vec::new() })
     }
 
-    /// The owner of the job has too much already.
+    /// Failure of a job whose owner has too much already.
     pub(super) fn limit(reached: LimitReached) -> Self {
         let message = reached.to_string();
         Self::Failed(Failure { cause: FailureCause::Limit, message, violations: Vec::new() })
     }
 
-    /// The generator made a package that the importer refuses.
+    /// Failure of a job for which the generator made a package that the importer refuses.
     pub(super) fn generated_package(error: PackageError) -> Self {
         if let PackageError::Io { source } = error {
             return Self::Store(StoreError::File(source));
@@ -71,7 +71,7 @@ impl Interruption {
         Self::Failed(Failure { cause: FailureCause::Refused, message, violations: Vec::new() })
     }
 
-    /// The generator needs more memory than it may take.
+    /// Failure of a job for which the generator needs more memory than it may take.
     pub(super) fn generation_memory(needed_bytes: u64, allowed_bytes: u64) -> Self {
         let mib = |bytes: u64| bytes as f64 / f64::from(1 << 20);
         let message = format!(
@@ -84,7 +84,7 @@ impl Interruption {
     }
 }
 
-/// What a job waits for whose task the store has let down, in words.
+/// Text for a job that waits because the store failed with `error`.
 pub(super) fn waiting_for(error: &StoreError) -> &'static str {
     if error.is_disk_full() {
         "waiting for room on the disk of the storage"
@@ -95,20 +95,20 @@ pub(super) fn waiting_for(error: &StoreError) -> &'static str {
     }
 }
 
-/// The package of a job's model has been missing for too long.
+/// Failure of a job whose model's package has been missing for too long.
 pub(super) fn lost_package() -> Failure {
     let message =
         "the package of its model is not in the storage any more; upload the model and send the job again";
     Failure { cause: FailureCause::Package, message: message.to_owned(), violations: Vec::new() }
 }
 
-/// Something stored does not read back.
+/// Failure of a job whose stored data do not read back.
 pub(super) fn unreadable() -> Failure {
     let message = "the storage holds something that cannot be read; the service's log says more";
     Failure { cause: FailureCause::Storage, message: message.to_owned(), violations: Vec::new() }
 }
 
-/// The service died under a job too often.
+/// Failure of a job under which the service died too often.
 pub(super) fn crashed(times: u32) -> Failure {
     let message = format!(
         "the service ended {times} times while it computed this job and nothing else that it ended under before, \

@@ -10,7 +10,8 @@ use crate::package::{self, Limits};
 use crate::store::bases::BasisFolder;
 use crate::store::jobs::{Failure, FailureCause};
 
-/// Of a package from its file; `wheel` is the reduction beside which `basis` is kept. The inner error is that of files beside the reduction.
+/// Euler force of a package, read from its file; `wheel` is the reduction beside which `basis` is stored. The inner error is that of files
+/// beside the reduction.
 pub(super) fn from_package(
     package: &Path,
     (basis, wheel): (&BasisFolder, &ReducedWheel),

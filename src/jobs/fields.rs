@@ -1,4 +1,4 @@
-//! What fields of a model are made of: its stored reduction, the basis beside it, and its nodes and elements.
+//! Sources of fields of a model: its stored reduction, the basis beside it, and its nodes and elements.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -15,10 +15,10 @@ use crate::package::{self, Limits, PackageError};
 use crate::store::StoreError;
 use crate::store::bases::BasisFolder;
 
-/// Bytes for each own DOF: tables of the package as they are read, nodes, the stress operator.
+/// Bytes of memory for each own DOF: tables of the package as they are read, nodes, the stress operator.
 const DOF_MEMORY: u64 = 6 << 10;
 
-/// Memory of a sector as [`field_sector`] reads it.
+/// Memory in bytes of a sector as [`field_sector`] reads it.
 pub fn sector_memory(own_dofs: u32) -> u64 {
     u64::from(own_dofs) * DOF_MEMORY
 }
@@ -26,7 +26,7 @@ pub fn sector_memory(own_dofs: u32) -> u64 {
 /// Reads nodes and elements of a package of so many `sectors`.
 ///
 /// # Errors
-/// Those of reading the package.
+/// Errors of reading the package.
 pub fn field_sector(package: &Path, sectors: usize) -> Result<FieldSector, PackageError> {
     let limits = Limits::default();
     let nodes = package::read_nodes(package, &limits)?;
@@ -39,21 +39,21 @@ pub fn field_sector(package: &Path, sectors: usize) -> Result<FieldSector, Packa
 /// Bytes of a column for each own DOF and nodal diameter: what the basis gives, displacement, and stress twice.
 const COLUMN_MEMORY: u64 = 16 * (1 + 1 + 2 * 2);
 
-/// What fields of a model are made of.
+/// Source of fields of a model: its stored reduction, the basis beside it, and its package.
 #[derive(Debug, Clone)]
 pub struct FieldSource {
     reduced: Arc<ReducedSector>,
     basis: BasisFolder,
     package: PathBuf,
-    /// The model and its accuracy dial, and who has it in memory.
+    /// Model and modes per speed of the reduction, and the engine that has it in memory.
     of: (Arc<Engine>, String, u32),
 }
 
 impl Jobs {
-    /// What fields of `model` are made of, if it has been reduced so.
+    /// Source of fields of `model`, if it has been reduced with so many modes.
     ///
     /// # Errors
-    /// Those of the store.
+    /// Errors of the store.
     pub async fn field_source(
         &self,
         model: &str,
@@ -70,11 +70,10 @@ impl Jobs {
         }))
     }
 
-    /// The wheel under its centrifugal load, solved if nobody has asked for it or for stress before; nothing of a package without a
-    /// mesh.
+    /// Wheel under its centrifugal load, solved if nobody has asked for it or for stress before; `None` for a package without a mesh.
     ///
     /// # Errors
-    /// A package that cannot be read, or not be solved.
+    /// A package that cannot be read, or a wheel that cannot be solved.
     pub async fn static_wheel(
         &self,
         source: &FieldSource,
@@ -92,7 +91,7 @@ impl Jobs {
 }
 
 impl FieldSource {
-    /// The reduction.
+    /// Reduction from which the fields are made.
     pub fn reduced(&self) -> &ReducedSector {
         &self.reduced
     }
@@ -102,23 +101,23 @@ impl FieldSource {
         self.reduced.wheel.contact.iter().map(|node| node.normal[2]).sum::<f64>() >= 0.0
     }
 
-    /// Memory that a field with so many columns of each nodal diameter takes while it is made and written.
+    /// Memory in bytes that a field with so many columns of each nodal diameter takes while it is made and written.
     pub fn memory(&self, own_dofs: u32, columns: usize) -> u64 {
         let harmonics = self.reduced.wheel.harmonics.len() as u64;
         u64::from(own_dofs) * (DOF_MEMORY + COLUMN_MEMORY * columns as u64 * harmonics)
     }
 
-    /// Reads nodes and elements, with what stress needs if it is wanted, claimed outside a radius about contact nodes that is their mean
-    /// distance where none is given.
+    /// Reads nodes and elements, with what stress needs if it is wanted. Stress is claimed outside a radius about contact nodes, which
+    /// is their mean distance where none is given.
     ///
     /// # Errors
-    /// Those of reading the package.
+    /// Errors of reading the package.
     pub fn sector(&self, stress: bool, excluded_radius: Option<f64>) -> Result<FieldSector, PackageError> {
         let sector = field_sector(&self.package, self.reduced.wheel.sectors)?;
         Ok(if stress { sector.with_stress(excluded_radius) } else { sector })
     }
 
-    /// Makes something of the basis.
+    /// Calls `make` with the wheel and products of its basis.
     pub fn with_basis<T>(&self, make: impl FnOnce(&ReducedWheel, BasisProduct<'_>) -> T) -> T {
         let wheel = &self.reduced.wheel;
         make(wheel, &mut |harmonic, columns| {

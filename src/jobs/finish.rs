@@ -1,4 +1,4 @@
-//! The end of a job of speeds: what can only be said of all of them together.
+//! End of a job of speeds: results that need all of them.
 
 use super::engine::{Engine, Live};
 use super::error::Interruption;
@@ -11,7 +11,7 @@ use crate::analysis::run;
 use crate::store::jobs::{Failure, FailureCause, JobRequest};
 use crate::store::results::Document;
 
-/// What to do with a job whose speeds are all finished: more speeds, where it lacks them, or its end.
+/// Goes on with a job whose speeds are all finished: queues more speeds where it lacks them, or ends it.
 pub(super) async fn speeds(engine: &Engine, job: &Live) -> Result<(), Interruption> {
     let points = engine.store.points(job.id).await?;
     if points.len() != job.speeds as usize {
@@ -25,7 +25,7 @@ pub(super) async fn speeds(engine: &Engine, job: &Live) -> Result<(), Interrupti
     }
 }
 
-/// More speeds of a sweep, where it asks for them around its peaks, or its critical speeds, with which it is successful.
+/// Queues more speeds of a sweep where it asks for them around its peaks, or computes its critical speeds, with which it is successful.
 async fn sweep(
     engine: &Engine,
     job: &Live,
@@ -44,7 +44,7 @@ async fn sweep(
     conclude(engine, job, request, points).await
 }
 
-/// More designs of a campaign, where its answer is undecided, or its end.
+/// Queues more designs of a campaign where its answer is undecided, or ends it.
 async fn campaign(
     engine: &Engine,
     job: &Live,
@@ -62,7 +62,7 @@ async fn campaign(
     complete(engine, job, &[], None).await
 }
 
-/// Goes on with a request that has so many `speeds`, more than before. Who comes to the same speeds a second time changes nothing.
+/// Goes on with a request that has so many `speeds`, more than before. Asking for the same speeds a second time changes nothing.
 async fn more_speeds(
     engine: &Engine,
     job: &Live,
@@ -76,7 +76,7 @@ async fn more_speeds(
     Ok(())
 }
 
-/// Computes the critical speeds of a sweep and marks it successful; one that completed no speed has failed.
+/// Computes the critical speeds of a sweep and marks it successful; a sweep that completed no speed has failed.
 async fn conclude(
     engine: &Engine,
     job: &Live,
@@ -113,7 +113,7 @@ async fn conclude(
     complete(engine, job, &documents, None).await
 }
 
-/// A job of which no speed was completed has failed.
+/// Fails a job of which no speed was completed.
 fn expect_completed(points: &[Point]) -> Result<(), Interruption> {
     match run::nothing_completed(points) {
         None => Ok(()),

@@ -1,4 +1,4 @@
-//! A model from the parameters of the generator: one task from beginning to end.
+//! Generation of a model from the parameters of the generator: one task from beginning to end.
 
 use std::fs::File;
 use std::io::{self, BufWriter};
@@ -19,7 +19,7 @@ use crate::package::raw::RawPackage;
 use crate::package::{self, Limits, PackageError};
 use crate::store::{StoreError, limits};
 
-/// Generates the package, reads it back as if it had been uploaded, and keeps it as a model.
+/// Generates the package, reads it back as if it had been uploaded, and stores it as a model.
 pub(super) async fn run(
     engine: &Engine,
     job: &Live,
@@ -41,7 +41,7 @@ pub(super) async fn run(
         .await??;
 
     wanted(0.05, "waiting for memory")?;
-    // Until the package is read back: each step may hold all the matrices.
+    // Memory is held until the package is read back: each step may hold all the matrices.
     let mut allowance = engine.memory.claim(3 * nodes as u64).await;
     if !allowance.allows(needed_bytes) && !allowance.is_most() {
         drop(allowance);
@@ -71,9 +71,9 @@ pub(super) async fn run(
         engine.computing.run_parallel(&job.watch, read).await?.map_err(Interruption::generated_package)?;
 
     wanted(0.95, "keeping the model")?;
-    // Its place among the owner's models it has had since it was accepted.
+    // The model has had its place among the owner's models since the job was accepted.
     let owner = (job.owner.as_str(), limits::Limits { models: None, ..engine.limits });
-    // It is called as the job is by now.
+    // The model gets the labels that the job has by now.
     let find = || engine.store.job(job.id);
     let labels = patiently(&job.watch, find).await?.map(|job| job.head.labels).unwrap_or_default();
     let keep = || engine.store.insert_model(owner, &id, &facts, &labels, &upload);
@@ -82,7 +82,7 @@ pub(super) async fn run(
     finish::complete(engine, job, &[], Some(&id)).await
 }
 
-/// Writes `package` to a file beside the models; a broken attempt leaves none.
+/// Writes `package` to a file beside the models; a failed attempt leaves none.
 async fn write(engine: &Engine, package: Arc<RawPackage>) -> Result<Result<TempPath, Panicked>, StoreError> {
     let (file, upload) = engine.store.new_upload().await?.into_parts();
     match engine.importer.run(move || write_to(file, &package)).await {
@@ -91,7 +91,7 @@ async fn write(engine: &Engine, package: Arc<RawPackage>) -> Result<Result<TempP
     }
 }
 
-/// Nothing is wrong with the package yet: what fails is the disk.
+/// Writes `package` to `file`. Nothing is wrong with the package yet: errors are those of the disk.
 fn write_to(file: File, package: &RawPackage) -> io::Result<()> {
     package::write(package, BufWriter::new(file)).map_err(|error| match error {
         PackageError::Io { source } => source,

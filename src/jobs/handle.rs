@@ -1,4 +1,4 @@
-//! What `http` may ask of jobs. It does not know how many threads there are.
+//! Handle through which `http` asks for jobs. It does not know how many threads there are.
 
 use std::io::ErrorKind;
 use std::path::PathBuf;
@@ -29,54 +29,54 @@ use crate::store::limits::LimitReached;
 use crate::store::status::JobStatus;
 use crate::tokens::Principal;
 
-/// Memory that reading a package takes, over the size of its zip.
+/// Ratio of the memory that reading a package takes to the size of its zip.
 const EXPANSION: u64 = 12;
 
 /// Time for which the designs of one campaign are checked before other plans have their turn.
 const TURN: Duration = Duration::from_millis(25);
 
-/// A handle on the job runner.
+/// Handle on the job runner.
 #[derive(Debug, Clone)]
 pub struct Jobs {
     pub(super) engine: Arc<Engine>,
 }
 
-/// Why a job was not accepted.
+/// Reason why a job was not accepted.
 #[derive(Debug, thiserror::Error)]
 pub enum SubmitError {
-    /// A model is not there.
+    /// Model that is not there.
     #[error("there is no model {model:?}")]
     UnknownModel {
-        /// Its id.
+        /// Id of the model.
         model: String,
-        /// JSON pointer to where the request names it.
+        /// JSON pointer to where the request names the model.
         at: &'static str,
     },
-    /// It asks for something impossible; all violations at once.
+    /// Request for something impossible; all violations at once.
     #[error("the request cannot be met")]
     Refused(Vec<Violation>),
-    /// Its owner has too much already.
+    /// Limit that the owner of the job has reached.
     #[error(transparent)]
     Limit(LimitReached),
     /// Another request with the same idempotency key was accepted at the same moment.
     #[error("the idempotency key is in use")]
     KeyTaken,
-    /// It could not be kept.
+    /// Failure to store the job.
     #[error(transparent)]
     Store(#[from] StoreError),
-    /// Planning it panicked.
+    /// Panic in the planning of the job.
     #[error(transparent)]
     Defect(#[from] Panicked),
 }
 
-/// What became of a job that was to be cancelled.
+/// Outcome of a request to cancel a job.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Cancellation {
-    /// It is dismissed, now or before.
+    /// The job is dismissed, now or before.
     Dismissed,
-    /// There is no such job.
+    /// The job does not exist.
     Unknown,
-    /// It had ended before.
+    /// The job had ended before.
     AlreadyFinal(JobStatus),
 }
 
@@ -85,7 +85,7 @@ impl Jobs {
         Self { engine }
     }
 
-    /// Resolves a submission of `whose` against its model, keeps it as job `id`, called as `labels` say, and queues it.
+    /// Resolves a submission of `whose` against its model, stores it as job `id` with its `labels`, and queues it.
     /// `answer` is what its idempotency key will repeat.
     pub async fn submit(
         &self,
@@ -173,12 +173,12 @@ impl Jobs {
         tracing::info!(job.id = %id, kind = request.kind().as_str(), model.id = model, speeds, "submitted");
         let (engine, owner) = (Arc::clone(engine), whose.owner.clone());
         let answer = answer.cloned();
-        // To its end, whatever becomes of the client: a job that is kept is queued.
+        // Runs to its end, whatever becomes of the client: a job that is stored is queued.
         let kept = tokio::spawn(async move {
             let whose = (owner.as_str(), engine.limits);
             let kept =
                 engine.store.insert_job(id, whose, &request, &labels, facts.as_ref(), answer.as_ref()).await;
-            // Also where nobody knows whether it was kept: a job that is not there harms nobody.
+            // Queued also where nobody knows whether the job was stored: a task without a job harms nobody.
             if matches!(kept, Ok(Insertion::Accepted) | Err(_)) {
                 engine.tasks.prepare(&owner, id);
             }
@@ -214,7 +214,7 @@ impl Jobs {
         Ok(SweepPlan { choice, placed_sensors, ..plan })
     }
 
-    /// The same for branches.
+    /// Checks branches against their model and says what they would do and cost. Starts nothing.
     pub async fn plan_branches(
         &self,
         whose: &Principal,
@@ -228,7 +228,7 @@ impl Jobs {
         plans::branches(&self.engine, &whose.owner, request, facts, reduced).await
     }
 
-    /// The same for run-ups.
+    /// Checks run-ups against their model and says what they would do and cost. Starts nothing.
     pub async fn plan_run_ups(
         &self,
         whose: &Principal,
@@ -242,7 +242,7 @@ impl Jobs {
         plans::run_ups(&self.engine, &whose.owner, request, facts, reduced).await
     }
 
-    /// The same for a campaign.
+    /// Checks a campaign against its models and says what it would do and cost. Starts nothing.
     pub async fn plan_campaign(
         &self,
         whose: &Principal,
@@ -313,7 +313,7 @@ impl Jobs {
         Ok((campaign, facts, compared.map(|compared| compared.facts)))
     }
 
-    /// The same for a modal analysis.
+    /// Checks a modal analysis against its model and says what it would do and cost. Starts nothing.
     pub async fn plan_modal_analysis(
         &self,
         whose: &Principal,
@@ -336,7 +336,7 @@ impl Jobs {
         Ok(ModalAnalysisPlan { choice, ..plan })
     }
 
-    /// Gives `sensors` their nodes; see [`run::place_sensors`].
+    /// Places `sensors` at nodes of the model; see [`run::place_sensors`].
     async fn place(
         &self,
         model: &str,
@@ -360,7 +360,7 @@ impl Jobs {
         Ok(found)
     }
 
-    /// Checks what only the reduction of a resolved sweep can tell, if it is stored; returns it.
+    /// Checks what only the reduction of a resolved sweep can tell, if it is stored; returns the reduction.
     async fn check(
         &self,
         whose: &Principal,
@@ -379,13 +379,13 @@ impl Jobs {
         Ok(reduced)
     }
 
-    /// The reduction that a plan can rest on: none while its modes are not chosen.
+    /// Reduction that a plan can rest on: `None` while its modes are not chosen.
     async fn reduction(&self, model: &str, modes: Modes) -> Result<Option<Arc<ReducedSector>>, SubmitError> {
         let Some(modes_per_speed) = modes.given() else { return Ok(None) };
         Ok(self.engine.reductions.stored(model, modes_per_speed).await?)
     }
 
-    /// The same for the generation of a model.
+    /// Checks the generation of a model and says what it would do and cost. Starts nothing.
     pub async fn plan_generation(
         &self,
         whose: &Principal,
@@ -430,8 +430,8 @@ impl Jobs {
         }
     }
 
-    /// Sets a job aside, or lets it go on where it was: what is finished of it stays. Returns the status it has now, which is another
-    /// one where it has ended; `None` if there is no such job.
+    /// Pauses a job, or lets it go on where it was: what is finished of it stays. Returns the status it has now, which is another one
+    /// where it has ended; `None` if there is no such job.
     pub async fn set_paused(&self, id: JobId, paused: bool) -> Result<Option<JobStatus>, StoreError> {
         let store = &self.engine.store;
         if paused {
@@ -439,7 +439,7 @@ impl Jobs {
             if status == Some(JobStatus::Paused) {
                 self.engine.retire(id);
                 tracing::info!(job.id = %id, "paused");
-                // Somebody else may have let it go on meanwhile, whose tasks were withdrawn with the others.
+                // Another request may have let the job go on meanwhile, whose tasks were withdrawn with the others.
                 self.engine.take_up_again(id).await;
             }
             return Ok(status);
@@ -466,17 +466,17 @@ impl Jobs {
         Ok(deletion)
     }
 
-    /// What a job does or waits for now, in words; `None` if nothing is known beyond what is stored.
+    /// Phase of a job in words: what it does or waits for now; `None` if nothing is known beyond what is stored.
     pub fn phase(&self, id: JobId) -> Option<String> {
         self.engine.phase(id)
     }
 
-    /// Memory that one answer can get, in bytes; `None` for no limit.
+    /// Memory in bytes that one answer can get; `None` for no limit.
     pub fn most_memory(&self) -> Option<u64> {
         self.engine.memory.most()
     }
 
-    /// Memory for an answer that takes so many bytes while it is made, as soon as it is free.
+    /// Waits for memory for an answer that takes so many bytes while it is made.
     pub async fn answer_memory(&self, bytes: u64) -> Allowance {
         self.engine.memory.hold_up_to(bytes).await
     }
@@ -487,7 +487,7 @@ impl Jobs {
         path: PathBuf,
         limits: package::Limits,
     ) -> Result<Result<(run::ModelFacts, String), Box<package::PackageError>>, Panicked> {
-        // What it will be once expanded is not known yet; texts of numbers shrink to a fifth or less.
+        // The expanded size is not known yet; texts of numbers shrink to a fifth or less.
         let bytes = path.metadata().map_or(0, |file| file.len().saturating_mul(EXPANSION));
         let memory = self.engine.memory.hold_up_to(bytes).await;
         let read = move || {
@@ -503,7 +503,7 @@ impl Jobs {
     }
 }
 
-/// The job that generates what `request` describes.
+/// Job that generates the model of `request`.
 ///
 /// # Errors
 /// [`SubmitError::Refused`] points at a field that is unknown or out of range.
@@ -511,8 +511,8 @@ pub fn generation_of(request: &ImpellerRequest) -> Result<Submission, SubmitErro
     Ok(Submission::ModelGeneration(Box::new(parameters_of(request)?)))
 }
 
-/// What was found out about a request, or all that is wrong with it: of sensors that could not be placed why, and not that they have no
-/// nodes, which follows.
+/// Joins the outcomes of placing sensors and of resolving a request: both, or all that is wrong with the request. For sensors that
+/// could not be placed it reports why, and not that they have no nodes, which follows.
 fn both<A, B>(
     placed: Result<A, Vec<Violation>>,
     resolved: Result<B, Vec<Violation>>,
@@ -537,7 +537,7 @@ fn parameters_of(request: &ImpellerRequest) -> Result<ImpellerParameters, Submit
     request.resolve().map_err(|error| SubmitError::Refused(vec![violation(&error)]))
 }
 
-/// Why parameters of the generator are refused, at the field.
+/// Violation for refused parameters of the generator, at the field.
 fn violation(error: &ImpellerError) -> Violation {
     let at = |field: &str, message: String| Violation::new(format!("/{}", field.replace('.', "/")), message);
     match error {

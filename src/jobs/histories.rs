@@ -1,4 +1,4 @@
-//! What happened at chosen speeds: histories of case studies and of sweeps.
+//! Histories at chosen speeds, for case studies and for sweeps.
 
 use std::sync::Arc;
 
@@ -14,8 +14,8 @@ use crate::analysis::run;
 use crate::store::results::Document;
 use crate::store::states;
 
-/// Simulates the speeds of `case` side by side and keeps the histories of each as soon as they are there: those that are kept already
-/// are not computed again.
+/// Simulates the speeds of `case` side by side and stores the histories of each as soon as they are there; speeds whose histories are
+/// stored already are not computed again.
 pub(super) async fn record(
     engine: &Engine,
     job: &Live,
@@ -62,7 +62,7 @@ async fn record_one(
         Ok::<_, Interruption>((serde_json::to_string(&histories)?, states))
     };
     let (text, states) = engine.computing.run(&job.watch, compute).await??;
-    // First, for histories that are there tell that the speed is done.
+    // States go first, because stored histories tell that the speed is done.
     if let Some(states) = states {
         let document = Document::States(case_speed);
         patiently(&job.watch, || engine.store.keep_document(job.id, document, &states)).await?;

@@ -1,4 +1,4 @@
-//! Jobs that are computed leg by leg, each kept with all that the next one needs: branches and run-ups.
+//! Jobs that are computed leg by leg, each leg stored with all that the next one needs: branches and run-ups.
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -11,14 +11,14 @@ use crate::analysis::error::AnalysisError;
 use crate::analysis::result::{BranchLeg, PointStatus, RunUpLeg};
 use crate::store::Followed;
 
-/// A leg, as it is kept.
+/// Leg of a job, as it is stored.
 pub(super) trait Leg: Serialize {
-    /// What is kept beside it, as text.
+    /// Text stored beside the leg, if any.
     fn beside(&self) -> Result<Option<String>, serde_json::Error> {
         Ok(None)
     }
 
-    /// How the run ended whose last leg it is.
+    /// Status with which the run ended, if this is its last leg.
     fn ended(&self) -> Option<PointStatus> {
         None
     }
@@ -36,7 +36,7 @@ impl Leg for RunUpLeg {
     }
 }
 
-/// Follows a job to its end from where it was left; `further` computes the next leg after a course, and the course after it.
+/// Follows a job to its end from where it was left; `further` computes the next leg from a course, and the course after it.
 pub(super) async fn follow<L, C, F>(
     engine: &Engine,
     job: &Live,

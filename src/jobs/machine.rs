@@ -1,4 +1,4 @@
-//! The machine that this process runs on.
+//! Machine that this process runs on.
 
 use std::fs;
 use std::thread::available_parallelism;
@@ -6,7 +6,7 @@ use std::thread::available_parallelism;
 use crate::analysis::result::Machine;
 use crate::analysis::run::vectors;
 
-/// This machine, as far as the system tells.
+/// Description of this machine, as far as the system tells.
 pub(super) fn here() -> Machine {
     Machine {
         name: rustix::system::uname().nodename().to_string_lossy().into_owned(),
@@ -16,7 +16,7 @@ pub(super) fn here() -> Machine {
     }
 }
 
-/// What machines on which steps cost the same are called.
+/// Key of a machine class: steps cost the same on machines of equal key.
 pub(super) fn kind(Machine { processor, processors, vectors, .. }: &Machine) -> String {
     format!("{processor}, {processors} processors, {vectors}")
 }

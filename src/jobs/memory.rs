@@ -1,10 +1,10 @@
-//! Memory, shared among all that takes much of it: reductions, generations, speeds, uploads, downloads.
+//! Memory shared among all that takes much of it: reductions, generations, speeds, uploads, downloads.
 
 use std::sync::Arc;
 
 use tokio::sync::{Mutex, OwnedMutexGuard, OwnedSemaphorePermit, Semaphore};
 
-/// Bytes that are claimed together.
+/// Bytes of the smallest amount that can be claimed.
 const UNIT: u64 = 1 << 16;
 
 /// Parts into which memory is divided. The reductions of small models get one each; a large one gets all but one, so that
@@ -15,17 +15,16 @@ const SHARES: u64 = 8;
 /// service has very little memory.
 const SMALL_DOFS: u64 = 10_000;
 
-/// What all computations may take together, however many run.
+/// Memory that all computations may take together, however many run.
 #[derive(Debug)]
 pub(super) struct Memory {
     bytes: Option<u64>,
     units: Arc<Semaphore>,
-    /// Held by the large computation that runs or is next: the others wait here, not for memory, where small ones would
-    /// queue up behind them.
+    /// Lock held by the large computation that runs or is next: the others wait here, not for memory, where small ones would queue up behind them.
     turn: Arc<Mutex<()>>,
 }
 
-/// A claim on memory, for as long as it is held.
+/// Claim on memory, for as long as it is held.
 #[derive(Debug, Default)]
 pub struct Allowance {
     /// Bytes that may be taken; `None` for no limit.
@@ -46,30 +45,30 @@ impl Allowance {
     }
 }
 
-/// More than one computation can get.
+/// Request for more memory than one computation can get.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct TooLarge {
-    /// Bytes that it needs.
+    /// Bytes that the computation needs.
     pub(super) needed: u64,
-    /// Bytes that it can get.
+    /// Bytes that one computation can get.
     pub(super) allowed: u64,
 }
 
 impl Memory {
-    /// `bytes` to be shared; `None` for no limit.
+    /// Memory of so many `bytes` to be shared; `None` for no limit.
     pub(super) fn new(bytes: Option<u64>) -> Self {
         // Without a limit shares still bound how many reductions run at once.
         let units = bytes.map_or(SHARES, |bytes| (bytes / UNIT).max(SHARES));
         Self { bytes, units: Arc::new(Semaphore::new(units as usize)), turn: Arc::default() }
     }
 
-    /// What is claimed now, in bytes; 0 without a limit.
+    /// Memory claimed now, in bytes; 0 without a limit.
     pub(super) fn claimed_bytes(&self) -> u64 {
         let all = self.bytes.map_or(0, |bytes| (bytes / UNIT).max(SHARES));
         all.saturating_sub(self.units.available_permits() as u64) * UNIT
     }
 
-    /// Claims what the reduction of a sector of `dofs` DOF should need, as soon as that is free.
+    /// Claims the memory that the reduction of a sector of `dofs` DOF should need, as soon as that is free.
     pub(super) async fn claim(&self, dofs: u64) -> Allowance {
         if dofs <= SMALL_DOFS { self.take_shares(1, None).await } else { self.claim_most().await }
     }
@@ -102,7 +101,7 @@ impl Memory {
         self.bytes.map(|_| self.share() * (SHARES - 1) * UNIT)
     }
 
-    /// Units of a share.
+    /// Number of units of a share.
     fn share(&self) -> u64 {
         self.bytes.map_or(1, |bytes| (bytes / UNIT / SHARES).max(1))
     }

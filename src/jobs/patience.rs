@@ -1,4 +1,4 @@
-//! A full disk, a locked database, no descriptors left: what was asked for or computed waits until that has passed.
+//! Patience with a full disk, a locked database, no descriptors left: what was asked for or computed waits until that has passed.
 
 use std::io::ErrorKind;
 use std::time::Duration;
@@ -7,7 +7,7 @@ use super::error::{Interruption, waiting_for};
 use super::progress::Watch;
 use crate::store::StoreError;
 
-/// Time between two attempts.
+/// Time between two attempts to write.
 pub(super) const BETWEEN_ATTEMPTS: Duration = Duration::from_secs(1);
 
 /// Longest time that a write may take. A server that was cut off in the middle of one never answers, and nobody says so.
@@ -22,7 +22,8 @@ where
     until_written(watch, || in_time(LONGEST_WRITE, write())).await
 }
 
-/// The same of files, which take what they take: their store gives up by itself what does not go on.
+/// Writes a result that is a file, again and again while the store cannot take it. A single write may take any time:
+/// the store of files gives up by itself when a write makes no progress.
 pub(super) async fn until_written<T, W>(
     watch: &Watch,
     mut write: impl FnMut() -> W,

@@ -1,4 +1,4 @@
-//! The planning thread: short computations that requests wait for. Owners take turns.
+//! Planning thread: short computations that requests wait for. Owners take turns.
 
 use std::collections::{HashMap, VecDeque};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -20,13 +20,13 @@ pub(super) struct Planner {
 
 #[derive(Default)]
 struct Lines {
-    /// One line an owner; the first is next.
+    /// Work that waits, one line for each owner; the first is next.
     waiting: VecDeque<(String, VecDeque<Work>)>,
     /// Requests of each owner that were admitted.
     asked: HashMap<String, usize>,
 }
 
-/// Leave of a request to be planned, for as long as that takes.
+/// Permit for a request to be planned, held for as long as that takes.
 pub(super) struct Asked {
     owner: String,
     lines: Arc<Mutex<Lines>>,
@@ -37,7 +37,7 @@ impl Planner {
         Self { pool, lines: Arc::default() }
     }
 
-    /// Threads, for what is nobody's.
+    /// Threads for work that belongs to no owner.
     pub(super) fn pool(&self) -> &CpuPool {
         &self.pool
     }
@@ -45,7 +45,7 @@ impl Planner {
     /// Admits a request of `owner`.
     ///
     /// # Errors
-    /// If too many of his are here.
+    /// If too many requests of this owner are being planned.
     pub(super) fn admit(&self, owner: &str) -> Result<Asked, LimitReached> {
         let mut lines = lock(&self.lines);
         let asked = lines.asked.entry(owner.to_owned()).or_default();
@@ -94,7 +94,7 @@ impl std::fmt::Debug for Planner {
     }
 }
 
-/// The next work; its owner goes to the end.
+/// Takes the next work; its owner goes to the end.
 fn next(lines: &Mutex<Lines>) -> Option<Work> {
     let mut lines = lock(lines);
     let (owner, mut line) = lines.waiting.pop_front()?;

@@ -57,7 +57,7 @@ pub(super) async fn run_ups<E: From<StoreError> + From<Panicked>>(
     Ok(RunUpPlan { machine: Some(machine), ..engine.planner.run(owner, plan).await? })
 }
 
-/// A model, and its reduction if that is there.
+/// Facts of a model, and its reduction if that is there.
 type Model = (ModelFacts, Option<Arc<ReducedSector>>);
 
 /// Plans a resolved campaign of a model and the one that is compared with it.
@@ -82,17 +82,17 @@ pub(super) async fn campaign<E: From<StoreError> + From<Panicked>>(
     Ok(plan)
 }
 
-/// What computes a job.
+/// Machines that compute a job.
 struct Capacity {
-    /// One of its machines.
+    /// Representative machine: the one with most threads.
     machine: Machine,
-    /// What steps cost there.
+    /// Costs of steps on that machine.
     costs: Arc<Calibration>,
-    /// Threads of all machines.
+    /// Number of threads of all machines.
     threads: usize,
 }
 
-/// All machines that share the work, as fast as the one with most threads; this one where there is no other.
+/// Capacity of all machines that share the work, each taken as fast as the one with most threads; of this machine where there is no other.
 async fn capacity<E: From<StoreError> + From<Panicked>>(engine: &Engine) -> Result<Capacity, E> {
     #[cfg(feature = "cluster")]
     if let Some(queue) = engine.store.shared_queue() {
@@ -117,8 +117,8 @@ pub(super) async fn modal_analysis(
     engine.planner.run(owner, move || run::plan_modal_analysis(&request, &facts, reduced.as_deref())).await
 }
 
-/// Keeps the estimate of a job of speeds whose reductions are there, that of a model which is compared last, unless one was kept before.
-/// Refuses one whose speeds take more memory than there is.
+/// Stores the estimate of a job of speeds whose reductions are there, that of a model which is compared last, unless one was stored
+/// before. Refuses one whose speeds take more memory than there is.
 pub(super) async fn keep(
     engine: &Engine,
     job: &Live,
@@ -155,6 +155,6 @@ pub(super) async fn keep(
         }
     };
     job.speed_bytes.store(estimate.speed_memory_bytes, Ordering::Relaxed);
-    // Before the first speed, not with it.
+    // Refused before the first speed begins, not when it claims its memory.
     engine.memory.hold(estimate.speed_memory_bytes).await.map(drop).map_err(Interruption::speed_memory)
 }

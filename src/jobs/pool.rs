@@ -17,15 +17,15 @@ pub(super) type Work = Box<dyn FnOnce() + Send>;
 pub(crate) struct CpuPool {
     sender: mpsc::Sender<Work>,
     threads: usize,
-    /// Threads for work that is parallel in itself.
+    /// Number of threads for work that is parallel in itself.
     inner_threads: usize,
 }
 
-/// A computation panicked: a defect of the program.
+/// Panic of a computation: a defect of the program.
 #[derive(Debug, Clone, thiserror::Error)]
 #[error("the computation panicked: {message}")]
 pub struct Panicked {
-    /// What the panic said.
+    /// Message of the panic.
     pub message: String,
 }
 
@@ -35,7 +35,7 @@ impl Panicked {
     }
 }
 
-/// What `compute` gives, or what its panic said.
+/// Result of `compute`, or the message of its panic.
 pub(super) fn caught<T>(compute: impl FnOnce() -> T) -> Result<T, Panicked> {
     catch_unwind(AssertUnwindSafe(compute)).map_err(|payload| Panicked {
         message: payload
@@ -66,7 +66,7 @@ impl CpuPool {
         Ok(Self { sender, threads, inner_threads })
     }
 
-    /// Its threads.
+    /// Number of threads of the pool.
     pub(crate) fn threads(&self) -> usize {
         self.threads
     }
@@ -79,7 +79,7 @@ impl CpuPool {
     {
         let (sender, receiver) = oneshot::channel();
         self.give(Box::new(move || {
-            // Nobody waits any more: the result is not wanted.
+            // The result is not wanted where nobody waits any more.
             let _ = sender.send(caught(compute));
         }))?;
         receiver.await.map_err(|_| Panicked::of_a_lost_thread())?
@@ -90,10 +90,9 @@ impl CpuPool {
         self.sender.send(work).map_err(|_| Panicked::of_a_lost_thread())
     }
 
-    /// Like [`CpuPool::run`], for work that is parallel in itself (`rayon`).
+    /// Runs `compute`, which is parallel in itself (`rayon`), and waits for its result.
     ///
-    /// It gets threads of its own: in a pool that all share, a small upload would wait behind every piece of a
-    /// reduction of minutes.
+    /// Such work gets threads of its own: in a pool that all share, a small upload would wait behind every piece of a reduction of minutes.
     pub(crate) async fn run_parallel<T, F>(&self, compute: F) -> Result<T, Panicked>
     where
         T: Send + 'static,
@@ -102,7 +101,7 @@ impl CpuPool {
         let inner_threads = self.inner_threads;
         self.run(move || match rayon::ThreadPoolBuilder::new().num_threads(inner_threads).build() {
             Ok(threads) => threads.install(compute),
-            // The system gives no more threads: then with those that are there.
+            // The system gives no more threads: the work runs on those that are there.
             Err(_) => compute(),
         })
         .await

@@ -1,4 +1,4 @@
-//! The first task of a job: reduction, checks, and one task per missing speed.
+//! Preparation, the first task of a job: reduction, checks, and one task per missing speed.
 
 use std::sync::Arc;
 
@@ -39,7 +39,7 @@ pub(super) async fn prepare(engine: &Engine, id: JobId) -> Result<(), Interrupti
     }
 }
 
-/// The reduction that a sweep rests on, against which it is held.
+/// Reduction that a sweep rests on, against which the sweep is checked.
 async fn reduced(
     engine: &Engine,
     job: &Live,
@@ -73,7 +73,7 @@ async fn prepare_speeds(engine: &Engine, job: &Live) -> Result<(), Interruption>
     let mut missing = job.chain.clone().unwrap_or_else(|| (0..job.speeds).collect());
     missing.retain(|speed| !finished.contains(speed));
     if job.chain.is_some() {
-        // Its end queues the next one.
+        // The end of each speed of a chain queues the next one.
         missing.truncate(1);
     }
     job.watch.speeds_finished(finished.len() as u32, None);

@@ -13,14 +13,14 @@ const REDUCTION_OF_SWEEP: f64 = 10.0;
 /// Percent of a modal analysis that its reduction counts for: nearly all the work.
 const REDUCTION_OF_MODAL_ANALYSIS: f64 = 90.0;
 
-/// How far a job is.
+/// Progress of a job.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct Report {
     pub(super) percent: u8,
     pub(super) phase: String,
 }
 
-/// The latest about each job, until somebody takes it to the store.
+/// Latest report on each job, until it is taken to the store.
 #[derive(Debug, Default)]
 pub(super) struct PendingReports {
     changes: Changes,
@@ -28,17 +28,17 @@ pub(super) struct PendingReports {
 }
 
 impl PendingReports {
-    /// Tells `changes` of every report.
+    /// Reports that are also announced to `changes`.
     pub(super) fn new(changes: Changes) -> Self {
         Self { changes, latest: Mutex::default() }
     }
 
-    /// Takes what is new.
+    /// Takes the reports that are new.
     pub(super) fn take(&self) -> HashMap<JobId, Report> {
         std::mem::take(&mut *self.latest.lock().unwrap_or_else(PoisonError::into_inner))
     }
 
-    /// Takes back what could not be written down, unless there is something newer.
+    /// Puts back a report that could not be stored, unless there is a newer one.
     pub(super) fn put_back(&self, job: JobId, report: Report) {
         self.latest.lock().unwrap_or_else(PoisonError::into_inner).entry(job).or_insert(report);
     }
@@ -49,32 +49,32 @@ impl PendingReports {
     }
 }
 
-/// Watches all computations of one job.
+/// Watch over all computations of one job: their progress and their cancellation.
 #[derive(Debug)]
 pub(super) struct Watch {
     job: JobId,
     dismissed: AtomicBool,
-    /// Whether it has been said that linear theory was left.
+    /// Whether a warning has been logged that linear theory was left.
     warned: AtomicBool,
     stopping: Arc<AtomicBool>,
     done: Mutex<Done>,
     reports: Arc<PendingReports>,
 }
 
-/// How much of a job is done.
+/// Progress within a job.
 #[derive(Debug, Default)]
 struct Done {
-    /// Percent that are done.
+    /// Percentage of the job that is done.
     percent: u8,
-    /// What is being done.
+    /// Description of what is being done.
     phase: String,
-    /// How many results cannot be stored, and what the last of them waits for.
+    /// Number of results that cannot be stored yet, and what the last of them waits for.
     waiting: (u32, &'static str),
-    /// Last percentage and phase reported.
+    /// Percentage and phase reported last.
     reported: (u8, String),
     speeds: u32,
     finished: u32,
-    /// Fractions of the speeds that are being computed.
+    /// Finished fraction of each speed that is being computed.
     running: HashMap<u32, f64>,
 }
 
@@ -95,12 +95,12 @@ impl Watch {
         !self.warned.swap(true, Ordering::Relaxed)
     }
 
-    /// The job.
+    /// Id of the watched job.
     pub(super) fn job(&self) -> JobId {
         self.job
     }
 
-    /// The latest phase; `None` before the first.
+    /// Latest phase of the job; `None` before the first.
     pub(super) fn phase(&self) -> Option<String> {
         let done = self.done.lock().unwrap_or_else(PoisonError::into_inner);
         Some(done.words().to_owned()).filter(|phase| !phase.is_empty())
@@ -115,7 +115,7 @@ impl Watch {
         self.dismissed.load(Ordering::Relaxed) || self.stopping.load(Ordering::Relaxed)
     }
 
-    /// A result waits for `what` until the guard is dropped, and until then the phase says so, whatever else is computed.
+    /// Marks a result as waiting for `what` until the guard is dropped; until then the phase says so, whatever else is computed.
     pub(super) fn waits_for(&self, what: &'static str) -> Waiting<'_> {
         self.change_waiting(|(waiting, _)| (waiting + 1, what));
         Waiting { watch: self }
@@ -127,7 +127,7 @@ impl Watch {
         self.tell(&mut done);
     }
 
-    /// `finished` speeds are done: before this start of the service, or by the one that calls.
+    /// Reports that `finished` speeds are done: before this start of the service, or by the task that calls.
     pub(super) fn speeds_finished(&self, finished: u32, last: Option<u32>) {
         let mut done = self.done.lock().unwrap_or_else(PoisonError::into_inner);
         done.finished = done.finished.max(finished);
@@ -137,7 +137,7 @@ impl Watch {
         self.report_speeds(&mut done);
     }
 
-    /// There are so many speeds now.
+    /// Raises the number of speeds that the job has.
     pub(super) fn expect_speeds(&self, speeds: u32) {
         let mut done = self.done.lock().unwrap_or_else(PoisonError::into_inner);
         done.speeds = done.speeds.max(speeds);
@@ -149,7 +149,7 @@ impl Watch {
         self.report(done, &phase, done.percent_of_sweep());
     }
 
-    /// Reports what has changed. The percentage never falls; 100 is for the store to give.
+    /// Reports a changed phase or percentage. The percentage never falls; 100 is for the store to give.
     fn report(&self, done: &mut Done, phase: &str, percent: f64) {
         done.percent = done.percent.max(percent.clamp(0.0, 99.0) as u8);
         phase.clone_into(&mut done.phase);
@@ -165,7 +165,7 @@ impl Watch {
     }
 }
 
-/// A result that waits to be stored.
+/// Guard of a result that waits to be stored.
 #[derive(Debug)]
 pub(super) struct Waiting<'a> {
     watch: &'a Watch,
@@ -178,7 +178,7 @@ impl Drop for Waiting<'_> {
 }
 
 impl Done {
-    /// What the job does, or what keeps it from going on.
+    /// Phase in words: what the job does, or what keeps it from going on.
     fn words(&self) -> &str {
         match self.waiting {
             (0, _) => &self.phase,
@@ -194,7 +194,7 @@ impl Done {
     }
 }
 
-/// Watches a phase that counts for `from` to `to` percent of a job.
+/// Monitor of a phase that counts for `from` to `to` percent of a job.
 #[derive(Debug, Clone)]
 pub(super) struct PhaseMonitor {
     watch: Arc<Watch>,
@@ -203,32 +203,32 @@ pub(super) struct PhaseMonitor {
 }
 
 impl PhaseMonitor {
-    /// The reduction of a sweep.
+    /// Monitor of the reduction of a sweep.
     pub(super) fn reduction_of_sweep(watch: Arc<Watch>) -> Self {
         Self { watch, from: 0.0, to: REDUCTION_OF_SWEEP }
     }
 
-    /// The reduction of a modal analysis.
+    /// Monitor of the reduction of a modal analysis.
     pub(super) fn reduction_of_modal_analysis(watch: Arc<Watch>) -> Self {
         Self { watch, from: 0.0, to: REDUCTION_OF_MODAL_ANALYSIS }
     }
 
-    /// The modal analysis proper.
+    /// Monitor of the modal analysis proper.
     pub(super) fn modal_analysis(watch: Arc<Watch>) -> Self {
         Self { watch, from: REDUCTION_OF_MODAL_ANALYSIS, to: 100.0 }
     }
 
-    /// A job that is one phase.
+    /// Monitor of a job that is one phase.
     pub(super) fn whole(watch: Arc<Watch>) -> Self {
         Self { watch, from: 0.0, to: 100.0 }
     }
 
-    /// The job it belongs to.
+    /// Watch of the job that the phase belongs to.
     pub(super) fn watch(&self) -> &Arc<Watch> {
         &self.watch
     }
 
-    /// A phase that counts for nothing but can be cancelled.
+    /// Monitor of a phase that counts for nothing but can be cancelled.
     pub(super) fn uncounted(watch: Arc<Watch>) -> Self {
         Self { watch, from: 0.0, to: 0.0 }
     }
@@ -246,7 +246,7 @@ impl Monitor for PhaseMonitor {
     }
 }
 
-/// Watches one speed of a sweep.
+/// Monitor of one speed of a sweep.
 #[derive(Debug, Clone)]
 pub(super) struct SpeedMonitor {
     watch: Arc<Watch>,
@@ -260,7 +260,7 @@ impl SpeedMonitor {
 }
 
 impl Monitor for SpeedMonitor {
-    /// Speeds run side by side: how many are finished says more than the phase of any.
+    /// Reports the number of finished speeds: as speeds run side by side, it says more than the phase of any.
     fn progress(&self, fraction: f64, _phase: &str) {
         let mut done = self.watch.done.lock().unwrap_or_else(PoisonError::into_inner);
         done.running.insert(self.speed, fraction.clamp(0.0, 1.0));
@@ -280,7 +280,7 @@ mod tests {
         Watch::new(JobId::new(), speeds, Arc::default(), Arc::default())
     }
 
-    /// What there is to tell; `None` if nothing is new.
+    /// Percentage and phase that are new; `None` if nothing is.
     fn told(watch: &Watch) -> Option<(u8, String)> {
         watch.reports.take().remove(&watch.job).map(|report| (report.percent, report.phase))
     }
@@ -320,7 +320,7 @@ mod tests {
         assert_eq!(told(&watch), Some((99, "2 of 4 speeds finished".to_owned())));
         SpeedMonitor::new(watch.clone(), 2).progress(0.5, "integrating");
         assert_eq!(told(&watch), None);
-        // Somebody who is late.
+        // A late caller expects fewer speeds.
         watch.expect_speeds(3);
         watch.speeds_finished(3, Some(2));
         assert_eq!(told(&watch), Some((99, "3 of 4 speeds finished".to_owned())));

@@ -30,21 +30,21 @@ use crate::store::{claims::Claim, shared_queue::SharedQueue};
 /// Reduced sectors kept in memory: tens of megabytes each at most, and jobs come in runs on the same model.
 const KEPT: usize = 4;
 
-/// A model and its accuracy dial.
+/// Id of a model and its modes per speed, the accuracy dial.
 type Key = (String, u32);
 
-/// What is wanted beside a reduction.
+/// Data wanted beside a reduction.
 #[derive(Debug, Default)]
 struct Beside {
-    /// Nodes to be read, by id.
+    /// Ids of the nodes to be read.
     nodes: Vec<u64>,
-    /// Stress outside this radius about the contact nodes.
+    /// Radius about the contact nodes outside which stress is wanted.
     stress_outside: Option<f64>,
-    /// Growth of the tips.
+    /// Whether the growth of the tips is wanted.
     growth: bool,
-    /// The Euler force.
+    /// Whether the Euler force is wanted.
     euler_force: bool,
-    /// Rows of the basis at all nodes: they must be there, must not, or are kept if it reduces.
+    /// Whether rows of the basis at all nodes are wanted: they must be there, must not, or, with `None`, are stored if it reduces.
     fields: Option<bool>,
 }
 
@@ -54,7 +54,7 @@ impl Beside {
         self.fields == Some(true)
     }
 
-    /// Whether `reduced` has all of it.
+    /// Whether `reduced` has all that is wanted.
     fn is_of(&self, reduced: &ReducedSector) -> bool {
         let tells = self.stress_outside.is_none_or(|radius| reduced.tells_stress(radius));
         let grows = reduced.growth.is_some() || !self.growth;
@@ -69,9 +69,9 @@ pub(super) struct Reductions {
     store: Store,
     computing: Arc<Computing>,
     memory: Arc<Memory>,
-    /// Most recently used last.
+    /// Reductions in memory, the most recently used last.
     recent: Mutex<VecDeque<(Key, Arc<ReducedSector>)>>,
-    /// One lock per reduction that is being obtained: the second job to need it waits for the first.
+    /// Locks, one for each reduction that is being obtained: the second job to need it waits for the first.
     flights: Mutex<HashMap<Key, Arc<tokio::sync::Mutex<()>>>>,
 }
 
@@ -80,8 +80,8 @@ impl Reductions {
         Self { store, computing, memory, recent: Mutex::default(), flights: Mutex::default() }
     }
 
-    /// The reduction of `model`; computes and stores it if there is none. `fields` are rows of its basis: they must be beside it, must
-    /// not, or are kept if it is computed.
+    /// Reduction of `model`, computed and stored if there is none. `fields` are rows of its basis: they must be beside it, must not,
+    /// or are stored if it is computed.
     pub(super) async fn get(
         &self,
         (model, modes_per_speed): (&str, u32),
@@ -91,7 +91,7 @@ impl Reductions {
         self.reading(model, modes_per_speed, &Beside { fields, ..Beside::default() }, monitor).await
     }
 
-    /// The reduction that `sweep` runs on, with rows of its basis at the nodes of its sensors and the stress that it records.
+    /// Reduction that `sweep` runs on, with rows of its basis at the nodes of its sensors and the stress that it records.
     pub(super) async fn of_sweep(
         &self,
         sweep: &ResolvedSweep,
@@ -100,7 +100,7 @@ impl Reductions {
         self.of_case(sweep, sweep.fields(), monitor).await
     }
 
-    /// The same with other wishes for rows of its basis.
+    /// Reduction that `sweep` runs on, with other wishes for rows of its basis.
     pub(super) async fn of_case(
         &self,
         sweep: &ResolvedSweep,
@@ -110,7 +110,7 @@ impl Reductions {
         self.with_beside(sweep, Beside { fields, ..Beside::default() }, monitor).await
     }
 
-    /// The reduction that `run_ups` are made on.
+    /// Reduction that `run_ups` are made on.
     pub(super) async fn of_run_ups(
         &self,
         run_ups: &ResolvedRunUps,
@@ -121,7 +121,7 @@ impl Reductions {
         self.with_beside(sweep, beside, monitor).await
     }
 
-    /// With what `sweep` itself wants, too.
+    /// Reduction with the data `beside` it and all that `sweep` itself wants, too.
     async fn with_beside(
         &self,
         sweep: &ResolvedSweep,
@@ -162,14 +162,14 @@ impl Reductions {
         let result = self.alone(&key, beside, monitor).await;
         drop(guard);
         let mut flights = self.flights.lock().unwrap_or_else(PoisonError::into_inner);
-        // Two handles are the map's and ours; more mean that somebody waits.
+        // Two handles are the map's and ours; more mean that another job waits.
         if Arc::strong_count(&flight) <= 2 {
             flights.remove(&key);
         }
         result
     }
 
-    /// The reduction of `model` if it has been computed.
+    /// Reduction of `model`, if it has been computed.
     pub(super) async fn stored(
         &self,
         model: &str,
@@ -183,13 +183,13 @@ impl Reductions {
         Ok(stored.map(|reduced| self.remember(&key, reduced)))
     }
 
-    /// Forgets what is in memory of a reduction whose basis could not be read, so that who needs that looks again.
+    /// Drops a reduction from memory whose basis could not be read, so that whoever needs it reads it again.
     pub(super) fn forget(&self, model: &str, modes_per_speed: u32) {
         let mut recent = self.recent.lock().unwrap_or_else(PoisonError::into_inner);
         recent.retain(|((of, modes), _)| of != model || *modes != modes_per_speed);
     }
 
-    /// The stored reduction, with what the model says of its tips.
+    /// Reads the stored reduction, with the tip thickness of the model.
     async fn read(&self, key: &Key) -> Result<Option<ReducedSector>, StoreError> {
         let Some(mut reduced) = self.store.reduction(&key.0, key.1).await? else { return Ok(None) };
         reduced.tip_thickness = self.tip_thickness(&key.0).await?;
@@ -201,7 +201,7 @@ impl Reductions {
         Ok(model.and_then(|model| model.facts.mesh?.tip_thickness))
     }
 
-    /// With the flight's lock held. A reduction that is not there yet only one process makes at a time.
+    /// Obtains a reduction with the flight's lock held. A reduction that is not there yet is made by one process at a time.
     async fn alone(
         &self,
         key: &Key,
@@ -216,7 +216,7 @@ impl Reductions {
         self.obtain(key, beside, monitor).await
     }
 
-    /// The right to make a reduction, once no other process does; none where it has been made meanwhile.
+    /// Claims the right to make a reduction, once no other process does; `None` where it has been made meanwhile.
     #[cfg(feature = "cluster")]
     async fn claim(
         &self,
@@ -238,7 +238,7 @@ impl Reductions {
         Ok(None)
     }
 
-    /// With the flight's lock held.
+    /// Obtains a reduction with the flight's lock held: from memory, from the store, or computed.
     async fn obtain(
         &self,
         key: &Key,
@@ -275,7 +275,7 @@ impl Reductions {
         let facts = self.store.model(model, None).await?.map(|model| model.facts);
         let needs_basis = beside.needs_basis() || beside.stress_outside.is_some() || beside.euler_force;
         if let Some(facts) = facts.as_ref().filter(|_| needs_basis) {
-            // Before hours of computing end in nothing that can be used.
+            // Checked before hours of computing end in nothing that can be used.
             let room = run::most_basis_bytes(facts, modes_per_speed);
             self.store.basis(model, modes_per_speed).expect_room(room).map_err(StoreError::File)?;
         }
@@ -289,7 +289,7 @@ impl Reductions {
         let parts = (&checkpoints, &nodes);
         let mut outcome = self.reduce(key, parts, &monitor, allowance.bytes).await?;
         if matches!(outcome, Err(AnalysisError::Memory { .. })) && !allowance.is_most() {
-            // More than its size lets expect.
+            // The reduction needs more memory than its size lets expect.
             drop(allowance);
             allowance = self.memory.claim_most().await;
             outcome = self.reduce(key, parts, &monitor, allowance.bytes).await?;
@@ -320,7 +320,7 @@ impl Reductions {
         Ok(self.remember(key, reduced))
     }
 
-    /// Gives `reduced` what is asked for beside it, from the files of its basis.
+    /// Adds to `reduced` what is wanted beside it, from the files of its basis.
     async fn beside(
         &self,
         key: &Key,
@@ -352,7 +352,7 @@ impl Reductions {
         Ok(stress)
     }
 
-    /// Gives `reduced` the growth of its tips, if that is asked for; solves for it if it is not there.
+    /// Adds to `reduced` the growth of its tips, if that is wanted; solves for it if it is not there.
     async fn growth(
         &self,
         (model, modes_per_speed): &Key,
@@ -382,7 +382,7 @@ impl Reductions {
         Ok(())
     }
 
-    /// Gives `reduced` the Euler force, if that is asked for, from its mesh and the basis of nodal diameter 0.
+    /// Adds to `reduced` the Euler force, if that is wanted, from its mesh and the basis of nodal diameter 0.
     async fn euler_load(
         &self,
         (model, modes_per_speed): &Key,
@@ -402,7 +402,7 @@ impl Reductions {
         Ok(read.map(|load| reduced.euler_load = Some(Arc::new(load))))
     }
 
-    /// Gives `reduced` the stress that is asked for, if any is; makes it if it is not there.
+    /// Adds to `reduced` the stress that is wanted, if any is; makes it if it is not there.
     async fn stress(
         &self,
         key: &Key,
@@ -429,13 +429,13 @@ impl Reductions {
         Ok(made.map(|stress| reduced.stress = Some(Arc::new(stress))))
     }
 
-    /// Forgets reductions with stress: it takes much memory.
+    /// Drops reductions with stress from memory: it takes much.
     fn let_stress_go(&self) {
         let mut recent = self.recent.lock().unwrap_or_else(PoisonError::into_inner);
         recent.retain(|(_, reduced)| reduced.stress.is_none());
     }
 
-    /// Those nodes of `model` with these ids that are no contact nodes, which every reduction reads.
+    /// Nodes of `model` with these ids, without contact nodes, which every reduction reads.
     async fn nodes(
         &self,
         model: &str,
@@ -453,7 +453,7 @@ impl Reductions {
         Ok(nodes.into())
     }
 
-    /// Rows of the basis that lies beside a stored reduction.
+    /// Rows of the basis that is stored beside a reduction.
     async fn rows(
         &self,
         key: &Key,
@@ -487,7 +487,7 @@ impl Reductions {
         let compute = move || {
             let package = package::read(&path, &Limits::default()).map_err(Interruption::stored_package)?;
             monitor.progress(0.0, "reducing");
-            // From where they are, not from the disk, which may be full.
+            // Rows come from where they are, not from the disk, which may be full.
             let kept = KeptRows::new(&checkpoints, &nodes);
             let reduced = run::prepare(&package.sector, modes_per_speed, memory_bytes, &kept, &monitor);
             if let (Err(AnalysisError::Model(error)), Some(digits)) = (&reduced, &package.findings.digits)
@@ -504,7 +504,7 @@ impl Reductions {
         self.computing.run_parallel(&watch, compute).await?
     }
 
-    /// The latest that has what is asked for.
+    /// Finds in memory the latest reduction that has what is wanted.
     fn recall(&self, key: &Key, beside: &Beside) -> Option<Arc<ReducedSector>> {
         let mut recent = self.recent.lock().unwrap_or_else(PoisonError::into_inner);
         let serves = |(known, reduced): &(Key, Arc<ReducedSector>)| known == key && beside.is_of(reduced);

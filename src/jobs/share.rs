@@ -1,5 +1,5 @@
-//! What a process does beside its tasks where others share the database: it hears of what they do, ends what is not wanted any more,
-//! and makes tasks again that were lost.
+//! Duties of a process, beside its tasks, where others share the database: it hears of what they do, ends what is not wanted any
+//! more, and makes tasks again that were lost.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -16,16 +16,16 @@ use crate::store::jobs::{JobId, Unfinished};
 use crate::store::machines::WorkerProcess;
 use crate::store::shared_queue::Told;
 
-/// Time between two looks at what one should have been told of.
+/// Time between two looks for news that may not have been heard.
 const BETWEEN_LOOKS: Duration = Duration::from_secs(2);
 
 /// Looks after which lost tasks are made again and ended ones forgotten: every process does it, and one would be enough.
 const LOOKS_BETWEEN_REPAIRS: u32 = 5;
 
-/// Time between two signs that this process computes.
+/// Time between two announcements that this process computes.
 const BETWEEN_ANNOUNCEMENTS: Duration = Duration::from_secs(10);
 
-/// Starts both, and if this process computes, lets others know.
+/// Starts hearing of news and looking for what was missed; if this process computes, announces it, too.
 pub(super) fn start(engine: &Arc<Engine>, computes: bool) -> Vec<JoinHandle<()>> {
     let mut helpers = vec![tokio::spawn(hear(Arc::clone(engine))), tokio::spawn(look(Arc::clone(engine)))];
     if computes {
@@ -54,7 +54,7 @@ async fn hear(engine: Arc<Engine>) {
 
 async fn hear_once(engine: &Engine, tasks: &SharedTasks) -> Result<(), StoreError> {
     let mut news = tasks.queue().listen().await?;
-    // What was said before nobody heard.
+    // News before this moment was not heard.
     tasks.wake();
     engine.store.changes().tell_all();
     while let Some(told) = news.next().await? {
@@ -69,7 +69,7 @@ async fn hear_once(engine: &Engine, tasks: &SharedTasks) -> Result<(), StoreErro
     Ok(())
 }
 
-/// Lets others know what this process computes on.
+/// Announces to other processes which machine this process computes on.
 async fn announce(engine: Arc<Engine>) {
     let Some(tasks) = shared(&engine) else { return };
     let mut interval = tokio::time::interval(BETWEEN_ANNOUNCEMENTS);
@@ -88,7 +88,7 @@ async fn announce(engine: Arc<Engine>) {
     }
 }
 
-/// Looks after what nobody may have told of.
+/// Looks, now and then, for changes of jobs and lost tasks that were not announced.
 async fn look(engine: Arc<Engine>) {
     let Some(tasks) = shared(&engine) else { return };
     let mut interval = tokio::time::interval(BETWEEN_LOOKS);
@@ -112,7 +112,7 @@ async fn repair(engine: &Engine, tasks: &SharedTasks) -> Result<(), StoreError> 
     }
     for Unfinished { id, crashes, .. } in engine.store.unfinished_jobs().await? {
         if crashes >= MOST_CRASHES {
-            // Others may be lost, too.
+            // Other jobs may have to be given up, too.
             let _ = engine.fail(id, &error::crashed(crashes)).await;
         }
     }

@@ -1,4 +1,4 @@
-//! The unit of work: one speed of one job.
+//! Run of one speed of one job: the unit of work.
 
 use std::sync::atomic::Ordering;
 
@@ -15,11 +15,11 @@ use crate::store::jobs::JobRequest;
 use crate::store::results::PackedSpeed;
 use crate::store::tasks::RunSpeed;
 
-/// Computes a speed and commits it; the one that finds itself last finishes the job.
+/// Computes a speed and stores it; the run that finds itself last finishes the job.
 pub(super) async fn run(engine: &Engine, RunSpeed { job: id, speed }: RunSpeed) -> Result<(), Interruption> {
     let Some(job) = engine.live(id).await? else { return Err(Interruption::NotWanted) };
     if engine.store.is_speed_finished(id, speed).await? {
-        // What follows it may have been let down by the store the first time.
+        // The store may have failed, the first time, at what follows the speed.
         let finished = engine.store.finished_speeds(id).await?.len();
         return go_on(engine, &job, speed, finished as u32).await;
     }
@@ -50,7 +50,7 @@ pub(super) async fn run(engine: &Engine, RunSpeed { job: id, speed }: RunSpeed) 
     let (point, packed, memory) = computed?;
 
     let kept = patiently(&job.watch, || engine.store.insert_speed(id, &packed)).await?;
-    // What follows may want more of it than is left beside this.
+    // What follows may want more memory than is left beside this.
     drop((packed, memory));
     let Some(finished) = kept else { return Ok(()) };
     engine.computing.acquit(id);
@@ -66,7 +66,7 @@ pub(super) async fn run(engine: &Engine, RunSpeed { job: id, speed }: RunSpeed) 
     go_on(engine, &job, speed, finished).await
 }
 
-/// The sweep that speed `speed` of a job belongs to, and its index there; none of a job whose speeds are no tasks of their own.
+/// Sweep that speed `speed` of a job belongs to, and its index there; `None` for a job whose speeds are no tasks of their own.
 fn sweep_of(request: &JobRequest, speed: u32) -> Result<Option<(ResolvedSweep, u32)>, Interruption> {
     Ok(match request {
         JobRequest::Sweep(request) => Some((*request.clone(), speed)),
@@ -75,13 +75,14 @@ fn sweep_of(request: &JobRequest, speed: u32) -> Result<Option<(ResolvedSweep, u
     })
 }
 
-/// What a campaign keeps of a speed: credentials and summary, under its index there. Whoever wants more of a design posts it as a sweep.
+/// Part of a result that a campaign stores: credentials and summary, under the index in the campaign. Whoever wants more of a design
+/// posts it as a sweep.
 fn summary(found: SpeedResult, index: u32) -> SpeedResult {
     let point = Point { index, ..found.point };
     SpeedResult { point, spectra: None, end_state: None, wear: None, contact: None }
 }
 
-/// Says once per job that linear theory has been left, by the worst number of the first speed that does.
+/// Warns once per job that linear theory has been left, with the worst number of the first speed that leaves it.
 fn warn_of_theory(job: &Live, point: &Point) {
     let Some(Validity { verdict, checks, .. }) = &point.validity else { return };
     let Some(worst) = checks.first().filter(|_| *verdict != ValidityVerdict::Linear) else { return };
@@ -93,8 +94,7 @@ fn warn_of_theory(job: &Live, point: &Point) {
     }
 }
 
-/// What follows a finished speed: the end of the job, if all are `finished` with it, or the next one of a chain. Harmless to
-/// repeat.
+/// Goes on after a finished speed: ends the job, if all are `finished` with it, or queues the next one of a chain. Harmless to repeat.
 async fn go_on(engine: &Engine, job: &Live, speed: u32, finished: u32) -> Result<(), Interruption> {
     if finished == job.speeds {
         finish::speeds(engine, job).await?;

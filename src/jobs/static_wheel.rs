@@ -1,4 +1,4 @@
-//! The wheel under its centrifugal load: read, or solved and kept beside the basis.
+//! Wheel under its centrifugal load: read, or solved and stored beside the basis.
 
 use std::path::Path;
 
@@ -7,18 +7,18 @@ use crate::dynamics::reduction::{ReducedWheel, ReductionError, Watch};
 use crate::package::{self, Limits, PackageError};
 use crate::store::bases::BasisFolder;
 
-/// Why there is none.
+/// Reason why there is no static wheel.
 #[derive(Debug, thiserror::Error)]
 pub enum StaticWheelError {
     /// The package cannot be read.
     #[error(transparent)]
     Package(#[from] PackageError),
-    /// It cannot be solved.
+    /// Wheel that cannot be solved.
     #[error(transparent)]
     Unsolved(#[from] ReductionError),
 }
 
-/// The wheel of a package with a mesh and its nodes, which `maker` has; `wheel` is the reduction beside whose `basis` it is kept.
+/// Static wheel of a package with a mesh and its nodes, which `maker` has; `wheel` is the reduction beside whose `basis` it is stored.
 pub(super) fn static_wheel(
     package: &Path,
     (basis, wheel): (&BasisFolder, &ReducedWheel),
@@ -37,7 +37,7 @@ pub(super) fn static_wheel(
     Ok(fixed)
 }
 
-/// The same of a package from its file; nothing of one without a mesh.
+/// Static wheel of a package, read from its file; `None` for a package without a mesh.
 pub(super) fn from_package(
     package: &Path,
     (basis, wheel): (&BasisFolder, &ReducedWheel),

@@ -1,4 +1,4 @@
-//! Stress in the coordinates of a reduction: read, or made from its basis and kept.
+//! Stress in the coordinates of a reduction: read, or made from its basis and stored.
 
 use std::io;
 use std::path::PathBuf;
@@ -14,7 +14,7 @@ use crate::dynamics::reduction::{ReducedWheel, ReductionError};
 use crate::package::{self, Limits};
 use crate::store::bases::BasisFolder;
 
-/// What it is made of.
+/// Inputs from which the stress is made.
 #[derive(Debug)]
 pub(super) struct Making {
     pub(super) package: PathBuf,
@@ -25,7 +25,7 @@ pub(super) struct Making {
 }
 
 impl Making {
-    /// The stress; what has been kept is not made again unless it is damaged. The inner error is that of files beside the reduction.
+    /// Stress of the reduction; what is stored is not made again unless it is damaged. The inner error is that of files beside the reduction.
     pub(super) fn stress(&self) -> Result<io::Result<ReducedStress>, Interruption> {
         match self.read_or_make()? {
             Err(error) if error.kind() == io::ErrorKind::InvalidData => {

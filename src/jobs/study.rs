@@ -1,4 +1,4 @@
-//! A convergence study: its reductions and runs, then what they say together.
+//! Convergence study: its reductions and runs, then the results of all of them together.
 
 use super::choice::facts;
 use super::engine::{Engine, Live};

@@ -1,4 +1,4 @@
-//! What is asked for, as it came.
+//! Requests for jobs, as they came.
 
 use std::collections::BTreeSet;
 
@@ -13,21 +13,21 @@ use crate::store::jobs::JobKind;
 /// A job to be checked and accepted.
 #[derive(Debug, Clone)]
 pub enum Submission {
-    /// Contact simulations over speeds.
+    /// Sweep: contact simulations over speeds.
     Sweep(Box<SweepRequest>),
-    /// Natural frequencies over speeds.
+    /// Modal analysis: natural frequencies over speeds.
     ModalAnalysis(Box<ModalAnalysisRequest>),
-    /// A model from parameters of the generator, which are sound.
+    /// Generation of a model from parameters of the generator, which are sound.
     ModelGeneration(Box<ImpellerParameters>),
-    /// Errors and times of a grid of settings.
+    /// Convergence study: errors and times of a grid of settings.
     Study(Box<StudyRequest>),
-    /// One speed with everything recorded.
+    /// Case study: one speed with everything recorded.
     CaseStudy(Box<CaseStudyRequest>),
-    /// Periodic responses over a number of their scene.
+    /// Branches: periodic responses over a number of their scene.
     Branches(Box<BranchesRequest>),
-    /// A scene whose speed changes.
+    /// Run-ups: a scene whose speed changes.
     RunUps(Box<RunUpRequest>),
-    /// Contact simulations over speeds, of many designs of a scene.
+    /// Campaign: contact simulations over speeds, of many designs of a scene.
     Campaign(Box<CampaignRequest>),
     /// Histories of a sweep that has ended, with the indices of its critical speeds.
     Histories(Box<(ResolvedSweep, BTreeSet<u32>, HistoriesRequest)>),
@@ -48,7 +48,7 @@ impl Submission {
         }
     }
 
-    /// The model it computes from, if it does.
+    /// Model that the job computes from, if it does.
     pub fn model(&self) -> Option<&str> {
         match self {
             Self::Sweep(request) => Some(&request.model),

@@ -1,4 +1,4 @@
-//! Runs that a job compares: each from the store, or run and kept.
+//! Trial runs that a job compares: each from the store, or run and stored.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -18,12 +18,12 @@ use crate::store::trials::key;
 pub(super) struct Trials(HashMap<String, Trial>);
 
 impl Trials {
-    /// The trial of `request`, if it is at hand.
+    /// Trial of `request`, if it is at hand.
     pub(super) fn get(&self, request: &TrialRequest) -> Option<&Trial> {
         self.0.get(&key(request).ok()?)
     }
 
-    /// Takes those of `requests` that are stored; false if one is not.
+    /// Takes those of `requests` that are stored; returns false if one is not.
     pub(super) async fn recall(
         &mut self,
         engine: &Engine,
@@ -39,7 +39,7 @@ impl Trials {
         Ok(true)
     }
 
-    /// Takes `requests` for `job`, those not stored run side by side. `done` hears how many are there. No more of them are out than
+    /// Takes `requests` for `job`; those not stored run side by side. `done` hears how many are there. No more of them are out than
     /// there are threads: other jobs get their turn in between.
     pub(super) async fn obtain(
         &mut self,

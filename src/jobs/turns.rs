@@ -1,4 +1,4 @@
-//! Whose turn it is: waiting tasks, handed out so that owners take turns, and of one owner its jobs.
+//! Turns of waiting tasks: they are handed out so that owners take turns, and the jobs of each owner.
 
 use std::collections::{HashMap, HashSet, VecDeque};
 use std::hash::Hash;
@@ -19,13 +19,13 @@ pub(super) struct Turns<T> {
 
 #[derive(Debug)]
 struct Lines<T> {
-    /// One line an owner; the first is next.
+    /// Lines of waiting tasks, one for each owner; the first is next.
     owners: VecDeque<Line<T>>,
     /// Tasks that are out, with their owners.
     out: HashMap<(JobId, T), String>,
 }
 
-/// The jobs of one owner that have tasks waiting; the first is next.
+/// Jobs of one owner that have tasks waiting; the first is next.
 #[derive(Debug)]
 struct Line<T> {
     owner: String,
@@ -33,7 +33,7 @@ struct Line<T> {
 }
 
 impl<T: Copy + Eq + Hash> Turns<T> {
-    /// No more than `most` tasks are out at once, and of one owner no more than `most_of_one`.
+    /// Makes turns in which no more than `most` tasks are out at once, and no more than `most_of_one` of one owner.
     pub(super) fn new(most: usize, most_of_one: usize) -> Self {
         let lines = Lines { owners: VecDeque::new(), out: HashMap::new() };
         Self { most, most_of_one, lines: Mutex::new(lines) }
@@ -67,7 +67,7 @@ impl<T: Copy + Eq + Hash> Turns<T> {
         });
     }
 
-    /// The next task; `None` while none waits or enough are out.
+    /// Takes the next task; `None` while none waits or enough are out.
     pub(super) fn next(&self) -> Option<(JobId, T)> {
         let Lines { owners, out } = &mut *self.lock();
         if out.len() >= self.most {
@@ -89,7 +89,7 @@ impl<T: Copy + Eq + Hash> Turns<T> {
         Some((job, task))
     }
 
-    /// A task that was out has ended.
+    /// Records that a task that was out has ended.
     pub(super) fn done(&self, job: JobId, task: T) {
         self.lock().out.remove(&(job, task));
     }
@@ -135,7 +135,7 @@ mod tests {
         assert_eq!((turns.next(), turns.next()), (Some((job, 4)), None));
         turns.done(job, 3);
         assert_eq!(turns.next(), None, "nothing waits");
-        // What has ended may come again.
+        // An ended task may come again.
         turns.add("", job, [3]);
         assert_eq!(turns.next(), Some((job, 3)));
     }

@@ -1,4 +1,4 @@
-//! A copy of a data folder that is whole although a service works on it, and the check of a folder.
+//! Backup of a data folder, complete although a service works on the folder, and the check of a data folder.
 
 use std::path::{Path, PathBuf};
 
@@ -13,22 +13,22 @@ use super::sqlite::{self, DATABASE, PATIENCE};
 use super::{end_states, jobs, models, results, states};
 use crate::package;
 
-/// What a backup holds.
+/// Contents of a backup.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Backup {
-    /// Models with their packages.
+    /// Number of models with their packages.
     pub models: u64,
-    /// Jobs with their results.
+    /// Number of jobs with their results.
     pub jobs: u64,
-    /// Models that were deleted while they were being copied; they are not in the backup.
+    /// Number of models that were deleted while they were being copied; they are not in the backup.
     pub dropped: u64,
 }
 
 /// Copies the data folder `data` to `to`, which must not exist and lies elsewhere: the database as it is at one moment, and the packages of
-/// its models. A service may run on the folder. What can be computed again (parts of unfinished reductions) is left out.
+/// its models. A service may run on the folder. Parts of unfinished reductions are left out: they can be computed again.
 ///
 /// # Errors
-/// Nothing is at `to` then.
+/// A failed backup leaves nothing at `to`.
 pub async fn backup(data: &Path, to: &Path) -> Result<Backup, StoreError> {
     if to.try_exists()? {
         return Err(
@@ -44,7 +44,7 @@ pub async fn backup(data: &Path, to: &Path) -> Result<Backup, StoreError> {
         let inside = "a backup inside the data folder would be lost with it";
         return Err(std::io::Error::new(std::io::ErrorKind::InvalidInput, inside).into());
     }
-    // Its name promises that it is whole.
+    // The final name promises a complete backup.
     let unfinished = tempfile::Builder::new().prefix("unfinished-backup-").tempdir_in(around)?;
     std::fs::create_dir(packages_folder(unfinished.path()))?;
     let mut source = connect(data).read_only(true).connect().await?;
@@ -83,7 +83,7 @@ pub async fn backup(data: &Path, to: &Path) -> Result<Backup, StoreError> {
     }
     std::fs::rename(unfinished.path(), to)?;
     std::fs::File::open(around)?.sync_all()?;
-    // It has another name now.
+    // The folder has its final name now.
     let _ = unfinished.keep();
     Ok(Backup { models, jobs: jobs.unsigned_abs(), dropped })
 }
@@ -102,21 +102,21 @@ fn copy_file(from: &Path, to: &Path) -> std::io::Result<()> {
     std::fs::File::open(to)?.sync_all()
 }
 
-/// What a check of a data folder found.
+/// Findings of a check of a data folder.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Findings {
-    /// What is wrong, one by one; empty if all is well.
+    /// Defects found, one by one; empty if all is well.
     pub wrong: Vec<String>,
-    /// Models whose packages are what they were.
+    /// Number of models whose packages are unchanged.
     pub models: u64,
-    /// Jobs that read back.
+    /// Number of jobs that read back.
     pub jobs: u64,
-    /// Speeds whose results read back.
+    /// Number of speeds whose results read back.
     pub speeds: u64,
 }
 
-/// Reads everything in the data folder `data` and says what is not as it was written. Changes nothing; a service may run
-/// on the folder.
+/// Reads everything in the data folder `data` and reports what differs from what was written. Changes nothing; a service may run on the
+/// folder.
 pub async fn check(data: &Path) -> Result<Findings, StoreError> {
     expect_data_folder(data)?;
     let mut found = Findings::default();
@@ -161,7 +161,7 @@ async fn check_models(
                     .bind(&id)
                     .fetch_optional(&mut *database)
                     .await?;
-                // A service may have deleted it meanwhile.
+                // A service may have deleted the model meanwhile.
                 if there.is_some() {
                     found.wrong.push(format!("model {id}: {error}"));
                 }
@@ -207,7 +207,7 @@ async fn check_jobs(database: &mut AnyConnection, found: &mut Findings) -> Resul
         }
     }
     drop(rows);
-    // What does not read of reductions and trials is computed again; where a chain of speeds goes on cannot be.
+    // Unreadable reductions and trials are computed again; an end state, from which a chain of speeds continues, cannot be.
     let mut rows =
         sqlx::query_as::<_, (String, Vec<u8>)>("select job, state from end_states").fetch(database);
     while let Some((job, state)) = rows.try_next().await? {

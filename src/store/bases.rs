@@ -1,7 +1,7 @@
 //! Bases of reductions, as files of which single rows can be read:
 //! `bases/<model>-<modes_per_speed>/<version>-<layout>-harmonic-<nodal diameter>`.
 //!
-//! Files, not rows of the database: a large model has gigabytes of them, a sweep reads a few rows, and all can be computed again.
+//! Files, not rows of the database: the bases of a large model take gigabytes, a sweep reads a few rows, and all can be computed again.
 //!
 //! ```text
 //! header   "rubbasis" | DOF, u64 | unknowns, u64 | SHA-256 of M_r | SHA-256 of what stands before
@@ -29,22 +29,22 @@ use crate::dynamics::node_rows::NodeRows;
 use crate::dynamics::nodes::SectorNode;
 use crate::dynamics::reduction::{BasisRows, ReducedHarmonic, ReducedWheel};
 
-/// Name of the folder that has them all, in the data folder.
+/// Name of the folder of all bases, in the data folder.
 const FOLDER: &str = "bases";
 
-/// Layout of the files: raise it when it changes, so that old ones are computed again instead of misread.
+/// Layout of the files: raise it when it changes, so that old files are computed again instead of misread.
 const LAYOUT: i64 = 1;
 
 const MAGIC: &[u8; 8] = b"rubbasis";
 pub(super) const HEADER: usize = 8 + 8 + 8 + 32 + 32;
 const COMPLEX: usize = 16;
-/// Bytes of a row's checksum.
+/// Size of the checksum of a row, bytes.
 pub(super) const CHECK: usize = 8;
 
-/// Rows that are read at once.
+/// Number of rows that are read at once.
 const BLOCK: usize = 256;
 
-/// The basis of one reduction.
+/// Files of the basis of one reduction.
 #[derive(Debug, Clone)]
 pub struct BasisFolder {
     folder: PathBuf,
@@ -52,21 +52,21 @@ pub struct BasisFolder {
     pub(super) objects: Objects,
 }
 
-/// The folder that has them all, in the data folder, and what names of files in its folders begin with that this program can read.
+/// Name of the folder of all bases in the data folder, and prefix of the file names in its folders that this program can read.
 #[cfg(feature = "cluster")]
 pub(super) fn place() -> (&'static str, String) {
     (FOLDER, prefix(LAYOUT))
 }
 
 impl Store {
-    /// The basis of the reduction of `model`.
+    /// Basis of the reduction of `model`.
     pub fn basis(&self, model: &str, modes_per_speed: u32) -> BasisFolder {
         let folder =
             BasisFolder::of(&self.folder, &folder_name(model, modes_per_speed), self.reserve.clone());
         BasisFolder { objects: self.objects.clone(), ..folder }
     }
 
-    /// Puts the basis of a reduction where others find it, as far as it was kept: before its row says that it is there.
+    /// Uploads the basis of a reduction to the object store, as far as it was stored, before its row says that it is there.
     pub async fn share_basis(
         &self,
         model: &str,
@@ -78,7 +78,7 @@ impl Store {
         }
         let basis = self.basis(model, modes_per_speed);
         for reduced in &reduced.harmonics {
-            // Another file there is of an earlier reduction.
+            // Any other file there belongs to an earlier reduction.
             if basis.open_here(reduced).is_ok() {
                 let path = basis.path(reduced.harmonic);
                 self.objects.publish(&path).await.map_err(StoreError::Objects)?;
@@ -91,7 +91,7 @@ impl Store {
         self.folder.join(FOLDER)
     }
 
-    /// Removes the bases of all reductions of a model that is gone. What cannot be removed is left to the next start.
+    /// Removes the bases of all reductions of a deleted model. Files that cannot be removed are left to the next start.
     pub(super) async fn remove_bases(&self, model: &str) {
         let gone = |name: &str| model_of(name) == model;
         let removed = async {
@@ -103,7 +103,7 @@ impl Store {
         }
     }
 
-    /// Removes bases of models that are gone and of other versions of the program, and files that were never finished.
+    /// Removes bases of deleted models and of other versions of the program, and unfinished files.
     pub(super) async fn remove_stale_bases(&self) -> Result<(), StoreError> {
         let models = sqlx::query_scalar("select id from models").fetch_all(&self.readers).await?;
         let models: BTreeSet<String> = models.into_iter().collect();
@@ -115,12 +115,12 @@ impl Store {
 }
 
 impl BasisFolder {
-    /// The folder `name` in the data folder `data`.
+    /// Folder `name` of bases in the data folder `data`.
     pub(super) fn of(data: &Path, name: &str, reserve: Reserve) -> Self {
         Self { folder: data.join(FOLDER).join(name), reserve, objects: Objects::default() }
     }
 
-    /// Keeps the basis of a nodal diameter as well as it can: without it who reads nodes reduces once more.
+    /// Stores the basis of a nodal diameter if possible: without it, reading nodes needs another reduction.
     pub(super) fn keep(&self, rows: &BasisRows<'_>) -> io::Result<()> {
         let harmonic = rows.harmonic();
         let bytes = (HEADER + rows.dofs() * row_bytes(rows.unknowns())) as u64;
@@ -136,7 +136,7 @@ impl BasisFolder {
         written
     }
 
-    /// Refuses to begin what will keep so many bytes where there is no room for them.
+    /// Refuses to start work that will store so many bytes, unless there is room for them.
     ///
     /// # Errors
     /// A disk that is too full.
@@ -144,7 +144,7 @@ impl BasisFolder {
         self.reserve.expect_room_for(bytes)
     }
 
-    /// Reads the basis of all nodal diameters of `reduced`.
+    /// Reads the basis of all nodal diameters of `reduced`, to check it.
     ///
     /// # Errors
     /// As of [`Self::rows`].
@@ -158,7 +158,7 @@ impl BasisFolder {
     /// Rows of the basis of `reduced` at `nodes`.
     ///
     /// # Errors
-    /// Of a file that is not there, is not what was written, or is of another reduction.
+    /// A file that is missing, is not what was written, or belongs to another reduction.
     pub fn rows(&self, reduced: &ReducedWheel, nodes: &[SectorNode]) -> io::Result<NodeRows> {
         let paths: Vec<PathBuf> =
             reduced.harmonics.iter().map(|reduced| self.path(reduced.harmonic)).collect();
@@ -169,8 +169,8 @@ impl BasisFolder {
         })
     }
 
-    /// Υ̂ X of a nodal diameter of `reduced`: `own DOF × columns` of `unknowns × columns`. Rows are read and multiplied in blocks, never
-    /// held.
+    /// Product Υ̂ X for a nodal diameter of `reduced`: `own DOF × columns` of `unknowns × columns`. Rows are read and multiplied in blocks,
+    /// never held.
     ///
     /// # Errors
     /// As of [`Self::rows`].
@@ -196,10 +196,11 @@ impl BasisFolder {
         })
     }
 
-    /// Υ̂ᴴ f of a nodal diameter of `reduced`: what a load of the own DOF is on the unknowns. Rows are read as by [`Self::product`].
+    /// Projection Υ̂ᴴ f for a nodal diameter of `reduced`: the load of the own DOF as a load on the unknowns. Rows are read as by
+    /// [`Self::product`].
     ///
     /// # Errors
-    /// As of [`Self::rows`], and of a load of other DOF.
+    /// As of [`Self::rows`], and a load of other DOF.
     pub fn project(&self, reduced: &ReducedHarmonic, load: &[f64]) -> io::Result<Vec<c64>> {
         self.objects.reading(&[self.path(reduced.harmonic)], || {
             let file = self.open_here(reduced)?;
@@ -216,7 +217,7 @@ impl BasisFolder {
         })
     }
 
-    /// The basis of a nodal diameter.
+    /// Opens the basis of a nodal diameter.
     ///
     /// # Errors
     /// As of [`Self::rows`].
@@ -232,7 +233,7 @@ impl BasisFolder {
         self.named(&format!("harmonic-{harmonic}"))
     }
 
-    /// The file of this name.
+    /// Path of the file of this name.
     pub(super) fn named(&self, name: &str) -> PathBuf {
         self.folder.join(format!("{}{name}", prefix(LAYOUT)))
     }
@@ -252,7 +253,7 @@ impl BasisFolder {
         })
     }
 
-    /// Writes a file of so many bytes, if there is room for it.
+    /// Writes a file of `bytes` bytes, if there is room for it.
     pub(super) fn write_file(
         &self,
         path: PathBuf,
@@ -261,7 +262,7 @@ impl BasisFolder {
     ) -> io::Result<()> {
         self.expect_room(bytes)?;
         std::fs::create_dir_all(&self.folder)?;
-        // Written whole and flushed before it gets its name: a name promises a basis, whenever the power fails.
+        // The file is written whole and flushed before it gets its name: a name promises a basis, even after a power cut.
         let file = unfinished_file(&self.folder, UNFINISHED)?;
         write(file.as_file())?;
         file.as_file().sync_all()?;
@@ -270,7 +271,7 @@ impl BasisFolder {
     }
 }
 
-/// The file of one nodal diameter.
+/// Open file with the basis of one nodal diameter.
 #[derive(Debug)]
 pub struct OpenBasis {
     file: File,
@@ -279,7 +280,7 @@ pub struct OpenBasis {
 }
 
 impl OpenBasis {
-    /// `file`, if it belongs to `reduced`.
+    /// Opens the basis in `file`, if it belongs to `reduced`.
     fn new(file: File, reduced: &ReducedHarmonic) -> io::Result<Self> {
         let mut found = [0; HEADER];
         file.read_exact_at(&mut found, 0)?;
@@ -294,15 +295,15 @@ impl OpenBasis {
         Ok(Self { file, dofs, unknowns })
     }
 
-    /// Own DOF.
+    /// Number of own DOF.
     pub fn dofs(&self) -> usize {
         self.dofs
     }
 
-    /// The row of an own DOF: real and imaginary part of every unknown.
+    /// Row of an own DOF: real and imaginary part of every unknown.
     ///
     /// # Errors
-    /// If it cannot be read, or is not what was written.
+    /// A row that cannot be read, or is not what was written.
     pub fn row(&self, dof: usize) -> io::Result<Vec<f64>> {
         if dof >= self.dofs {
             return Err(damaged("it has no such row"));
@@ -313,7 +314,7 @@ impl OpenBasis {
         self.checked(dof, &bytes)
     }
 
-    /// All rows, one after the other.
+    /// Passes all rows to `take`, one after the other.
     fn each(&self, mut take: impl FnMut(usize, &[f64])) -> io::Result<()> {
         let length = row_bytes(self.unknowns);
         let mut block = vec![0; length * BLOCK];
@@ -327,7 +328,7 @@ impl OpenBasis {
         Ok(())
     }
 
-    /// The numbers of a row.
+    /// Numbers of a row, if its checksum is right.
     fn checked(&self, dof: usize, bytes: &[u8]) -> io::Result<Vec<f64>> {
         let (row, sum) = bytes.split_at(COMPLEX * self.unknowns);
         if sum != check(dof, row) {
@@ -342,7 +343,7 @@ fn row_bytes(unknowns: usize) -> usize {
     COMPLEX * unknowns + CHECK
 }
 
-/// What a file of so many rows begins with.
+/// Header of a file with this number of rows.
 pub(super) fn header(magic: &[u8; 8], rows: usize, unknowns: usize, mark: &[u8; 32]) -> [u8; HEADER] {
     let mut bytes = Vec::with_capacity(HEADER);
     bytes.extend(magic);
@@ -353,7 +354,7 @@ pub(super) fn header(magic: &[u8; 8], rows: usize, unknowns: usize, mark: &[u8; 
     std::array::from_fn(|byte| bytes[byte])
 }
 
-/// Tells whether the row of this number is what was written.
+/// Checksum of the row of this number.
 pub(super) fn check(number: usize, row: &[u8]) -> [u8; CHECK] {
     let sum = Sha256::new().chain_update((number as u64).to_le_bytes()).chain_update(row).finalize();
     std::array::from_fn(|byte| sum[byte])

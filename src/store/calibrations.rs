@@ -1,4 +1,4 @@
-//! What time steps cost on this machine.
+//! Calibrations: costs of time steps on each kind of machine.
 
 use super::error::StoreError;
 use super::handle::Store;
@@ -6,7 +6,7 @@ use super::time::now;
 use crate::analysis::run::{Calibration, VERSION};
 
 impl Store {
-    /// What this version of the program measured on such a machine.
+    /// Costs that this version of the program measured on such a machine, if it did.
     pub async fn calibration(&self, machine: &str) -> Result<Option<Calibration>, StoreError> {
         let body: Option<String> =
             sqlx::query_scalar("select body from calibrations where version = $1 and machine = $2")
@@ -14,11 +14,11 @@ impl Store {
                 .bind(machine)
                 .fetch_optional(&self.readers)
                 .await?;
-        // One that does not read is measured again.
+        // An unreadable calibration is measured again.
         Ok(body.and_then(|body| serde_json::from_str(&body).ok()))
     }
 
-    /// Keeps it, in place of an earlier one.
+    /// Stores the costs measured on such a machine, in place of earlier ones.
     pub async fn insert_calibration(&self, machine: &str, measured: &Calibration) -> Result<(), StoreError> {
         let mut write = self.write().await?;
         sqlx::query(

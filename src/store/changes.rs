@@ -1,4 +1,4 @@
-//! Jobs that change while somebody follows them.
+//! Changes of jobs, for clients that follow them.
 
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
@@ -7,18 +7,17 @@ use tokio::sync::Notify;
 
 use super::jobs::job::JobId;
 
-/// Tells those who follow a job that something of it has changed: in the database, or of what it says of itself beside it. What it is
-/// they look up themselves.
+/// Notifies the followers of a job of any change: in the database, or in its live state beside it. Followers look up the change themselves.
 #[derive(Debug, Clone, Default)]
 pub struct Changes {
     followed: Arc<Mutex<HashMap<JobId, Weak<Notify>>>>,
 }
 
 impl Changes {
-    /// Notified after a change of job `id`; several changes that nobody waited for are one.
+    /// Notification of changes of job `id`; several changes that nobody waited for count as one.
     pub fn of(&self, id: JobId) -> Arc<Notify> {
         let mut followed = self.lock();
-        // Those of jobs that changed after nobody followed them any more are gone already.
+        // Notifications of jobs that nobody follows any more are dropped.
         followed.retain(|_, change| change.strong_count() > 0);
         if let Some(change) = followed.get(&id).and_then(Weak::upgrade) {
             return change;
@@ -28,14 +27,14 @@ impl Changes {
         change
     }
 
-    /// Job `id` has changed.
+    /// Notifies the followers of job `id` of a change.
     pub fn tell(&self, id: JobId) {
         if let Some(change) = self.lock().get(&id).and_then(Weak::upgrade) {
             change.notify_one();
         }
     }
 
-    /// Any job may have changed.
+    /// Notifies the followers of all jobs: any of them may have changed.
     pub fn tell_all(&self) {
         self.lock().values().filter_map(Weak::upgrade).for_each(|change| change.notify_one());
     }

@@ -21,25 +21,25 @@ use super::reserve::Reserve;
 use super::unfinished::{UNFINISHED, unfinished_file};
 use crate::dynamics::reduction::{BasisRows, Checkpoints};
 
-/// Name of the folder that has them all, in the data folder.
+/// Name of the folder of all checkpoints, in the data folder.
 const FOLDER: &str = "checkpoints";
 
-/// Before the bytes of a part stand their number (little-endian) and their SHA-256.
+/// Size in bytes of the header of a part: the number of bytes that follow (little-endian) and their SHA-256.
 const HEADER: usize = 8 + 32;
 
-/// Checkpoints of one reduction, and the basis that it leaves.
+/// Checkpoints of one reduction, and the basis that it produces.
 #[derive(Debug, Clone)]
 pub struct CheckpointFolder {
     folder: PathBuf,
-    /// Absent where the basis is left out.
+    /// Basis of the reduction; none where it is left out.
     basis: Option<BasisFolder>,
-    /// Why a part of the basis was not kept.
+    /// Reason why a part of the basis was not stored.
     lost: Arc<Mutex<Option<std::io::Error>>>,
     reserve: Reserve,
     objects: Objects,
 }
 
-/// The folder that has them all, in the data folder, and what names of files in its folders begin with that this program can read.
+/// Name of the folder of all checkpoints in the data folder, and prefix of the file names in its folders that this program can read.
 #[cfg(feature = "cluster")]
 pub(super) fn place() -> (&'static str, String) {
     (FOLDER, prefix())
@@ -71,7 +71,7 @@ impl Store {
 
     /// Removes the checkpoints of one reduction, or of all reductions of a model.
     ///
-    /// They are of no use any more but do no harm: what cannot be removed is left to the next start.
+    /// Unused checkpoints do no harm: files that cannot be removed are left to the next start.
     pub(super) async fn remove_checkpoints(&self, model: &str, modes_per_speed: Option<u32>) {
         let unused = |name: &str| match modes_per_speed {
             Some(modes_per_speed) => name == folder_name(model, modes_per_speed),
@@ -86,8 +86,8 @@ impl Store {
         }
     }
 
-    /// Removes checkpoints that nobody will use: of models that are gone, of reductions that are stored, of other
-    /// versions of the program, and files that were never finished.
+    /// Removes checkpoints that will not be used: of deleted models, of stored reductions, of other versions of the program, and unfinished
+    /// files.
     pub(super) async fn remove_stale_checkpoints(&self) -> Result<(), StoreError> {
         let models = sqlx::query_scalar("select id from models").fetch_all(&self.readers).await?;
         let models: BTreeSet<String> = models.into_iter().collect();
@@ -110,16 +110,16 @@ async fn count_parts(folder: &Path) -> std::io::Result<u32> {
 }
 
 impl CheckpointFolder {
-    /// The same, leaving out the basis.
+    /// Leaves out the basis.
     #[must_use]
     pub fn without_basis(self) -> Self {
         Self { basis: None, ..self }
     }
 
-    /// Whether the basis of a reduction that has ended lies beside it now.
+    /// Whether the basis of a finished reduction was stored beside it.
     ///
     /// # Errors
-    /// Why it was not kept.
+    /// The reason why the basis was not stored.
     pub fn kept_basis(&self) -> std::io::Result<bool> {
         let mut lost = self.lost.lock().unwrap_or_else(PoisonError::into_inner);
         lost.take().map_or(Ok(self.basis.is_some()), Err)
@@ -136,7 +136,7 @@ impl CheckpointFolder {
 
     fn write(&self, part: &str, bytes: &[u8]) -> std::io::Result<()> {
         std::fs::create_dir_all(&self.folder)?;
-        // Written whole and flushed before it gets its name: a name promises a part, whenever the power fails.
+        // The file is written whole and flushed before it gets its name: a name promises a part, even after a power cut.
         let mut file = unfinished_file(&self.folder, UNFINISHED)?;
         file.write_all(&(bytes.len() as u64).to_le_bytes())?;
         file.write_all(&Sha256::digest(bytes))?;
@@ -185,12 +185,12 @@ impl Checkpoints for CheckpointFolder {
     }
 }
 
-/// What names of parts begin with that this program can read.
+/// Prefix of the names of parts that this program can read.
 fn prefix() -> String {
     folders::prefix(reductions::LAYOUT)
 }
 
-/// The bytes of a part, if they are those that were written.
+/// Reads the bytes of a part, if they are those that were written.
 fn read(path: &Path) -> std::io::Result<Vec<u8>> {
     let mut file = std::fs::File::open(path)?;
     let mut header = [0; HEADER];
@@ -266,7 +266,7 @@ mod tests {
     #[test]
     fn what_cannot_be_written_is_only_not_kept() {
         let (root, checkpoints) = folder();
-        // A file where the folder should be: no write succeeds.
+        // A file in place of the folder: no write succeeds.
         std::fs::write(root.path().join("checkpoints"), "").unwrap();
         checkpoints.save("part", vec![1]);
         assert_eq!(checkpoints.load("part"), None);

@@ -1,4 +1,4 @@
-//! What one process does for all that share a database: others wait until it is done, or has been silent for a while.
+//! Claims: exclusive tasks among all processes that share a database. Others wait until the holder is done, or has been silent for a while.
 
 use std::time::Duration;
 
@@ -8,25 +8,25 @@ use tokio::task::JoinHandle;
 
 use super::error::StoreError;
 
-/// Time between two signs that a claim is still held.
+/// Time between two renewals of a claim.
 const RENEWAL: Duration = Duration::from_secs(5);
 
-/// Seconds without such a sign after which another may have it.
+/// Time in seconds without a renewal after which another process may take a claim.
 const SILENCE: i32 = 30;
 
-/// The sole right of this process to something, until it is dropped.
+/// Exclusive right of this process to a task, until it is dropped.
 #[derive(Debug)]
 pub struct Claim {
     pool: PgPool,
     name: String,
     holder: String,
-    /// Where it is renewed and given up: it may be dropped on a thread that is none of the runtime's.
+    /// Runtime that renews and releases the claim, which may be dropped on a thread outside the runtime.
     runtime: Handle,
     renewal: JoinHandle<()>,
 }
 
 impl Claim {
-    /// The right to `name`, unless another process has it.
+    /// Takes the claim `name`, unless another process has it.
     pub(super) async fn of(pool: &PgPool, name: &str) -> Result<Option<Self>, StoreError> {
         let holder = uuid::Uuid::now_v7().to_string();
         if !take(pool, name, &holder).await? {
@@ -58,7 +58,7 @@ impl Drop for Claim {
         self.renewal.abort();
         let (pool, name, holder) =
             (self.pool.clone(), std::mem::take(&mut self.name), std::mem::take(&mut self.holder));
-        // Where this fails, silence says it.
+        // If this fails, the claim expires by silence.
         self.runtime.spawn(async move {
             let given =
                 sqlx::query("delete from claims where name = $1 and holder = $2").bind(name).bind(holder);
@@ -67,7 +67,7 @@ impl Drop for Claim {
     }
 }
 
-/// Takes or keeps it, by the clock of the database.
+/// Takes or renews a claim, by the clock of the database; false if another process has it.
 async fn take(pool: &PgPool, name: &str, holder: &str) -> Result<bool, StoreError> {
     let taken = sqlx::query(
         "insert into claims (name, holder, until) values ($1, $2, now() + make_interval(secs => $3))

@@ -1,4 +1,4 @@
-//! Marking what is being computed, and what the last service died under.
+//! Marks of jobs being computed, and the jobs during which the last service died.
 
 use std::sync::PoisonError;
 
@@ -8,13 +8,13 @@ use super::jobs::job::JobId;
 use super::marks::Mark;
 
 impl Store {
-    /// Marks that something is being computed for `job`.
+    /// Marks `job` as being computed.
     pub fn mark_computing(&self, job: JobId) -> Mark {
         self.marks.change(job, |count| *count += 1);
         Mark { job, marks: self.marks.clone() }
     }
 
-    /// Drops all marks, and makes no more: the service ends because it was told to.
+    /// Drops all marks and sets no more: the service stops in order.
     pub fn stop_marking(&self) {
         *self.marks.counts.lock().unwrap_or_else(PoisonError::into_inner) = None;
         if let Err(error) = self.marks.clear() {
@@ -22,17 +22,17 @@ impl Store {
         }
     }
 
-    /// The jobs that the last service died under.
+    /// Jobs that were being computed when the last service died.
     pub(super) fn marked(&self) -> Result<Vec<JobId>, StoreError> {
         let files = self.marks.files()?;
         let mut jobs: Vec<JobId> =
             files.iter().filter_map(|file| JobId::parse(file.file_name()?.to_str()?)).collect();
-        // Machines that died together guard the same jobs in the same order.
+        // Processes that died together guard the same jobs in the same order.
         jobs.sort_unstable();
         Ok(jobs)
     }
 
-    /// Forgets what the last service died under, once it is counted.
+    /// Drops the marks of the last service, once they are counted.
     pub(super) fn forget_marked(&self) -> Result<(), StoreError> {
         Ok(self.marks.clear()?)
     }

@@ -1,33 +1,34 @@
-//! Where `SQLite` and PostgreSQL differ. All else is said to both in the same words.
+//! Differences between `SQLite` and PostgreSQL. All other statements are the same for both.
 
 use sqlx::AnyConnection;
 
 use super::error::StoreError;
 use super::jobs::job::JobId;
 
-/// What holds the tables.
+/// Kind of database that holds the tables.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Dialect {
-    /// A file of the data folder, which one connection of one process writes.
+    /// File of the data folder, which one connection of one process writes.
     Sqlite,
-    /// A server, which many processes write at once.
+    /// PostgreSQL server, which many processes write at once.
     Postgres,
 }
 
-/// What a transaction reads and then writes by what it found. Who guards several does so in this order, before all else.
+/// Subject that a transaction guards: it reads the subject and then writes according to what it read. A transaction that guards several
+/// subjects does so in this order, before all else.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Guarded<'a> {
-    /// What an owner has, against limits.
+    /// Total that an owner has stored, to be compared with limits.
     Owner(&'a str),
-    /// A model, with all that goes with it.
+    /// Model with everything that belongs to it.
     Model(&'a str),
-    /// A job.
+    /// Job with this id.
     Job(JobId),
 }
 
 impl Dialect {
-    /// Begins to write. On a server whatever it is set to: [`Self::guard`] rests on it that a statement sees what was committed
-    /// before it.
+    /// Statement that begins a writing transaction. On a server it sets the isolation level, whatever the default: [`Self::guard`] relies
+    /// on statements that see what was committed before them.
     pub(super) fn begin(self) -> &'static str {
         match self {
             Self::Sqlite => "begin immediate",
@@ -35,7 +36,7 @@ impl Dialect {
         }
     }
 
-    /// Lets transactions that guard the same wait until this one has ended. In `SQLite` all do anyway.
+    /// Makes transactions that guard the same subject wait until this one has ended. In `SQLite` all writing transactions wait anyway.
     pub(super) async fn guard(
         self,
         connection: &mut AnyConnection,
@@ -47,7 +48,7 @@ impl Dialect {
                 Guarded::Model(model) => format!("model {model}"),
                 Guarded::Job(job) => format!("job {job}"),
             };
-            // Two names of the same number only wait for each other.
+            // Subjects with the same hash only wait for each other.
             sqlx::query("select pg_advisory_xact_lock(hashtextextended($1, 0))")
                 .bind(name)
                 .execute(connection)
@@ -56,11 +57,11 @@ impl Dialect {
         Ok(())
     }
 
-    /// What follows the table of jobs where a listing is read from the index made for it.
+    /// Clause after the table of jobs that makes a listing use the index made for it.
     pub(super) fn by_job_list(self) -> &'static str {
         match self {
             Self::Sqlite => "indexed by job_list",
-            // It keeps large values elsewhere, so that rows are small, and takes no advice.
+            // PostgreSQL stores large values elsewhere, so that rows are small, and takes no hints.
             Self::Postgres => "",
         }
     }

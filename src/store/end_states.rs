@@ -1,4 +1,4 @@
-//! End states of sweeps up or down: one a job, that of the speed finished last.
+//! End states of sweeps up or down: one per job, that of the speed finished last.
 
 use sqlx::AnyConnection;
 
@@ -8,7 +8,7 @@ use super::jobs::job::JobId;
 use crate::analysis::end_state::EndState;
 
 impl Store {
-    /// Where the wheel was at the end of speed `index` of a job, if that was finished last and left a state.
+    /// State of the wheel at the end of speed `index` of a job, if that speed was finished last and left a state.
     pub async fn end_state(&self, job: JobId, index: u32) -> Result<Option<EndState>, StoreError> {
         let state: Option<Vec<u8>> =
             sqlx::query_scalar("select state from end_states where job = $1 and speed = $2")
@@ -25,7 +25,7 @@ pub(super) fn read(state: &[u8]) -> Result<EndState, StoreError> {
     Ok(postcard::from_bytes(state)?)
 }
 
-/// Keeps the end state of a speed that has just been finished in place of the one before; if it left none, there is none.
+/// Stores the end state of a speed that has just finished in place of the one before; none if the speed left no state.
 pub(super) async fn replace(
     connection: &mut AnyConnection,
     job: JobId,
@@ -63,7 +63,7 @@ mod tests {
     use crate::store::status::JobStatus;
     use crate::store::testing::stores;
 
-    /// A finished speed that ended at `state`.
+    /// Result of a finished speed that ended at `state`.
     fn result(index: u32, state: Option<f64>) -> SpeedResult {
         let point = json!({
             "index": index, "speed_rad_s": 1.0, "status": "completed", "steps_per_revolution": 1,
@@ -107,20 +107,20 @@ mod tests {
             keep(&store, other, &result(4, Some(7.0))).await;
             assert_eq!(state(4).await, first.end_state, "to the bit");
             assert_eq!(state(3).await, None);
-            // Of a speed that is there already nothing changes.
+            // A speed that is there already stays unchanged.
             keep(&store, job, &result(4, Some(2.0))).await;
             assert_eq!(state(4).await, first.end_state);
             let second = result(3, Some(3.0));
             keep(&store, job, &second).await;
             assert_eq!((state(4).await, state(3).await), (None, second.end_state));
-            // A speed that diverged leaves nothing to the next.
+            // A diverged speed leaves no state to the next.
             keep(&store, job, &result(2, None)).await;
             assert_eq!((state(3).await, state(2).await), (None, None));
 
             keep(&store, job, &result(1, Some(4.0))).await;
             store.advance_job(job, JobStatus::Dismissed, None).await.unwrap();
             assert_eq!(state(1).await, None);
-            // What was still being computed then comes too late.
+            // Speeds still being computed at that time come too late.
             keep(&store, job, &result(0, Some(5.0))).await;
             assert_eq!(state(0).await, None);
             assert!(store.end_state(other, 4).await.unwrap().is_some());

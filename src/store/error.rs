@@ -1,4 +1,4 @@
-//! What can go wrong with remembering.
+//! Errors of the store.
 
 use std::io::ErrorKind;
 use std::path::PathBuf;
@@ -7,16 +7,16 @@ use sqlx::migrate::MigrateError;
 
 use super::refusal::{Refusal, is_no_text, refusal};
 
-/// A failure of the database, the disk or of something stored there.
+/// Failure of the database, the disk or stored data.
 #[derive(Debug, thiserror::Error)]
 pub enum StoreError {
-    /// The database refused or could not be reached.
+    /// Database that refused a statement or could not be reached.
     #[error("database: {0}")]
     Database(#[from] sqlx::Error),
-    /// The tables could not be brought up to date.
+    /// Migration of the tables that failed.
     #[error("migration: {0}")]
     Migration(#[from] sqlx::migrate::MigrateError),
-    /// The address of a database that is none.
+    /// Malformed address of a database.
     #[error("the address of the database is none: expected one such as postgres://user@host/database")]
     NoAddress,
     /// Tables that this account may not bring up to date.
@@ -32,18 +32,18 @@ pub enum StoreError {
          that made them, or a later one"
     )]
     NewerTables {
-        /// What is in them.
+        /// Contents of these tables.
         part: &'static str,
-        /// Their version.
+        /// Version of these tables.
         found: i64,
-        /// The last that this program knows.
+        /// Latest version that this program knows.
         known: i64,
     },
     /// The tables of the queue that machines share refused.
     #[cfg(feature = "cluster")]
     #[error("queue: {0}")]
     SharedQueue(#[from] apalis_postgres::Error),
-    /// Packages of models, and nothing that knows them.
+    /// Packages of models without a database that knows them.
     #[error(
         "{} is missing or holds nothing of this program, and beside it lie packages of models ({packages}), which it \
          would not know and the service remove: put the database back (from a backup; a copy needs its -wal file, too), \
@@ -51,44 +51,44 @@ pub enum StoreError {
         database.display()
     )]
     LostDatabase {
-        /// Where it should be.
+        /// Path where the database should be.
         database: PathBuf,
-        /// Packages that are there.
+        /// Number of packages found.
         packages: usize,
     },
-    /// A file beside the database could not be written or read.
+    /// File beside the database that could not be written or read.
     #[error("data folder: {0}")]
     File(#[from] std::io::Error),
-    /// An object could not be put into the object store, or fetched from there.
+    /// Object that could not be put into the object store, or fetched from it.
     #[error("{0}")]
     Objects(#[source] std::io::Error),
-    /// The package of a model cannot be accessed.
+    /// Package of a model that cannot be accessed.
     #[error("package: {0}")]
     Package(#[source] std::io::Error),
-    /// A stored JSON document does not read back.
+    /// Stored JSON document that does not read back.
     #[error("stored JSON: {0}")]
     Json(#[from] serde_json::Error),
-    /// A stored array does not read back.
+    /// Stored array that does not read back.
     #[error("stored numbers: {0}")]
     Numbers(#[from] postcard::Error),
-    /// Packed spectra that are not whole.
+    /// Packed spectra that are incomplete.
     #[error("stored spectra are damaged")]
     Spectra,
-    /// What was just written cannot be read by others.
+    /// Written data that other connections cannot read.
     #[error("the database took a row that its other connections do not see")]
     Unseen,
-    /// A column holds a value this program does not know.
+    /// Column that holds a value unknown to this program.
     #[error("column {column} holds {value:?}, which this version of the program does not know")]
     Unknown {
-        /// The column.
+        /// Name of the column.
         column: &'static str,
-        /// Its value.
+        /// Value that was found.
         value: String,
     },
 }
 
 impl StoreError {
-    /// Whether it was refused for want of room on the disk.
+    /// Whether the operation failed for lack of disk space.
     pub fn is_disk_full(&self) -> bool {
         match self {
             Self::Database(error) => refusal(error) == Some(Refusal::DiskFull),
@@ -97,17 +97,17 @@ impl StoreError {
         }
     }
 
-    /// [`Self::may_pass`] of a file.
+    /// Whether an operation on a file may succeed later, as [`Self::may_pass`].
     pub fn may_pass_of(error: &std::io::Error) -> bool {
         io_may_pass(error)
     }
 
-    /// Whether a text of the request has a character in it that the database cannot keep: U+0000.
+    /// Whether a text of the request contains a character that the database cannot store: U+0000.
     pub fn is_no_text(&self) -> bool {
         matches!(self, Self::Database(error) if is_no_text(error))
     }
 
-    /// Whether the package of a model is not where it was put.
+    /// Whether the package of a model is missing.
     pub fn is_missing_package(&self) -> bool {
         matches!(self, Self::Package(error) if error.kind() == ErrorKind::NotFound)
     }
@@ -117,16 +117,16 @@ impl StoreError {
         matches!(self, Self::Objects(error) if error.kind() == ErrorKind::PermissionDenied)
     }
 
-    /// Whether the same may succeed later without anybody changing a word of it: a full disk, a lock that somebody holds,
-    /// descriptors or memory that others have taken. No verdict on what was to be done.
+    /// Whether the same operation may succeed later without a change of the request: a full disk, a lock held by another process,
+    /// descriptors or memory in use. Says nothing about the validity of the operation.
     pub fn may_pass(&self) -> bool {
         match self {
             Self::File(error) => io_may_pass(error),
-            // Credentials run out and are renewed.
+            // Credentials expire and are renewed.
             Self::Objects(error) => io_may_pass(error) || self.is_denied(),
-            // One that is not there may be put back, or uploaded again.
+            // A missing package may be put back, or uploaded again.
             Self::Package(error) => io_may_pass(error) || self.is_missing_package(),
-            // A connection that was lost is replaced, and a server that does not answer, or has no name yet, comes back.
+            // A lost connection is replaced, and a server that does not answer, or has no name yet, comes back.
             Self::Database(
                 sqlx::Error::Io(_)
                 | sqlx::Error::PoolTimedOut
@@ -159,7 +159,7 @@ fn is_no_room(error: &std::io::Error) -> bool {
 
 /// Whether an operation on a file may succeed later.
 fn io_may_pass(error: &std::io::Error) -> bool {
-    /// Those without a kind of their own: `EIO`, `ENFILE` and `EMFILE`, the same on all Unixes.
+    /// Error numbers without a kind of their own: `EIO`, `ENFILE` and `EMFILE`, the same on all Unixes.
     const NUMBERS: [i32; 3] = [5, 23, 24];
     is_no_room(error)
         || matches!(
@@ -170,7 +170,7 @@ fn io_may_pass(error: &std::io::Error) -> bool {
                 | ErrorKind::OutOfMemory
                 | ErrorKind::ResourceBusy
                 | ErrorKind::ReadOnlyFilesystem
-                // An object store that is away.
+                // An object store that cannot be reached.
                 | ErrorKind::HostUnreachable
         )
         || error.raw_os_error().is_some_and(|number| NUMBERS.contains(&number))

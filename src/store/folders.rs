@@ -5,22 +5,22 @@ use std::path::{Path, PathBuf};
 
 use crate::analysis::run::VERSION;
 
-/// The folder of the reduction of `model` with so many modes per speed.
+/// Name of the folder of the reduction of `model` with this number of modes per speed.
 pub(super) fn folder_name(model: &str, modes_per_speed: u32) -> String {
     format!("{model}-{modes_per_speed}")
 }
 
-/// The model to whose reductions the folder `name` belongs.
+/// Model whose reduction the folder `name` belongs to.
 pub(super) fn model_of(name: &str) -> &str {
     name.rsplit_once('-').map_or(name, |(model, _)| model)
 }
 
-/// What names of files begin with that this program can read, in their `layout`.
+/// Prefix of the names of files in `layout` that this program can read.
 pub(super) fn prefix(layout: i64) -> String {
     format!("{VERSION}-{layout}-")
 }
 
-/// Removes the folders in `root` whose names are so.
+/// Removes the folders in `root` whose names `which` selects.
 pub(super) async fn remove_folders(root: &Path, which: impl Fn(&str) -> bool) -> std::io::Result<()> {
     for folder in entries(root).await? {
         if which(file_name(&folder)) {
@@ -42,7 +42,7 @@ pub(super) async fn remove_files_but(root: &Path, prefix: &str) -> std::io::Resu
     Ok(())
 }
 
-/// What a folder contains; nothing if there is no such folder.
+/// Entries of a folder; nothing if there is no such folder.
 pub(super) async fn entries(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
     let mut found = Vec::new();
     match tokio::fs::read_dir(folder).await {
@@ -57,7 +57,7 @@ pub(super) async fn entries(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
     Ok(found)
 }
 
-/// The last part of a path.
+/// Last part of a path.
 pub(super) fn file_name(path: &Path) -> &str {
     path.file_name().and_then(|name| name.to_str()).unwrap_or_default()
 }

@@ -1,4 +1,4 @@
-//! The store itself: its database, opened and brought up to date, and the data folder.
+//! Store: its database, opened and brought up to date, and the data folder.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -16,10 +16,10 @@ use super::reserve::Reserve;
 use super::shared_queue::SharedQueue;
 use super::{postgres, sqlite};
 
-/// Name of the file in a data folder that is locked by the process which has the folder.
+/// Name of the file in a data folder that the process which uses the folder locks.
 pub const LOCK: &str = "lock";
 
-/// The database and the data folder, which has the packages.
+/// Store of the service: the database, and the data folder with the packages.
 #[derive(Debug, Clone)]
 pub struct Store {
     pub(super) folder: PathBuf,
@@ -27,15 +27,15 @@ pub struct Store {
     pub(super) readers: AnyPool,
     pub(super) writer: AnyPool,
     pub(super) marks: Marks,
-    /// Held while a package file and its row come or go together.
+    /// Lock held while a package file and its row are added or removed together.
     pub(super) packages: Arc<tokio::sync::Mutex<()>>,
-    /// Room that is kept for deletions.
+    /// Disk space reserved for deletions.
     pub(super) reserve: Reserve,
-    /// Tells who follows a job that it has changed.
+    /// Notifier of changes of jobs.
     pub(super) changes: Changes,
-    /// Files that other processes share.
+    /// Object store with the files that other processes share.
     pub(super) objects: Objects,
-    /// Tasks that other processes share.
+    /// Queue of tasks that other processes share.
     #[cfg(feature = "cluster")]
     tasks: Option<SharedQueue>,
 }
@@ -44,7 +44,7 @@ impl Store {
     /// Opens the store in `folder`, which must exist, with its tables in a file there, and brings them up to date.
     ///
     /// # Errors
-    /// Also where packages of models lie beside a database that knows none: it would make leftovers of them.
+    /// Also packages of models beside a database that knows none: it would remove them as leftovers.
     pub async fn open(folder: &Path) -> Result<Self, StoreError> {
         std::fs::create_dir_all(packages_folder(folder))?;
         let (readers, writer) = sqlite::open(folder).await?;
@@ -55,7 +55,7 @@ impl Store {
     /// tables up to date.
     ///
     /// # Errors
-    /// Also where the program was built without the feature `cluster`.
+    /// Also a program built without the feature `cluster`.
     pub async fn connect(folder: &Path, url: &str) -> Result<Self, StoreError> {
         std::fs::create_dir_all(packages_folder(folder))?;
         let pool = postgres::open(url).await?;
@@ -65,7 +65,7 @@ impl Store {
         Ok(store)
     }
 
-    /// The tasks that processes share which have the tables in common; none of a data folder.
+    /// Queue of the tasks that all processes with these tables share; none with a data folder.
     #[cfg(feature = "cluster")]
     pub fn shared_queue(&self) -> Option<&SharedQueue> {
         self.tasks.as_ref()
@@ -90,13 +90,13 @@ impl Store {
         })
     }
 
-    /// The same with the files of the data folder in an object store; it must be there and let us in.
+    /// Moves the store to files in an object store, which must exist and admit this process; the data folder becomes a cache.
     pub async fn sharing(self, address: &Address) -> Result<Self, StoreError> {
         let objects = Objects::open(address, &self.folder, self.reserve.clone()).await;
         Ok(Self { objects: objects.map_err(StoreError::Objects)?, ..self })
     }
 
-    /// Changes of jobs, to be followed and told.
+    /// Changes of jobs, to be followed and reported.
     pub fn changes(&self) -> &Changes {
         &self.changes
     }

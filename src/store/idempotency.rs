@@ -1,4 +1,4 @@
-//! Answers to repeat when a POST with an `Idempotency-Key` is repeated.
+//! Answers to requests with an `Idempotency-Key`, to be repeated when the POST is repeated.
 
 use sqlx::{AnyConnection, Row};
 
@@ -7,15 +7,15 @@ use super::handle::Store;
 use super::sql::number;
 use super::time::{now, timestamp};
 
-/// Days after which a key may be used for something else.
+/// Number of days after which a key may be used for another request.
 pub const KEPT_DAYS: i64 = 7;
 
-/// An answer with the request it belongs to.
+/// Answer with the request it belongs to.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Answer {
-    /// Whose the key is.
+    /// Owner of the key.
     pub owner: String,
-    /// The client's key.
+    /// Idempotency key that the client chose.
     pub key: String,
     /// Digest of route and body of the request.
     pub fingerprint: String,
@@ -28,7 +28,7 @@ pub struct Answer {
 }
 
 impl Store {
-    /// The answer given under the `key` of `owner`.
+    /// Finds the answer given under the `key` of `owner`.
     pub async fn answer(&self, owner: &str, key: &str) -> Result<Option<Answer>, StoreError> {
         let row =
             sqlx::query("select * from idempotency_keys where owner = $1 and key = $2 and created_at > $3")
@@ -50,7 +50,7 @@ impl Store {
         .transpose()
     }
 
-    /// Keeps `answer` for repetition. False if its key was taken meanwhile.
+    /// Stores `answer` for repetition. False if its key was taken meanwhile.
     pub async fn insert_answer(&self, answer: &Answer) -> Result<bool, StoreError> {
         let mut transaction = self.write().await?;
         let inserted = insert(&mut transaction, answer).await?;
@@ -59,7 +59,7 @@ impl Store {
     }
 }
 
-/// Keeps `answer` within a transaction. False if its key was taken meanwhile.
+/// Stores `answer` within a transaction. False if its key was taken meanwhile.
 pub(super) async fn insert(connection: &mut AnyConnection, answer: &Answer) -> Result<bool, StoreError> {
     sqlx::query("delete from idempotency_keys where created_at <= $1")
         .bind(expiry())

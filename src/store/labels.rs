@@ -1,4 +1,4 @@
-//! What users call their jobs and models.
+//! Labels that users give their jobs and models.
 
 use sqlx::any::{AnyArguments, AnyRow};
 use sqlx::query::Query;
@@ -6,33 +6,33 @@ use sqlx::{Any, AssertSqlSafe, Row};
 
 use super::error::StoreError;
 
-/// What an owner calls a job or a model, to find it again. Nothing is computed from it.
+/// Labels that an owner gives a job or a model, to find it again. Nothing is computed from them.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Labels {
-    /// A name, which need not be unique.
+    /// Name, which need not be unique.
     pub name: Option<String>,
-    /// Words to group by, without commas.
+    /// Tags to group by, without commas.
     pub tags: Vec<String>,
-    /// Anything worth remembering.
+    /// Notes of any kind.
     pub notes: Option<String>,
 }
 
-/// Changes of labels: `None` leaves what there is.
+/// Changes of labels: `None` leaves a label as it is.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct LabelChanges {
-    /// Another name, or none any more.
+    /// New name, or none any more.
     pub name: Option<Option<String>>,
-    /// Other tags in place of all.
+    /// New tags in place of all.
     pub tags: Option<Vec<String>>,
-    /// Other notes, or none any more.
+    /// New notes, or none any more.
     pub notes: Option<Option<String>>,
 }
 
-/// Sets the columns of the labels, by parameters 1 to 5.
+/// Assignments of the columns of the labels, by parameters 1 to 5.
 const SET: &str = "name = case when $1 then $2 else name end, tags = coalesce($3, tags), notes = case when $4 then $5 else notes end";
 
 impl LabelChanges {
-    /// The statement that makes them in the rows of `table` that `whose` describes, with parameters from $6 on.
+    /// Statement that makes the changes in the rows of `table` that `whose` selects, with parameters from $6 on.
     pub(super) fn update(
         self,
         table: &str,
@@ -48,8 +48,8 @@ impl LabelChanges {
     }
 }
 
-/// What the column of tags has in it if `tag` is one of them, and otherwise not: tags are quoted and have no commas, so that no quote
-/// in between two of them is taken for the first of one.
+/// Text that the column of tags contains exactly if `tag` is one of them: tags are quoted and have no commas, so that a quote between two
+/// tags is never taken for the beginning of one.
 pub(super) fn quoted(tag: &str) -> Result<String, StoreError> {
     Ok(serde_json::to_string(tag)?)
 }

@@ -1,10 +1,10 @@
-//! What an earlier service left behind.
+//! Leftovers of an earlier service.
 
 use super::handle::Store;
 
 impl Store {
-    /// Removes what an earlier service left behind and nobody will use. For a service that starts: what is being
-    /// written now looks the same. What cannot be removed does no harm. Keeps room for deletions on a full disk.
+    /// Removes files that an earlier service left behind and that nobody will use. For a service that starts: files being written now look
+    /// the same. Files that cannot be removed do no harm. Reserves disk space for deletions.
     pub async fn remove_leftovers(&self) {
         if let Err(error) = self.remove_stale_packages().await {
             tracing::warn!(%error, "could not remove the packages of broken uploads");

@@ -1,4 +1,4 @@
-//! What is followed leg by leg, and how far it has been: branches and run-ups.
+//! Legs of branches and run-ups, stored one by one, with the course that the next leg continues.
 
 use super::dialect::Guarded;
 use super::error::StoreError;
@@ -8,17 +8,17 @@ use super::results::{Document, insert_document, keep_result};
 use super::sql::of;
 use crate::analysis::result::PointStatus;
 
-/// What has legs.
+/// Kind of job that is computed leg by leg.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Followed {
     /// Branches of periodic responses.
     Branches,
-    /// Wheels whose speed changes.
+    /// Run-ups: wheels whose speed changes.
     RunUps,
 }
 
 impl Followed {
-    /// A leg of it.
+    /// Document of leg `index`.
     pub fn leg(self, index: u32) -> Document {
         match self {
             Self::Branches => Document::BranchLeg(index),
@@ -26,7 +26,7 @@ impl Followed {
         }
     }
 
-    /// How far it has been followed.
+    /// Document of the course: the state from which the next leg continues.
     pub fn course(self) -> Document {
         match self {
             Self::Branches => Document::BranchCourse,
@@ -34,7 +34,7 @@ impl Followed {
         }
     }
 
-    /// What is kept beside a leg, if it has such.
+    /// Document stored beside leg `index`, if this kind has one.
     pub fn beside(self, index: u32) -> Option<Document> {
         match self {
             Self::Branches => None,
@@ -44,8 +44,9 @@ impl Followed {
 }
 
 impl Store {
-    /// Keeps leg `index` of a job, with what belongs `beside` it and how the run it is the last of has `ended`, together with the course after it, in place of the one before; none where
-    /// nothing is left to follow. A leg that is there already stays as it is, and so does its course; a job that was deleted keeps nothing.
+    /// Stores leg `index` of a job, with the document `beside` it, and the status with which a run has `ended` if this leg is its last,
+    /// together with the course after it in place of the one before; no course where nothing is left to compute. An existing leg stays as
+    /// it is, and so does its course; a deleted job stores nothing.
     pub async fn keep_leg(
         &self,
         job: JobId,
@@ -85,12 +86,12 @@ impl Store {
         Ok(())
     }
 
-    /// How many legs of a job there are.
+    /// Number of legs of a job.
     pub async fn legs(&self, job: JobId, followed: Followed) -> Result<u32, StoreError> {
         Ok(self.parts(job, followed.leg(0)).await?.0)
     }
 
-    /// How many documents of the kind of this one a job has, and the bytes of their texts.
+    /// Number of documents of the kind of `of_kind` that a job has, and the bytes of their texts.
     pub async fn parts(&self, job: JobId, of_kind: Document) -> Result<(u32, u64), StoreError> {
         let (name, _) = of_kind.columns();
         let (count, bytes): (i64, i64) = sqlx::query_as(

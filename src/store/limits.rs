@@ -1,4 +1,4 @@
-//! What one owner may have in the store.
+//! Limits on what one owner may have in the store.
 
 use sqlx::AnyConnection;
 
@@ -7,61 +7,61 @@ use super::error::StoreError;
 /// Limits of one owner; `None` for no limit.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Limits {
-    /// Speeds of unfinished jobs that are still to be computed; a job without speeds counts as one.
+    /// Number of speeds of unfinished jobs that are still to be computed; a job without speeds counts as one.
     pub queued_speeds: Option<u64>,
-    /// Bytes of results and packages.
+    /// Size of results and packages, bytes.
     pub stored_bytes: Option<u64>,
-    /// Models.
+    /// Number of models.
     pub models: Option<u64>,
 }
 
-/// A limit that a request would exceed, or that is reached.
+/// Limit that a request would exceed, or that is reached.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum LimitReached {
-    /// Too many speeds.
+    /// Limit on queued speeds.
     #[error("{queued} speeds of yours wait to be computed, {asked} more would exceed the limit of {limit}")]
     QueuedSpeeds {
-        /// Speeds that wait already.
+        /// Number of speeds that wait already.
         queued: u64,
-        /// Speeds of the new job.
+        /// Number of speeds of the new job.
         asked: u64,
-        /// Most speeds that may wait.
+        /// Largest number of speeds that may wait.
         limit: u64,
     },
-    /// Too many requests at once.
+    /// Limit on simultaneous requests.
     #[error(
         "{limit} of your requests are already being checked or planned, the most for one owner: wait for some of their answers"
     )]
     Plans {
-        /// Most requests.
+        /// Largest number of simultaneous requests.
         limit: usize,
     },
-    /// Too many bytes.
+    /// Limit on stored bytes.
     #[error(
         "your models and results take {stored} bytes, with {more} to be added, and the limit is {limit}: delete jobs or models"
     )]
     StoredBytes {
-        /// Bytes stored.
+        /// Bytes already stored.
         stored: u64,
-        /// Bytes that were to be added, as far as that is known.
+        /// Bytes that were to be added, as far as known.
         more: u64,
-        /// Most bytes.
+        /// Largest number of stored bytes.
         limit: u64,
     },
-    /// Too many models.
+    /// Limit on models.
     #[error(
         "you have {models} models, those that are being generated included, and the limit is {limit}: delete some"
     )]
     Models {
-        /// Models there are.
+        /// Number of existing models.
         models: u64,
-        /// Most models.
+        /// Largest number of models.
         limit: u64,
     },
 }
 
 impl Limits {
-    /// Whether `owner` may queue so many speeds more.
+    /// Checks that `owner` may queue `asked` more speeds.
     pub(super) async fn allow_speeds(
         self,
         connection: &mut AnyConnection,
@@ -76,11 +76,11 @@ impl Limits {
                 return Ok(Err(LimitReached::QueuedSpeeds { queued, asked, limit }));
             }
         }
-        // What they will take nobody knows yet.
+        // The bytes of their results are not known yet.
         self.allow_bytes(connection, owner, 0).await
     }
 
-    /// Whether `owner` may have one model more, of so many bytes, beside those that are being generated.
+    /// Checks that `owner` may have one more model of `bytes` bytes, beside those that are being generated.
     pub(super) async fn allow_model(
         self,
         connection: &mut AnyConnection,
@@ -93,7 +93,7 @@ impl Limits {
         self.allow_bytes(connection, owner, bytes).await
     }
 
-    /// The same of a model whose bytes nobody knows yet.
+    /// Checks that `owner` may have one more model whose size is not known yet.
     pub(super) async fn allow_generation(
         self,
         connection: &mut AnyConnection,

@@ -1,4 +1,4 @@
-//! Processes that compute for all that share a database.
+//! Worker processes that compute for all processes sharing a database.
 
 use super::error::StoreError;
 use super::shared_queue::SharedQueue;
@@ -6,22 +6,22 @@ use crate::analysis::result::Machine;
 use crate::analysis::run::Calibration;
 use crate::store::sql::of;
 
-/// Seconds without a sign of life after which a process counts as gone.
+/// Time in seconds without a sign of life after which a worker process counts as gone.
 const SILENCE: f64 = 60.0;
 
-/// A process that computes.
+/// Worker process.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WorkerProcess {
-    /// The machine it runs on.
+    /// Machine that the process runs on.
     pub machine: Machine,
-    /// What steps cost there.
+    /// Costs of time steps on this machine.
     pub costs: Calibration,
-    /// Its threads.
+    /// Number of threads of the process.
     pub threads: u32,
 }
 
 impl SharedQueue {
-    /// Says that a process computes, or still does.
+    /// Announces that a worker process computes, or still does.
     pub async fn announce(&self, process: &str, worker: &WorkerProcess) -> Result<(), StoreError> {
         sqlx::query(
             "insert into machines (process, machine, costs, threads, seen) values ($1, $2, $3, $4, now())
@@ -36,7 +36,7 @@ impl SharedQueue {
         Ok(())
     }
 
-    /// Processes that compute, those with most threads first. Forgets the others.
+    /// Lists the worker processes that compute, most threads first. Forgets the others.
     pub async fn worker_processes(&self) -> Result<Vec<WorkerProcess>, StoreError> {
         sqlx::query("delete from machines where seen < now() - make_interval(secs => $1)")
             .bind(SILENCE)
@@ -57,7 +57,7 @@ impl SharedQueue {
             .collect()
     }
 
-    /// Says of unfinished jobs of one kind of processor that they wait, if nobody is there who may go on with them.
+    /// Sets the phase of unfinished jobs bound to one kind of processor to waiting, if no worker of that kind is there.
     pub async fn tell_who_waits(&self) -> Result<(), StoreError> {
         sqlx::query(
             "update jobs set phase = 'waiting for a worker with ' || vectors || ' vectors, on which it was begun'
@@ -74,7 +74,7 @@ impl SharedQueue {
         Ok(())
     }
 
-    /// Says that a process has ended.
+    /// Reports that a worker process has ended.
     pub async fn leave(&self, process: &str) -> Result<(), StoreError> {
         sqlx::query("delete from machines where process = $1").bind(process).execute(self.pool()).await?;
         Ok(())

@@ -1,7 +1,7 @@
-//! What is being computed, as empty files `computing/<job>`: what a service that died leaves there, it died under.
+//! Marks of jobs being computed, as empty files `computing/<job>`: a service that dies leaves the marks of the jobs it died under.
 //!
-//! Files that nobody flushes, not rows: they cost microseconds, and outlive the process, which is all they are for (a
-//! power cut is nobody's fault). One that cannot be made is left out: then nobody is blamed.
+//! Files that nobody flushes, not rows: they cost microseconds, and outlive the process, which is all they are for (a power cut is nobody's
+//! fault). A mark that cannot be made is left out: then no job is blamed.
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -9,15 +9,15 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use super::jobs::job::JobId;
 
-/// The marks of one data folder.
+/// Marks of one data folder.
 #[derive(Debug, Clone)]
 pub(super) struct Marks {
     folder: PathBuf,
-    /// How often each job is marked; `None` once the service stops in order.
+    /// Number of marks of each job; `None` once the service stops in order.
     pub(super) counts: Arc<Mutex<Option<HashMap<JobId, u32>>>>,
 }
 
-/// A mark that something is being computed for a job, for as long as it is held.
+/// Mark that a job is being computed, for as long as it is held.
 #[derive(Debug)]
 pub struct Mark {
     pub(super) job: JobId,
@@ -31,7 +31,7 @@ impl Marks {
         Ok(Self { folder, counts: Arc::new(Mutex::new(Some(HashMap::new()))) })
     }
 
-    /// Counts, and makes or removes the file where that matters.
+    /// Changes the count of a job, and creates or removes its file where that matters.
     pub(super) fn change(&self, job: JobId, count: impl FnOnce(&mut u32)) {
         let mut counts = self.counts.lock().unwrap_or_else(PoisonError::into_inner);
         let Some(counts) = counts.as_mut() else { return };

@@ -1,9 +1,9 @@
-//! What is remembered: models, reductions, jobs and results in one `SQLite` file or on a PostgreSQL server, packages, checkpoints and
+//! Store of the service: models, reductions, jobs and results in one `SQLite` file or on a PostgreSQL server; packages, checkpoints and
 //! bases as files. The only SQL in the program.
 //!
-//! One function per question, asked of both databases in the same words but for what `dialect` has; rows become domain types here. All
-//! writes to the file go through one connection, so transactions never meet a busy database, and readers never wait for writers
-//! (WAL). On a server they meet those of other processes: what one reads and then writes by what it found, it guards.
+//! One function per question, asked of both databases in the same words except where `dialect` differs; rows become domain types here. All
+//! writes to the file go through one connection, so transactions never meet a busy database, and readers never wait for writers (WAL). On a
+//! server they meet transactions of other processes, so a transaction guards what it reads and then writes accordingly.
 
 mod backup;
 pub mod bases;

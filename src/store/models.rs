@@ -21,51 +21,52 @@ use super::unfinished::{UNFINISHED, unfinished_file};
 use crate::analysis::run::ModelFacts;
 use crate::package::{self as packaging, Limits as PackageLimits, PackageError};
 
-/// What names of packages on their way in begin with.
+/// Prefix of the names of packages during their upload.
 const UPLOAD_PREFIX: &str = "upload-";
 
-/// Time between two attempts to become the only one that keeps or removes a package.
+/// Time between two attempts to become the only process that stores or removes a package.
 #[cfg(feature = "cluster")]
 const BETWEEN_CLAIMS: Duration = Duration::from_millis(100);
 
-/// The right to keep or remove a package, until it is dropped.
+/// Exclusive right to store or remove a package, until it is dropped.
 struct PackageWriter<'a> {
     _here: tokio::sync::MutexGuard<'a, ()>,
     #[cfg(feature = "cluster")]
     _everywhere: Option<Claim>,
 }
 
-/// A stored model.
+/// Stored model.
 #[derive(Debug, Clone)]
 pub struct StoredModel {
-    /// Models get growing numbers as they come.
+    /// Number of the model, growing in the order of upload.
     pub number: i64,
-    /// Digest of the package's content.
+    /// Id of the model: digest of the content of its package.
     pub id: String,
-    /// What requests are checked against.
+    /// Facts of the model that requests are checked against.
     pub facts: ModelFacts,
-    /// What its owner calls it; of several owners, the first.
+    /// Name, tags and notes that its owner gave it; of several owners, the first.
     pub labels: Labels,
-    /// Size of the zip as uploaded.
+    /// Size of the zip as uploaded, bytes.
     pub size_bytes: u64,
-    /// RFC 3339.
+    /// Time of the upload, RFC 3339.
     pub created_at: String,
 }
 
-/// Which models to list.
+/// Filter of a listing of models.
 #[derive(Debug, Clone, Default)]
 pub struct ModelFilter {
-    /// Only of this owner.
+    /// Owner whose models are listed; all owners if none.
     pub owner: Option<String>,
-    /// Only with this in their names, those of their packages where their owner gave none; letters a to z may be capitals or not.
+    /// Text that the names of the models contain, or those of their packages where their owner gave none; case is ignored for the letters a
+    /// to z.
     pub name: Option<String>,
-    /// Only with this among their tags.
+    /// Tag of the models listed.
     pub tag: Option<String>,
-    /// Only older than that with this number: the last of the previous page.
+    /// Number that all listed models are older than: the last of the previous page.
     pub before: Option<i64>,
 }
 
-/// All models of the owner $1, or of all; a condition may follow.
+/// Query of all models of the owner $1, or of all; a condition may follow.
 pub(super) const OWNED: &str = "select models.rowid as number, models.id, facts, size_bytes,
         case when $1 is null then models.created_at else owned.created_at end as since,
         owned.name, coalesce(owned.tags, '[]') as tags, owned.notes
@@ -74,32 +75,32 @@ pub(super) const OWNED: &str = "select models.rowid as number, models.id, facts,
          order by created_at, rowid limit 1)
     where ($1 is null or owned.rowid is not null)";
 
-/// What became of a model that was to be deleted.
+/// Outcome of deleting a model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Deletion {
-    /// Gone, with its reductions.
+    /// Deleted model, with its reductions.
     Deleted,
-    /// There is no such model.
+    /// Unknown model.
     Unknown,
-    /// So many unfinished jobs still need it.
+    /// Model that this number of unfinished jobs still need.
     InUse(u64),
 }
 
 impl Store {
-    /// An empty file on the same file system as the models, for a package on its way in. Removed when dropped, or by the
-    /// next start.
+    /// Creates an empty file for the upload of a package, on the same file system as the models. Removed when dropped, or by the next
+    /// start.
     pub async fn new_upload(&self) -> std::io::Result<tempfile::NamedTempFile> {
         self.reserve.expect_room().await?;
         unfinished_file(&packages_folder(&self.folder), UPLOAD_PREFIX)
     }
 
-    /// Where the package of `model` lies in the data folder.
+    /// Path of the package of `model` in the data folder.
     pub(super) fn package_path(&self, model: &str) -> PathBuf {
         packages::package_path(&self.folder, model)
     }
 
-    /// The package of `model` in the data folder, fetched if others have put it into the object store. Where it is nowhere, who reads
-    /// it sees that.
+    /// Path of the package of `model` in the data folder, fetched if another process has put it into the object store. Where it is nowhere,
+    /// reading it fails.
     pub async fn package(&self, model: &str) -> Result<PathBuf, StoreError> {
         let path = self.package_path(model);
         if self.objects.are_shared() && !tokio::fs::try_exists(&path).await? {
@@ -110,7 +111,7 @@ impl Store {
         Ok(path)
     }
 
-    /// Whether the package at `path` is where it is to stay.
+    /// Whether the package at `path` is at its final place.
     async fn has_package(&self, path: &Path) -> Result<bool, StoreError> {
         if self.objects.are_shared() {
             return self.objects.have(path).await.map_err(StoreError::Objects);
@@ -118,11 +119,11 @@ impl Store {
         Ok(tokio::fs::try_exists(path).await?)
     }
 
-    /// Keeps the package at `upload`, a file from [`Self::new_upload`], as model `id` of `owner`, within `limits`. Returns the
-    /// model and whether it is new to the owner; only then it is called as `labels` say.
+    /// Stores the package at `upload`, a file from [`Self::new_upload`], as model `id` of `owner`, within `limits`. Returns the model and
+    /// whether it is new to the owner; `labels` apply only if it is new.
     ///
-    /// The file comes first: a row promises that its package is there and complete. If the row then finds no room, the
-    /// same call may be made again.
+    /// The file comes first: a row promises that its package is there and complete. If the disk is full for the row, the same call may be
+    /// made again.
     pub async fn insert_model(
         &self,
         (owner, limits): (&str, Limits),
@@ -134,12 +135,12 @@ impl Store {
         let _mine = self.only_package_writer(id).await?;
         let target = self.package_path(id);
         if let Some(known) = self.model(id, Some(owner)).await? {
-            // A package that got lost is there again with the next upload.
+            // The next upload restores a lost package.
             if self.has_package(&target).await? {
                 return Ok(Ok((known, false)));
             }
         } else {
-            // An earlier attempt may have moved it to its place.
+            // An earlier attempt may have moved the upload to its place.
             let package = if tokio::fs::try_exists(upload).await? { upload } else { &target };
             let bytes = tokio::fs::metadata(package).await?.len();
             let mut reader = self.readers.acquire().await?;
@@ -159,7 +160,7 @@ impl Store {
         let mut write = self.write().await?;
         write.guard(Guarded::Owner(owner)).await?;
         write.guard(Guarded::Model(id)).await?;
-        // Again: what was allowed before the upload may have been used up elsewhere. A package that nobody has is a leftover.
+        // Limits are checked again: other uploads may have used them up meanwhile. A package without an owner is a leftover.
         let owns = "select 1 from model_owners where model = $1 and owner = $2";
         let owns = sqlx::query(owns).bind(id).bind(owner).fetch_optional(&mut *write).await?;
         if owns.is_none()
@@ -196,7 +197,7 @@ impl Store {
         Ok(Ok((model, owned.rows_affected() == 1)))
     }
 
-    /// The model `id`, if `owner` has it; `None` asks for anybody's.
+    /// Finds the model `id`, if `owner` has it; `None` asks for anybody's.
     pub async fn model(&self, id: &str, owner: Option<&str>) -> Result<Option<StoredModel>, StoreError> {
         sqlx::query(AssertSqlSafe(format!("{OWNED} and models.id = $2")))
             .bind(owner)
@@ -207,7 +208,7 @@ impl Store {
             .transpose()
     }
 
-    /// Up to `limit` models that pass `filter`, newest first.
+    /// Finds up to `limit` models that pass `filter`, newest first.
     pub async fn models(&self, filter: ModelFilter, limit: u32) -> Result<Vec<StoredModel>, StoreError> {
         sqlx::query(AssertSqlSafe(format!(
             "{OWNED} and ($2 is null or models.rowid < $2)
@@ -227,7 +228,7 @@ impl Store {
         .collect()
     }
 
-    /// Changes what `owner` (`None`: all that have it) calls a model. False if there is no such model.
+    /// Changes the labels that `owner` (`None`: every owner) gives a model. False if there is no such model.
     pub async fn label_model(
         &self,
         id: &str,
@@ -242,7 +243,7 @@ impl Store {
         Ok(changed.rows_affected() > 0)
     }
 
-    /// Removes package files without a row: of uploads and deletions that broke off.
+    /// Removes package files without a row: of interrupted uploads and deletions.
     pub(super) async fn remove_stale_packages(&self) -> Result<(), StoreError> {
         let mut files = tokio::fs::read_dir(packages_folder(&self.folder)).await?;
         while let Some(file) = files.next_entry().await? {
@@ -262,8 +263,8 @@ impl Store {
         Ok(())
     }
 
-    /// Takes model `id` from `owner` (`None`: from all), unless an unfinished job of theirs needs it, or of anybody when there
-    /// is no other owner. With its last owner it is deleted, and its reductions with it.
+    /// Takes model `id` from `owner` (`None`: from all), unless an unfinished job of theirs needs it, or anybody's job when there is no
+    /// other owner. With its last owner it is deleted, and its reductions with it.
     pub async fn delete_model(&self, id: &str, owner: Option<&str>) -> Result<Deletion, StoreError> {
         let _mine = self.only_package_writer(id).await?;
         let (deletion, was_last) = self.with_reserve(|| self.remove_model(id, owner)).await?;
@@ -280,7 +281,7 @@ impl Store {
         Ok(deletion)
     }
 
-    /// The right to keep or remove the package of `model`, among all that share it.
+    /// Takes the exclusive right to store or remove the package of `model`, among all processes that share it.
     async fn only_package_writer(&self, model: &str) -> Result<PackageWriter<'_>, StoreError> {
         let here = self.packages.lock().await;
         #[cfg(feature = "cluster")]
@@ -302,7 +303,7 @@ impl Store {
         })
     }
 
-    /// In the database. Returns also whether nobody has it any more.
+    /// Removes a model from an owner in the database. Returns also whether nobody has it any more.
     async fn remove_model(&self, id: &str, owner: Option<&str>) -> Result<(Deletion, bool), StoreError> {
         if self.model(id, owner).await?.is_none() {
             return Ok((Deletion::Unknown, false));
@@ -330,7 +331,7 @@ impl Store {
             .bind(owner)
             .execute(&mut *transaction)
             .await?;
-        // Nobody is to be told again that it is there.
+        // A repeated request must not get the old answer that the model exists.
         sqlx::query("delete from idempotency_keys where location = '/v1/models/' || $1 and ($2 is null or owner = $2)")
             .bind(id)
             .bind(owner)
@@ -358,8 +359,7 @@ pub(super) fn read(row: &AnyRow) -> Result<StoredModel, StoreError> {
     })
 }
 
-/// Flushes the upload to the disk and gives it its final name, in this order, unless an earlier attempt did. Returns its
-/// size.
+/// Flushes the upload to the disk and gives it its final name, in this order, unless an earlier attempt did. Returns its size.
 fn keep_file(upload: &Path, target: &Path) -> Result<u64, std::io::Error> {
     if upload.exists() {
         std::fs::File::open(upload)?.sync_all()?;
@@ -371,7 +371,7 @@ fn keep_file(upload: &Path, target: &Path) -> Result<u64, std::io::Error> {
     Ok(target.metadata()?.len())
 }
 
-/// Refuses a package that came from the object store and is not that of its name.
+/// Refuses a package from the object store whose content does not have the digest of its name.
 fn expect_digest(came: &Path, model: &str) -> std::io::Result<()> {
     let found = packaging::read_digest(came, &PackageLimits::default());
     let wrong = match found {
@@ -415,7 +415,7 @@ mod tests {
         let upload = store.new_upload().await.unwrap().into_temp_path();
         std::fs::write(&upload, "package").unwrap();
         let id = "m".repeat(64);
-        // SQLite refuses to grow beyond so many pages as it does on a full disk.
+        // SQLite refuses to grow beyond this number of pages as it does on a full disk.
         sqlx::query("pragma max_page_count = 1").execute(&store.writer).await.unwrap();
         let whose = ("", Limits::default());
         assert!(

@@ -1,7 +1,7 @@
-//! Spectra in little room, to the bit.
+//! Spectra packed without loss, to the bit.
 //!
-//! What sensors at the same contact node share is kept once. Then the bytes of all numbers are sorted by their place in
-//! the number before they are deflated: signs and exponents of neighbouring lines are alike, what follows them is not.
+//! Data shared by sensors at the same contact node is stored once. Then the bytes of all numbers are sorted by their position in the number
+//! before they are deflated: signs and exponents of neighbouring lines are alike, the remaining bytes are not.
 
 use std::io::{Read, Write};
 
@@ -14,29 +14,29 @@ use super::error::StoreError;
 use super::stored_sensor::StoredSensor;
 use crate::analysis::result::{SensorSpectrum, SpeedSpectra};
 
-/// Bytes of a number.
+/// Size of a number, bytes.
 const REAL: usize = size_of::<f64>();
 
 /// Spectra as they are stored.
 #[derive(Debug, Serialize, Deserialize)]
 struct Packed {
     sensors: Vec<(StoredSensor, Waves)>,
-    /// Of each line of numbers: the engine orders, then per sensor its amplitudes and its own nodal diameters.
+    /// Length of each line of numbers: the engine orders, then per sensor its amplitudes and its own nodal diameters.
     lengths: Vec<u32>,
-    /// First bytes of all numbers, then second ones, and so on; deflated.
+    /// Numbers of all lines, deflated: the first bytes of all, then the second ones, and so on.
     numbers: Vec<u8>,
 }
 
 /// Amplitudes per nodal diameter of a sensor.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 enum Waves {
-    /// So many lines.
+    /// Number of lines of its own.
     Own(u32),
-    /// Those of the sensor of this index, which comes before.
+    /// Index of an earlier sensor with the same amplitudes.
     Of(u32),
 }
 
-/// `spectra` packed, and the bytes that they take unpacked.
+/// Packs `spectra`, and returns the bytes that they take unpacked as well.
 pub(super) fn pack(spectra: &SpeedSpectra) -> Result<(Vec<u8>, u64), StoreError> {
     let mut lines = vec![&spectra.engine_orders];
     let mut sensors = Vec::with_capacity(spectra.sensors.len());
@@ -65,7 +65,7 @@ pub(super) fn pack(spectra: &SpeedSpectra) -> Result<(Vec<u8>, u64), StoreError>
     Ok((postcard::to_stdvec(&packed)?, (REAL * unpacked) as u64))
 }
 
-/// Whether two sensors see the same waves, as those of one node do whatever their sector.
+/// Whether two sensors have the same amplitudes per nodal diameter, as those of one node do whatever their sector.
 fn has_the_waves_of<'a>(one: &'a SensorSpectrum, other: &'a SensorSpectrum) -> bool {
     let place = |spectrum: &SensorSpectrum| StoredSensor::of(&spectrum.sensor).map(StoredSensor::anywhere);
     let lengths =
@@ -74,7 +74,7 @@ fn has_the_waves_of<'a>(one: &'a SensorSpectrum, other: &'a SensorSpectrum) -> b
     place(one) == place(other) && lengths(one) == lengths(other) && bits(one).eq(bits(other))
 }
 
-/// The spectra that [`pack`] packed.
+/// Unpacks spectra that [`pack`] packed.
 pub(super) fn unpack(bytes: &[u8]) -> Result<SpeedSpectra, StoreError> {
     let Packed { sensors, lengths, numbers } = postcard::from_bytes(bytes)?;
     let count: usize = lengths.iter().map(|length| *length as usize).sum();
@@ -110,14 +110,14 @@ pub(super) fn unpack(bytes: &[u8]) -> Result<SpeedSpectra, StoreError> {
     Ok(spectra)
 }
 
-/// Spectra as earlier versions stored them, unpacked.
+/// Spectra as earlier versions stored them, without packing.
 #[derive(Debug, Serialize, Deserialize)]
 struct Unpacked {
     engine_orders: Vec<f64>,
     sensors: Vec<(StoredSensor, Vec<f64>, Vec<Vec<f64>>)>,
 }
 
-/// The spectra that an earlier version stored unpacked.
+/// Reads spectra that an earlier version stored without packing.
 pub(super) fn read_unpacked(bytes: &[u8]) -> Result<SpeedSpectra, StoreError> {
     let Unpacked { engine_orders, sensors } = postcard::from_bytes(bytes)?;
     let spectrum = |(sensor, amplitude, nodal_diameters): (StoredSensor, _, _)| SensorSpectrum {
@@ -240,7 +240,7 @@ mod tests {
         for end in 0..packed.len() {
             assert!(unpack(&packed[..end]).is_err(), "{end}");
         }
-        // Any byte: an error or other numbers, never a panic.
+        // A changed byte gives an error or other numbers, never a panic.
         for place in 0..packed.len().min(400) {
             let mut damaged = packed.clone();
             damaged[place] ^= 0x55;

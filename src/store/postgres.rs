@@ -1,4 +1,4 @@
-//! A PostgreSQL server: opened, and its tables brought up to date.
+//! Connections to a PostgreSQL server, and the upgrade of its tables.
 
 use sqlx::any::{AnyConnectOptions, AnyPoolOptions, install_default_drivers};
 use sqlx::{AnyConnection, AnyPool, Connection, Executor};
@@ -11,7 +11,7 @@ use super::shared_queue;
 use super::sqlite::PATIENCE;
 use super::upgrade::{Part, Upgrade};
 
-/// Connections of one process. A server has a hundred for all, unless told otherwise.
+/// Number of connections of one process. A server allows a hundred in all, unless configured otherwise.
 const CONNECTIONS: u32 = 8;
 
 /// Opens the database at `url` and brings its tables up to date, while other processes that want the same wait.
@@ -26,12 +26,12 @@ pub(super) async fn open(url: &str) -> Result<AnyPool, StoreError> {
     Ok(pool)
 }
 
-/// Brings all tables of the database at `url` up to date. Where they are, it needs no right to change them.
+/// Brings all tables of the database at `url` up to date. If they are, no right to change them is needed.
 ///
 /// # Errors
-/// Also of an account that may not change tables that are not up to date.
+/// Also an account that may not change tables that are not up to date.
 pub async fn migrate(url: &str) -> Result<Vec<Upgrade>, StoreError> {
-    // Of its own: its end gives up the lock that keeps others waiting, however it ends.
+    // A connection of its own: its end releases the lock that makes others wait, however it ends.
     let mut connection = connect(url).await?;
     let ours = Part { name: "jobs and results", history: "_sqlx_migrations", migrations: &POSTGRES };
     #[cfg_attr(not(feature = "cluster"), expect(unused_mut, reason = "there is no other part"))]
@@ -46,7 +46,7 @@ pub async fn migrate(url: &str) -> Result<Vec<Upgrade>, StoreError> {
     Ok(upgrades)
 }
 
-/// One connection to the database at `url`.
+/// Opens one connection to the database at `url`.
 pub(super) async fn connect(url: &str) -> Result<AnyConnection, StoreError> {
     let mut connection = AnyConnection::connect_with(&options(url)?).await?;
     set_up(&mut connection).await?;
@@ -88,7 +88,7 @@ mod tests {
             drop((waits, writes));
             store.probe().await.unwrap();
 
-            // A verdict stays one.
+            // A permanent refusal stays one.
             let twice = "insert into readiness (id, mark) values (1, '')";
             let refused = sqlx::query(twice).execute(&store.writer).await.unwrap_err();
             assert!(!StoreError::from(refused).may_pass());

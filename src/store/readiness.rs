@@ -1,24 +1,24 @@
-//! Whether what is written can be read, how much room there is, and how much work is waiting.
+//! Readiness of the store: whether written data can be read, free disk space, and waiting work.
 
 use super::dialect::Dialect;
 use super::error::StoreError;
 use super::handle::Store;
 use super::reserve::free_bytes;
 
-/// Work that is waiting.
+/// Backlog of work that is waiting.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Backlog {
-    /// Jobs that wait for their turn.
+    /// Number of jobs that wait for their turn.
     pub jobs_accepted: u64,
-    /// Jobs under way.
+    /// Number of jobs that are running.
     pub jobs_running: u64,
-    /// Speeds of the sweeps among these that are not finished.
+    /// Number of unfinished speeds of the accepted and running sweeps and campaigns.
     pub speeds_unfinished: u64,
 }
 
 impl Store {
-    /// Writes a row as every other is written, and reads it back as every other is read: through another connection, which sees
-    /// only what is committed.
+    /// Writes a row as every other is written, and reads it back as every other is read: through another connection, which sees only
+    /// committed data.
     pub async fn probe(&self) -> Result<(), StoreError> {
         let written = uuid::Uuid::now_v7().to_string();
         let mut write = self.write().await?;
@@ -30,19 +30,19 @@ impl Store {
         let read: Option<String> = sqlx::query_scalar("select mark from readiness where id = 1")
             .fetch_optional(&self.readers)
             .await?;
-        // Of a server other processes may have written theirs meanwhile.
+        // On a server, another process may have written its own mark meanwhile.
         let is_seen = read.is_some_and(|read| read == written || self.dialect == Dialect::Postgres);
         if is_seen { Ok(()) } else { Err(StoreError::Unseen) }
     }
 
-    /// Room on the disk of the data folder for this process, in bytes.
+    /// Free space on the disk of the data folder for this process, bytes.
     pub fn free_bytes(&self) -> Result<u64, StoreError> {
         Ok(free_bytes(&self.folder)?)
     }
 
-    /// Work that is waiting.
+    /// Counts the work that is waiting.
     pub async fn backlog(&self) -> Result<Backlog, StoreError> {
-        // In the words of the index that has these jobs.
+        // The condition is worded as in the index of these jobs.
         let (jobs_accepted, jobs_running, speeds_unfinished) = sqlx::query_as::<_, (i64, i64, i64)>(
             "select count(*) filter (where status = 'accepted'), count(*) filter (where status = 'running'),
                  cast(coalesce(sum(speeds - finished) filter (where kind in ('sweep', 'campaign')), 0) as bigint)
@@ -50,7 +50,7 @@ impl Store {
         )
         .fetch_one(&self.readers)
         .await?;
-        // Counts.
+        // Only counts are read.
         Ok(Backlog {
             jobs_accepted: jobs_accepted.cast_unsigned(),
             jobs_running: jobs_running.cast_unsigned(),
@@ -68,7 +68,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let store = Store::open(folder.path()).await.unwrap();
         store.probe().await.unwrap();
-        // What a failed commit may leave behind: a writer within a transaction that nobody ends.
+        // State after a failed commit: a connection within a transaction that nobody ends.
         sqlx::query("begin").execute(&store.writer).await.unwrap();
         assert!(store.probe().await.is_err());
         store.probe().await.unwrap();

@@ -1,4 +1,4 @@
-//! Reduced sectors, one per (model, `modes_per_speed`).
+//! Reduced sectors, one per model and `modes_per_speed`.
 
 use super::dialect::Guarded;
 use super::error::StoreError;
@@ -13,11 +13,11 @@ use crate::analysis::run::{REVISION, ReducedSector};
 /// change, so that old ones are computed again instead of misread.
 pub(super) const LAYOUT: i64 = 4;
 
-/// What a stored reduction is known by: its layout and the revision of its numbers.
+/// Key of the form of a stored reduction: its layout and the revision of its numbers.
 const FORM: i64 = 1_000_000 * LAYOUT + REVISION as i64;
 
 impl Store {
-    /// The stored reduction of `model`, if this version of the program can read it.
+    /// Finds the stored reduction of `model`, if this version of the program can read it.
     pub async fn reduction(
         &self,
         model: &str,
@@ -40,8 +40,7 @@ impl Store {
         }))
     }
 
-    /// What the reductions of `model` that this version of the program can read found and cost, by ascending
-    /// `modes_per_speed`.
+    /// Lists the reports of the reductions of `model` that this version of the program can read, by ascending `modes_per_speed`.
     pub async fn reduction_reports(&self, model: &str) -> Result<Vec<ReductionReport>, StoreError> {
         let reports: Vec<String> = sqlx::query_scalar(
             "select report from reductions where model = $1 and layout = $2 order by modes_per_speed",
@@ -61,7 +60,7 @@ impl Store {
         Ok(stored.fetch_optional(&self.readers).await?.is_some())
     }
 
-    /// Model and `modes_per_speed` of all stored reductions that this version of the program can read.
+    /// Lists model and `modes_per_speed` of all stored reductions that this version of the program can read.
     pub(super) async fn stored_reductions(&self) -> Result<Vec<(String, u32)>, StoreError> {
         let stored: Vec<(String, i64)> =
             sqlx::query_as("select model, modes_per_speed from reductions where layout = $1")
@@ -74,7 +73,7 @@ impl Store {
             .collect()
     }
 
-    /// Keeps the reduction of `model` that `job` made, and drops its checkpoints. A model deleted meanwhile keeps nothing.
+    /// Stores the reduction of `model` that `job` made, and drops its checkpoints. Nothing is stored for a model deleted meanwhile.
     pub async fn insert_reduction(
         &self,
         job: JobId,

@@ -1,17 +1,17 @@
-//! What a database means by the code of an error.
+//! Meaning of the error codes of a database.
 
 use sqlx::sqlite::SqliteError;
 
-/// A refusal that is no verdict on the statement or on the database.
+/// Refusal that says nothing about the statement or the database itself.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Refusal {
-    /// There is no room on its disk.
+    /// Full disk.
     DiskFull,
     /// Another reason that may pass.
     Passing,
 }
 
-/// Why the database refused, if the same may succeed later.
+/// Reason why the database refused, if the same may succeed later.
 pub(super) fn refusal(error: &sqlx::Error) -> Option<Refusal> {
     let error = error.as_database_error()?;
     let code = error.code()?;
@@ -21,18 +21,18 @@ pub(super) fn refusal(error: &sqlx::Error) -> Option<Refusal> {
     }
 }
 
-/// Whether an account has no right to what it wanted (`insufficient_privilege`).
+/// Whether the account lacks the right to the operation (`insufficient_privilege`).
 pub(super) fn is_forbidden(error: &sqlx::Error) -> bool {
     error.as_database_error().and_then(|error| error.code()).is_some_and(|code| code == "42501")
 }
 
-/// Whether a text has a character that PostgreSQL has in none: U+0000 (`character_not_in_repertoire`).
+/// Whether a text contains a character that PostgreSQL cannot store: U+0000 (`character_not_in_repertoire`).
 pub(super) fn is_no_text(error: &sqlx::Error) -> bool {
     error.as_database_error().and_then(|error| error.code()).is_some_and(|code| code == "22021")
 }
 
-/// By a result code of `SQLite`: `BUSY`, `LOCKED`, `NOMEM`, `READONLY`, `IOERR`, `CANTOPEN` and `PROTOCOL` pass, as does `FULL`. It is
-/// the low byte of the extended one, which sqlx tells.
+/// Refusal of a result code of `SQLite`: `BUSY`, `LOCKED`, `NOMEM`, `READONLY`, `IOERR`, `CANTOPEN` and `PROTOCOL` may pass, as does
+/// `FULL`. The result code is the low byte of the extended one, which sqlx reports.
 fn of_result_code(extended: u32) -> Option<Refusal> {
     match extended & 0xff {
         13 => Some(Refusal::DiskFull),
@@ -41,16 +41,16 @@ fn of_result_code(extended: u32) -> Option<Refusal> {
     }
 }
 
-/// By a SQLSTATE of PostgreSQL: lost connections, want of resources, a server that stops or starts or only reads, and transactions
+/// Refusal of a SQLSTATE of PostgreSQL: lost connections, lack of resources, a server that stops, starts or is read-only, and transactions
 /// that met others or waited for too long.
 fn of_sqlstate(code: &str) -> Option<Refusal> {
-    /// `lock_not_available`, `admin_shutdown`, `crash_shutdown`, `cannot_connect_now`, `idle_session_timeout`,
+    /// Codes that may pass: `lock_not_available`, `admin_shutdown`, `crash_shutdown`, `cannot_connect_now`, `idle_session_timeout`,
     /// `idle_in_transaction_session_timeout`, `read_only_sql_transaction`, `io_error`.
     const PASSING: [&str; 8] = ["55P03", "57P01", "57P02", "57P03", "57P05", "25P03", "25006", "58030"];
     match code {
         "53100" => Some(Refusal::DiskFull),
         _ if PASSING.contains(&code) => Some(Refusal::Passing),
-        // Connections, transactions that were rolled back, resources.
+        // Classes of lost connections, rolled-back transactions and lacking resources.
         _ if ["08", "40", "53"].iter().any(|class| code.starts_with(class)) => Some(Refusal::Passing),
         _ => None,
     }
@@ -67,7 +67,7 @@ mod tests {
         for (code, expected) in [(13, full), (517, passing), (778, passing), (2067, verdict), (11, verdict)] {
             assert_eq!(of_result_code(code), expected, "{code}");
         }
-        // A full disk; too many connections, a deadlock, a broken connection, a shutdown; unique, syntax, damage.
+        // Full disk; too many connections, a deadlock, a broken connection, a shutdown; unique, syntax, damage.
         for code in ["53300", "40P01", "08006", "57P01"] {
             assert_eq!(of_sqlstate(code), passing, "{code}");
         }

@@ -1,4 +1,4 @@
-//! Room that is kept for deletions: on a full disk they, too, have to write something before they give anything back.
+//! Disk space reserved for deletions: on a full disk they, too, have to write something before they release any.
 
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
@@ -7,35 +7,35 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use tokio::sync::Mutex;
 
-/// Name of the file that takes the room, in the data folder.
+/// Name of the file that occupies the reserved space, in the data folder.
 pub(super) const FILE: &str = "reserve";
 
-/// Its size: what the write-ahead log grows to between two checkpoints.
+/// Size of the reserve in bytes: that of the write-ahead log between two checkpoints.
 pub(super) const BYTES: u64 = 4 << 20;
 
-/// It is made only where so much is left beside it.
+/// Free space in bytes that must be left beside a new reserve.
 const BESIDE: u64 = 1 << 20;
 
-/// Room that is left to what cannot be computed or fetched again.
+/// Free space in bytes that is left to data that cannot be computed or fetched again.
 const LEFT_FREE: u64 = 4 * BYTES;
 
-/// A file that is removed when a deletion finds no room. From then on the disk is full for all else that is written, until there
-/// is room for a new one: work that goes on would take it before the next deletion does.
+/// Reserve of disk space: a file that is removed when a deletion finds no room. From then on the disk counts as full for all other writes,
+/// until there is room for a new reserve: running work would take the room before the next deletion does.
 #[derive(Debug, Clone)]
 pub(super) struct Reserve {
     data: PathBuf,
     taken: Arc<AtomicBool>,
-    /// Held while the file comes or goes.
+    /// Lock held while the file is made or removed.
     changing: Arc<Mutex<()>>,
 }
 
 impl Reserve {
-    /// That of the data folder `data`.
+    /// Reserve of the data folder `data`.
     pub(super) fn of(data: &Path) -> Self {
         Self { data: data.to_owned(), taken: Arc::default(), changing: Arc::default() }
     }
 
-    /// Whether a deletion has taken it.
+    /// Whether a deletion has taken the reserve.
     pub(super) fn is_taken(&self) -> bool {
         self.taken.load(Ordering::Relaxed)
     }
@@ -45,7 +45,7 @@ impl Reserve {
         if self.is_taken() && !self.keep().await? { Err(ErrorKind::StorageFull.into()) } else { Ok(()) }
     }
 
-    /// Refuses to write so many bytes that can be computed or fetched again, where they would leave too little room to what cannot.
+    /// Refuses to write so many bytes of data that can be computed or fetched again, where that would leave too little room for other data.
     pub(super) fn expect_room_for(&self, bytes: u64) -> io::Result<()> {
         if let Ok(free) = free_bytes(&self.data)
             && (self.is_taken() || free < bytes.saturating_add(LEFT_FREE))
@@ -55,7 +55,7 @@ impl Reserve {
         Ok(())
     }
 
-    /// Keeps the file if it is not there and there is room for it. Returns whether it is there.
+    /// Makes the reserve if it is missing and there is room for it. Returns whether it is there.
     pub(super) async fn keep(&self) -> io::Result<bool> {
         let _changing = self.changing.lock().await;
         let data = self.data.clone();
@@ -66,10 +66,10 @@ impl Reserve {
         Ok(is_there)
     }
 
-    /// Gives the room to a deletion. Returns whether there was some, now or for an earlier one.
+    /// Gives the reserve to a deletion. Returns whether there was one, now or for an earlier deletion.
     pub(super) async fn take(&self) -> bool {
         let _changing = self.changing.lock().await;
-        // First, so that nobody writes in between.
+        // The flag comes first, so that nobody writes in between.
         let earlier = self.taken.swap(true, Ordering::Relaxed);
         let removed = tokio::fs::remove_file(self.data.join(FILE)).await.is_ok();
         if removed {
@@ -80,10 +80,10 @@ impl Reserve {
     }
 }
 
-/// Whether the file is there in the end.
+/// Makes the file of the reserve if there is room. Returns whether it is there.
 fn make(data: &Path) -> io::Result<bool> {
     let file = data.join(FILE);
-    // A shorter one is of a start that was killed.
+    // A shorter file is left from an interrupted start.
     if file.metadata().is_ok_and(|found| found.len() == BYTES) {
         return Ok(true);
     }
@@ -94,7 +94,7 @@ fn make(data: &Path) -> io::Result<bool> {
     Ok(true)
 }
 
-/// Room on the disk of the data folder `data` for this process, in bytes.
+/// Free space on the disk of the data folder `data` for this process, bytes.
 pub(super) fn free_bytes(data: &Path) -> io::Result<u64> {
     let disk = rustix::fs::statvfs(data)?;
     Ok(disk.f_bavail.saturating_mul(disk.f_frsize))

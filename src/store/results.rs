@@ -1,4 +1,4 @@
-//! Finished speeds of sweeps, and the documents computed at the end of a job.
+//! Finished speeds of sweeps, and the documents computed during or at the end of a job.
 
 use std::collections::BTreeSet;
 
@@ -16,7 +16,7 @@ use super::{end_states, packed};
 use crate::analysis::result::{ContactForces, Point, PointStatus, SpeedResult, SpeedSpectra, WearMap};
 use crate::analysis::run::REVISION;
 
-/// A document computed at the end of a job.
+/// Document computed during or at the end of a job.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Document {
     /// Result of a modal analysis.
@@ -31,22 +31,22 @@ pub enum Document {
     WorkPrecision,
     /// Histories at the speed of this index.
     Histories(u32),
-    /// Where the whole wheel was at the speed of this index.
+    /// States of the whole wheel at the speed of this index.
     States(u32),
-    /// So manyeth stretch of branches.
+    /// Leg of branches with this index.
     BranchLeg(u32),
-    /// How far branches have been followed, of a job under way.
+    /// Course of branches of a running job: the state from which the next leg continues.
     BranchCourse,
-    /// So manyeth stretch of run-ups.
+    /// Leg of run-ups with this index.
     RunUpLeg(u32),
-    /// How far run-ups have got, of a job under way.
+    /// Course of run-ups of a running job: the state from which the next leg continues.
     RunUpCourse,
-    /// Spectra of so manyeth stretch of run-ups.
+    /// Spectra of the leg of run-ups with this index.
     RunUpSpectra(u32),
 }
 
 impl Document {
-    /// The document that a row holds.
+    /// Document that a row holds.
     fn from_columns(name: &str, part: u32) -> Result<Self, StoreError> {
         let all = [
             Self::Campbell,
@@ -66,7 +66,7 @@ impl Document {
         found.ok_or_else(|| StoreError::Unknown { column: "documents.name", value: name.to_owned() })
     }
 
-    /// Its name and part in the database.
+    /// Name and part of the document in the database.
     pub fn columns(self) -> (&'static str, u32) {
         match self {
             Self::Campbell => ("campbell", 0),
@@ -85,14 +85,14 @@ impl Document {
     }
 }
 
-/// A finished speed as it is stored.
+/// Finished speed as it is stored.
 #[derive(Debug)]
 pub struct PackedSpeed {
     index: u32,
     status: PointStatus,
     vectors: Option<String>,
     point: String,
-    /// With the bytes that they take unpacked.
+    /// Packed spectra, with the bytes that they take unpacked.
     spectra: Option<(Vec<u8>, u64)>,
     wear: Option<Vec<u8>>,
     contact: Option<Vec<u8>>,
@@ -114,7 +114,7 @@ impl PackedSpeed {
         })
     }
 
-    /// Bytes that are kept until the job is deleted.
+    /// Number of bytes that stay until the job is deleted.
     fn bytes(&self) -> usize {
         let spectra = self.spectra.as_ref().map_or(0, |(bytes, _)| bytes.len());
         let lists = [&self.wear, &self.contact].into_iter().flatten();
@@ -123,10 +123,9 @@ impl PackedSpeed {
 }
 
 impl Store {
-    /// Keeps a finished speed in a transaction of its own, with its end state in place of the last one's if the job still
-    /// wants work. A speed that is there already stays as it is, and one of other numerics, or of another kind of processor where all have
-    /// to be of one, is dropped.
-    /// Returns how many speeds of the job are finished now; `None` if it was deleted.
+    /// Stores a finished speed in a transaction of its own, with its end state in place of the last one if the job still wants work. An
+    /// existing speed stays as it is; a speed of other numerics, or of another kind of processor where all must be of one, is dropped.
+    /// Returns the number of finished speeds of the job; `None` if the job was deleted.
     pub async fn insert_speed(&self, job: JobId, speed: &PackedSpeed) -> Result<Option<u32>, StoreError> {
         let mut transaction = self.write().await?;
         transaction.guard(Guarded::Job(job)).await?;
@@ -180,7 +179,7 @@ impl Store {
         finished.map(|finished| of("jobs.finished", finished)).transpose()
     }
 
-    /// Indices of the finished speeds of a job.
+    /// Lists the indices of the finished speeds of a job.
     pub async fn finished_speeds(&self, job: JobId) -> Result<BTreeSet<u32>, StoreError> {
         let speeds: Vec<i64> = sqlx::query_scalar("select speed from speed_results where job = $1")
             .bind(job.to_string())
@@ -199,7 +198,7 @@ impl Store {
         Ok(found.is_some())
     }
 
-    /// Credentials of all finished speeds of a job, in the order of the request.
+    /// Lists the credentials of all finished speeds of a job, in the order of the request.
     pub async fn points(&self, job: JobId) -> Result<Vec<Point>, StoreError> {
         let points: Vec<String> =
             sqlx::query_scalar("select point from speed_results where job = $1 order by speed")
@@ -209,10 +208,10 @@ impl Store {
         Ok(points.iter().map(|point| serde_json::from_str(point)).collect::<Result<_, _>>()?)
     }
 
-    /// What `row` takes of the spectra of the finished speed `index` of a job; `None` where it has none.
+    /// Row that `row` takes from the spectra of the finished speed `index` of a job; `None` where the speed has no spectra.
     ///
     /// # Errors
-    /// Also if the speed is not there (any more).
+    /// Also a speed that does not exist (any more).
     pub async fn map_row(
         &self,
         job: JobId,
@@ -228,7 +227,7 @@ impl Store {
         Ok(spectra(&found)?.and_then(|spectra| row(&spectra)))
     }
 
-    /// Bytes that the spectra of one speed of a job take unpacked, at most.
+    /// Largest size that the spectra of one speed of a job take unpacked, bytes.
     pub async fn largest_spectra(&self, job: JobId) -> Result<u64, StoreError> {
         let bytes: i64 = sqlx::query_scalar(
             "select coalesce(max(coalesce(unpacked_bytes, length(spectra))), 0) from speed_results where job = $1",
@@ -239,7 +238,7 @@ impl Store {
         Ok(bytes.unsigned_abs())
     }
 
-    /// Speed `index` of a job, if it is finished.
+    /// Finds speed `index` of a job, if it is finished.
     pub async fn speed_result(&self, job: JobId, index: u32) -> Result<Option<SpeedResult>, StoreError> {
         sqlx::query(
             "select point, spectra, unpacked_bytes, wear, contact from speed_results where job = $1 and speed = $2",
@@ -252,7 +251,7 @@ impl Store {
         .transpose()
     }
 
-    /// What `row` takes of the contact of all speeds of a job that have any, by index.
+    /// Lists what `row` takes from the contact of each speed of a job that has any, by index.
     pub async fn contacts<T>(
         &self,
         job: JobId,
@@ -273,8 +272,7 @@ impl Store {
         Ok(found)
     }
 
-    /// Keeps a document of a job that is still computed, in a transaction of its own. One that is there already stays as it is; a job
-    /// that was deleted keeps nothing.
+    /// Stores a document of a running job, in a transaction of its own. An existing document stays as it is; a deleted job stores nothing.
     pub async fn keep_document(&self, job: JobId, document: Document, body: &str) -> Result<(), StoreError> {
         let mut transaction = self.write().await?;
         transaction.guard(Guarded::Job(job)).await?;
@@ -283,7 +281,7 @@ impl Store {
         Ok(())
     }
 
-    /// Bytes of the text of a document, if it is there.
+    /// Size of the text of a document in bytes, if it exists.
     pub async fn document_bytes(&self, job: JobId, document: Document) -> Result<Option<u64>, StoreError> {
         let (name, part) = document.columns();
         let bytes: Option<i64> = sqlx::query_scalar(
@@ -297,7 +295,7 @@ impl Store {
         Ok(bytes.map(i64::unsigned_abs))
     }
 
-    /// Documents of a finished job.
+    /// Lists the documents of a finished job.
     pub async fn documents(&self, job: JobId) -> Result<Vec<Document>, StoreError> {
         let rows = sqlx::query("select name, part from documents where job = $1 order by name, part")
             .bind(job.to_string())
@@ -306,7 +304,7 @@ impl Store {
         rows.iter().map(|row| Document::from_columns(row.try_get("name")?, number(row, "part")?)).collect()
     }
 
-    /// A document of a finished job, as JSON text.
+    /// Finds a document of a finished job, as JSON text.
     pub async fn document(&self, job: JobId, document: Document) -> Result<Option<String>, StoreError> {
         let (name, part) = document.columns();
         Ok(sqlx::query_scalar("select body from documents where job = $1 and name = $2 and part = $3")
@@ -318,7 +316,7 @@ impl Store {
     }
 }
 
-/// Keeps a document that is none of the job's results; whether it was not there, and the job is.
+/// Stores a document that is not one of the job's results. Returns whether it was new and the job exists.
 pub(super) async fn insert_document(
     connection: &mut AnyConnection,
     job: JobId,
@@ -341,7 +339,8 @@ pub(super) async fn insert_document(
     Ok(inserted.rows_affected() == 1)
 }
 
-/// The same of a result: its bytes count, and something of the job is finished.
+/// Stores a document that is a result: its bytes count, and the crash count of the job begins anew. Returns whether it was new and the job
+/// exists.
 pub(super) async fn keep_result(
     connection: &mut AnyConnection,
     job: JobId,
@@ -373,7 +372,7 @@ pub(super) fn read(row: &AnyRow) -> Result<SpeedResult, StoreError> {
 
 fn spectra(row: &AnyRow) -> Result<Option<SpeedSpectra>, StoreError> {
     let Some(bytes) = row.try_get::<Option<&[u8]>, _>("spectra")? else { return Ok(None) };
-    // Earlier versions did not pack them.
+    // Earlier versions stored spectra without packing.
     let packed = row.try_get::<Option<i64>, _>("unpacked_bytes")?.is_some();
     Ok(Some(if packed { packed::unpack(bytes)? } else { packed::read_unpacked(bytes)? }))
 }

@@ -1,13 +1,13 @@
-//! What every connection to a server begins with, whoever makes it.
+//! Settings of every connection to a server.
 
 use std::time::Duration;
 
 use super::sqlite::PATIENCE;
 
-/// How long a transaction may do nothing: a process that hangs within one must not keep others from the same job for ever.
+/// Longest time for which a transaction may be idle: a process that hangs within one must not block a job for others for ever.
 const IDLE: Duration = Duration::from_secs(30);
 
-/// The statements.
+/// Statements that every connection begins with.
 pub(super) fn settings() -> String {
     format!(
         "set lock_timeout = {}; set idle_in_transaction_session_timeout = {}",

@@ -1,7 +1,7 @@
 //! Tasks in PostgreSQL, from which workers on any number of machines take them: the tables of `apalis-postgres`.
 //!
-//! What is true stands in the tables of jobs and results, as on one machine. A task that was lost is made again
-//! ([`SharedQueue::jobs_without_tasks`]), and one that runs twice does no harm.
+//! The tables of jobs and results remain the reference, as on one machine. A lost task is made again ([`SharedQueue::jobs_without_tasks`]),
+//! and a task that runs twice does no harm.
 
 use std::collections::HashSet;
 use std::io::ErrorKind;
@@ -22,15 +22,15 @@ use super::sqlite::PATIENCE;
 use super::tasks::{PrepareJob, RunSpeed};
 use crate::analysis::run::REVISION;
 
-/// Time between two signs of life of a worker, and how many may be missing before others get its tasks. Said here, because what
-/// the crate takes by default is not what it says it takes.
+/// Time between two signs of life of a worker; `MISSED`: number that may be missing before others get its tasks. Set here, because the
+/// defaults of the crate differ from its documentation.
 const HEARTBEAT: Duration = Duration::from_secs(5);
 const MISSED: usize = 6;
 
-/// Connections of one process: for signs of life and results of two queues, and one that listens.
+/// Number of connections of one process: for signs of life and results of two queues, and one that listens.
 const CONNECTIONS: u32 = 4;
 
-/// Times that a task may be begun; what a job dies of is counted by ourselves.
+/// Number of times that a task may be started; crashes of a job are counted in the table of jobs.
 const ATTEMPTS: usize = 1_000_000;
 
 /// Priority of the task whose turn comes first; larger goes before smaller.
@@ -39,34 +39,34 @@ const FIRST: i32 = 1_000_000_000;
 /// Time without news after which the server is asked whether it is there.
 const SILENCE: Duration = Duration::from_secs(30);
 
-/// The server expects a tenth of a queue where one task is taken, and would read all of it to join that.
+/// Setting for the query that takes one task: the server expects a tenth of a queue, and would read all of it for a join.
 pub const TAKE_ONE: &str = "set enable_hashjoin = off; set enable_mergejoin = off";
 
-/// What names of queues begin with.
+/// Prefix of the names of queues that prepare jobs; `SPEEDS`: of those that compute speeds.
 const PREPARE: &str = "prepare";
 const SPEEDS: &str = "speeds";
 
 /// Channel on which workers are told of new tasks.
 const TASKS: &str = "rubmap_tasks";
 
-/// Channel on which the ids of jobs come that have changed: the tables tell them.
+/// Channel of the ids of changed jobs, which the tables notify.
 const JOBS: &str = "rubmap_jobs";
 
-/// What a process is told by others.
+/// Notifications that a process receives from others.
 #[derive(Debug)]
 pub struct News(PgListener);
 
-/// One thing that it is told.
+/// Notification from another process.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Told {
-    /// There are new tasks.
+    /// New tasks.
     Tasks,
-    /// A job has changed.
+    /// Job that has changed.
     Job(JobId),
 }
 
 impl News {
-    /// The next, once there is one; `None` where the connection was lost.
+    /// Waits for the next notification; `None` where the connection was lost.
     pub async fn next(&mut self) -> Result<Option<Told>, StoreError> {
         loop {
             let Ok(said) = tokio::time::timeout(SILENCE, self.0.try_recv()).await else {
@@ -83,7 +83,7 @@ impl News {
         }
     }
 
-    /// Who only listens does not notice that the other end is gone.
+    /// Checks that the server answers: a connection that only listens does not notice that the other end is gone.
     async fn expect_answer(&mut self) -> Result<(), StoreError> {
         let answer = tokio::time::timeout(PATIENCE, sqlx::query("select 1").execute(&mut self.0)).await;
         answer.map_err(|_| sqlx::Error::Io(ErrorKind::TimedOut.into()))??;
@@ -91,14 +91,14 @@ impl News {
     }
 }
 
-/// Tasks of all machines.
+/// Queue of the tasks of all machines.
 #[derive(Debug, Clone)]
 pub struct SharedQueue {
     pool: PgPool,
 }
 
 impl SharedQueue {
-    /// The queue of the database at `url`, whose tables are up to date.
+    /// Opens the queue of the database at `url`, whose tables are up to date.
     pub(super) async fn open(url: &str) -> Result<Self, StoreError> {
         let pool = PgPoolOptions::new()
             .max_connections(CONNECTIONS)
@@ -120,29 +120,29 @@ impl SharedQueue {
         self.pool.close().await;
     }
 
-    /// Tasks that prepare jobs: those for any machine, or for processors with these `vectors`.
+    /// Storage of tasks that prepare jobs: those for any machine, or for processors with these `vectors`.
     pub fn preparations(&self, vectors: Option<&str>) -> PostgresStorage<PrepareJob> {
         PostgresStorage::new(&self.pool).with_config(config(&queue(PREPARE, vectors)))
     }
 
-    /// Tasks that compute speeds, in the same way.
+    /// Storage of tasks that compute speeds: those for any machine, or for processors with these `vectors`.
     pub fn speeds(&self, vectors: Option<&str>) -> PostgresStorage<RunSpeed> {
         PostgresStorage::new(&self.pool).with_config(config(&queue(SPEEDS, vectors)))
     }
 
-    /// Hears of new tasks and of jobs that have changed, from now on.
+    /// Listens for new tasks and changed jobs, from now on.
     pub async fn listen(&self) -> Result<News, StoreError> {
         let mut listener = PgListener::connect_with(&self.pool).await?;
         listener.listen_all([TASKS, JOBS]).await?;
         Ok(News(listener))
     }
 
-    /// Queues the preparation of a job, unless it is there already.
+    /// Queues the preparation of a job, unless it is queued already.
     pub async fn push_preparation(&self, job: JobId, vectors: Option<&str>) -> Result<(), StoreError> {
         self.push(&queue(PREPARE, vectors), [(job.to_string(), PrepareJob { job })]).await
     }
 
-    /// Queues speeds of a job, those that are not there already.
+    /// Queues speeds of a job, except those that are queued already.
     pub async fn push_speeds(
         &self,
         job: JobId,
@@ -160,12 +160,12 @@ impl SharedQueue {
     ) -> Result<(), StoreError> {
         let (keys, tasks): (Vec<String>, Vec<T>) = tasks.into_iter().unzip();
         let mut transaction = self.pool.begin().await?;
-        // One at a time: two that push the same would not see each other's.
+        // One push at a time: two that push the same would not see each other's tasks.
         sqlx::query("select pg_advisory_xact_lock(hashtext($1))")
             .bind(queue)
             .execute(&mut *transaction)
             .await?;
-        // What has ended may come again.
+        // A finished task may be queued again.
         sqlx::query(
             "delete from apalis.jobs
              where job_type = $1 and idempotency_key = any($2) and status in ('Done', 'Failed', 'Killed')",
@@ -187,7 +187,7 @@ impl SharedQueue {
             let task = TaskBuilder::new(serde_json::to_vec(&task)?)
                 .idempotency_key(key)
                 .max_attempts(ATTEMPTS)
-                // At once by whatever clock: those of machines may differ.
+                // The task may run at once by any clock: those of machines may differ.
                 .run_at_timestamp(1)
                 .build();
             Ok(task)
@@ -213,7 +213,7 @@ impl SharedQueue {
         Ok(())
     }
 
-    /// Gives the tasks of workers that have ended to others.
+    /// Releases the tasks of workers that have ended to others.
     pub async fn give_back(&self, workers: &[String]) -> Result<(), StoreError> {
         sqlx::query(
             "update apalis.jobs set status = 'Pending', lock_by = null, lock_at = null
@@ -225,7 +225,7 @@ impl SharedQueue {
         self.tell_of_tasks().await
     }
 
-    /// Unfinished jobs, with their owners, for which there is no task: what should have made one has died before it did.
+    /// Lists unfinished jobs without a task, with their owners: the process that should have queued one died before it did.
     pub async fn jobs_without_tasks(&self) -> Result<Vec<(String, String)>, StoreError> {
         Ok(sqlx::query_as(
             "with busy as (
@@ -241,19 +241,20 @@ impl SharedQueue {
         .await?)
     }
 
-    /// The right of this process to do what `name` says for all, unless another has it.
+    /// Claims the task `name` for this process, unless another process has it.
     pub async fn claim(&self, name: &str) -> Result<Option<Claim>, StoreError> {
         Claim::of(&self.pool, name).await
     }
 
-    /// Whether there are workers of another revision of the numerics, which go on with jobs that they began.
+    /// Whether there are workers of another revision of the numerics, which continue the jobs that they began.
     pub async fn has_other_revisions(&self) -> Result<bool, StoreError> {
         let others = "select exists (select 1 from apalis.workers
                           where last_seen > now() - interval '1 minute' and split_part(worker_type, '-', 2) <> $1)";
         Ok(sqlx::query_scalar(others).bind(REVISION.to_string()).fetch_one(&self.pool).await?)
     }
 
-    /// Forgets tasks that have ended, those of jobs that other numerics compute by now, and workers that have been away for a day.
+    /// Removes finished tasks, tasks of jobs that another revision of the numerics computes by now, and workers that have been away for a
+    /// day.
     pub async fn tidy(&self) -> Result<(), StoreError> {
         sqlx::query(
             "delete from apalis.jobs as task using jobs
@@ -280,7 +281,7 @@ impl SharedQueue {
     }
 }
 
-/// Puts what waits in order: owners take turns, and of one owner its jobs.
+/// Orders the waiting tasks: owners take turns, and so do the jobs of each owner.
 async fn take_turns(connection: &mut PgConnection, queue: &str) -> Result<(), StoreError> {
     connection.execute("set local enable_hashjoin = on").await?;
     sqlx::query(
@@ -302,13 +303,13 @@ async fn take_turns(connection: &mut PgConnection, queue: &str) -> Result<(), St
     Ok(())
 }
 
-/// What made the tables of the queue, one after the other.
+/// Migrations that make the tables of the queue, in order.
 pub(super) fn migrations() -> Migrator {
     PostgresStorage::<()>::migrations()
 }
 
-/// The name of a queue. A worker takes what is of its own revision of the numerics: all speeds of a job are of one. Some are of one kind
-/// of vectors as well.
+/// Name of a queue. A worker takes tasks of its own revision of the numerics: all speeds of a job belong to one revision. Some queues
+/// belong to one kind of vectors as well.
 fn queue(tasks: &str, vectors: Option<&str>) -> String {
     match vectors {
         Some(vectors) => format!("{tasks}-{REVISION}-{vectors}"),

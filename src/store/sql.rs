@@ -1,16 +1,16 @@
-//! Numbers of the database, all of which are 64-bit integers, as those they stand for.
+//! Conversion of numbers of the database, all of which are 64-bit integers.
 
 use sqlx::Row;
 use sqlx::any::AnyRow;
 
 use super::error::StoreError;
 
-/// The number in a column of `row`.
+/// Number in a column of `row`.
 pub(super) fn number<T: TryFrom<i64>>(row: &AnyRow, column: &'static str) -> Result<T, StoreError> {
     of(column, row.try_get(column)?)
 }
 
-/// A number that `column` holds.
+/// Converts a number that `column` holds.
 pub(super) fn of<T: TryFrom<i64>>(column: &'static str, value: i64) -> Result<T, StoreError> {
     T::try_from(value).map_err(|_| StoreError::Unknown { column, value: value.to_string() })
 }

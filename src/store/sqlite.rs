@@ -1,4 +1,4 @@
-//! The `SQLite` file of a data folder: found or made, brought up to date, and opened.
+//! `SQLite` file of a data folder: found or made, brought up to date, and opened.
 
 use std::io::{self, ErrorKind};
 use std::path::Path;
@@ -20,33 +20,33 @@ use super::packages::count_packages;
 /// Name of the database in its folder.
 pub(super) const DATABASE: &str = "rubmap.sqlite";
 
-/// Connections for readers; more than the requests a database on one disk serves well at once.
+/// Number of connections for readers; more than the requests a database on one disk serves well at once.
 const READERS: u32 = 8;
 
-/// How long a statement waits for a lock that another program holds (a backup, `vacuum`), and a request for a connection. The
-/// first is also sqlx's own choice, which connections have that are opened by their address.
+/// Time that a statement waits for a lock that another program holds (a backup, `vacuum`), and a request for a connection. For locks it is
+/// also the default of sqlx, which applies to connections opened by their address.
 pub(super) const PATIENCE: Duration = Duration::from_secs(5);
 
 /// Opens the database in `folder` for readers and for the one that writes, and brings its tables up to date.
 ///
-/// A 202 is a promise and a speed may have cost minutes: both survive a power cut, at one flush each. The file itself remembers
-/// that it has a write-ahead log; that every commit is flushed and references are checked is what connections begin with. Saying
-/// so in `after_connect` would read the file, and the pool tries again for seconds where that fails instead of telling why.
+/// A 202 is a promise and a speed may have cost minutes: both survive a power cut, at one flush each. The file itself records that it has a
+/// write-ahead log; connections begin with a flush at every commit and with checks of references. Setting these in `after_connect` would
+/// read the file, and on a failure the pool tries again for seconds instead of reporting the reason.
 pub(super) async fn open(folder: &Path) -> Result<(AnyPool, AnyPool), StoreError> {
     expect_database(folder).await?;
     bring_up_to_date(folder).await?;
     let address = address(folder, "rwc")?;
-    // A connection to a file does not break while nobody uses it: no need to ask it each time.
+    // A connection to a file does not break while idle: no need to test it each time.
     let pool = || AnyPoolOptions::new().acquire_timeout(2 * PATIENCE).test_before_acquire(false);
     let writer = pool().max_connections(1).connect_with(address.clone()).await?;
     let readers = pool().max_connections(READERS).connect_with(address).await?;
     Ok((readers, writer))
 }
 
-/// The address of the database in `folder`, in a mode of `SQLite`'s: `ro`, `rw` or `rwc`.
+/// Address of the database in `folder`, in a mode of `SQLite`: `ro`, `rw` or `rwc`.
 pub(super) fn address(folder: &Path, mode: &str) -> Result<AnyConnectOptions, StoreError> {
     install_default_drivers();
-    // In an address a relative path would begin with the name of a machine, and `..` not look where links lead.
+    // In an address a relative path would begin with the name of a machine, and `..` would not follow links.
     let folder = folder.canonicalize()?;
     let Some(path) = folder.to_str() else {
         return Err(io::Error::new(ErrorKind::InvalidInput, "its path is no UTF-8 text").into());
@@ -58,8 +58,8 @@ pub(super) fn address(folder: &Path, mode: &str) -> Result<AnyConnectOptions, St
     Ok(options)
 }
 
-/// Refuses a folder whose packages have lost their database: it is not there, or knows no models, as after its write-ahead log was
-/// lost or only the file copied. A single package may be of the first upload ever, which broke off.
+/// Refuses a folder whose packages have lost their database: the database is missing, or knows no models, as after its write-ahead log was
+/// lost or only the file copied. A single package may be of the very first upload, interrupted.
 async fn expect_database(folder: &Path) -> Result<(), StoreError> {
     let database = folder.join(DATABASE);
     if database.is_dir() {
@@ -85,7 +85,7 @@ async fn expect_database(folder: &Path) -> Result<(), StoreError> {
     Err(StoreError::LostDatabase { database, packages })
 }
 
-/// Whether a database has the table of models, and, if need be, any in it.
+/// Whether a database has the table of models, and, with `any`, at least one model in it.
 async fn knows_models(database: &mut SqliteConnection, any: bool) -> Result<bool, StoreError> {
     let table = "select exists (select 1 from sqlite_master where type = 'table' and name = 'models')";
     let is_there: bool = sqlx::query_scalar(table).fetch_one(&mut *database).await?;
@@ -95,8 +95,8 @@ async fn knows_models(database: &mut SqliteConnection, any: bool) -> Result<bool
     Ok(sqlx::query_scalar("select exists (select 1 from models)").fetch_one(database).await?)
 }
 
-/// Makes the tables that are not there yet, on a connection of its own: one that says how room is given back writes that into
-/// the database whenever it is opened, and no reader could be opened on a full disk.
+/// Makes missing tables, on a connection of its own: a connection that sets how space is released writes that into the database whenever it
+/// is opened, and no reader could be opened on a full disk.
 async fn bring_up_to_date(folder: &Path) -> Result<(), StoreError> {
     let mut connection = SqliteConnectOptions::new()
         .filename(folder.join(DATABASE))
@@ -118,19 +118,19 @@ async fn bring_up_to_date(folder: &Path) -> Result<(), StoreError> {
     Ok(())
 }
 
-/// The version that this program brings tables to.
+/// Version to which this program brings tables.
 pub(super) fn known_version() -> i64 {
     SQLITE.iter().map(|migration| migration.version).max().unwrap_or_default()
 }
 
-/// The version of the tables of `database`, which has some.
+/// Version of the tables of `database`, which has some.
 pub(super) async fn version(database: &mut AnyConnection) -> Result<i64, StoreError> {
     let version: Option<i64> =
         sqlx::query_scalar("select max(version) from _sqlx_migrations").fetch_one(database).await?;
     Ok(version.unwrap_or_default())
 }
 
-/// Makes a database anew, once, that an earlier version made such that it cannot give room back.
+/// Rebuilds, once, a database that an earlier version made unable to release space.
 async fn make_shrinkable(connection: &mut SqliteConnection) -> Result<(), StoreError> {
     const INCREMENTAL: i64 = 2;
     let mode: i64 = sqlx::query_scalar("pragma auto_vacuum").fetch_one(&mut *connection).await?;
@@ -154,7 +154,7 @@ mod tests {
     use crate::store::packages::{package_path, packages_folder};
     use crate::store::results::Document;
 
-    /// A data folder as the program made it with the migrations before `version`, with one finished sweep.
+    /// Data folder as the program made it with the migrations before `version`, with one finished sweep.
     async fn older_folder(job: JobId, version: i64) -> tempfile::TempDir {
         let folder = tempfile::tempdir().unwrap();
         let file = folder.path().join("rubmap.sqlite");
@@ -181,7 +181,7 @@ mod tests {
         folder
     }
 
-    /// A database that was moved away, emptied or copied without its log took every package with it: nothing knew them any more.
+    /// Databases that were moved away, emptied or copied without their log made all packages leftovers, as nothing knew them any more.
     #[tokio::test]
     async fn packages_without_a_database_are_not_leftovers() {
         let folder = tempfile::tempdir().unwrap();
@@ -209,11 +209,11 @@ mod tests {
         std::fs::create_dir(&database).unwrap();
         assert!(!Store::open(folder.path()).await.unwrap_err().may_pass(), "a folder is nothing to wait for");
         std::fs::remove_dir(&database).unwrap();
-        // Elsewhere they stand in nobody's way.
+        // The packages are in nobody's way elsewhere.
         let kept = folder.path().join("kept.zip");
         std::fs::rename(&package, &kept).unwrap();
         Store::open(folder.path()).await.unwrap().close().await;
-        // One may be of an upload that broke off; several are not.
+        // One package may be of an interrupted upload; several are not.
         std::fs::copy(&kept, &package).unwrap();
         Store::open(folder.path()).await.unwrap().close().await;
         std::fs::copy(&kept, package_path(folder.path(), &"0b".repeat(32))).unwrap();
@@ -221,7 +221,7 @@ mod tests {
         assert!(matches!(refused, StoreError::LostDatabase { packages: 2, .. }), "{refused}");
     }
 
-    /// None of it is said when a pool opens a connection.
+    /// Connections wait, flush and check references although no setting is made when a pool opens them.
     #[tokio::test]
     async fn every_connection_waits_flushes_and_checks_references() {
         let folder = tempfile::tempdir().unwrap();
@@ -251,7 +251,7 @@ mod tests {
         }
     }
 
-    /// Whatever keeps it from writing, a full disk for one, must not keep it from being opened.
+    /// Readers can be opened even while the database cannot be written, on a full disk for example.
     #[tokio::test]
     async fn a_reader_is_opened_while_another_writes() {
         let folder = tempfile::tempdir().unwrap();
@@ -272,7 +272,7 @@ mod tests {
     async fn a_full_disk_is_told_from_other_failures() {
         let folder = tempfile::tempdir().unwrap();
         let store = Store::open(folder.path()).await.unwrap();
-        // SQLite refuses to grow beyond so many pages as it does on a full disk.
+        // SQLite refuses to grow beyond this number of pages as it does on a full disk.
         sqlx::query("pragma max_page_count = 1").execute(&store.writer).await.unwrap();
         let large = "insert into idempotency_keys values ('', 'k', 'f', 200, 'l', json_quote(hex(zeroblob(100000))), 'a')";
         let full = StoreError::from(sqlx::query(large).execute(&store.writer).await.unwrap_err());
@@ -283,7 +283,7 @@ mod tests {
         assert!(!wrong.is_disk_full(), "{wrong}");
     }
 
-    /// A service that dies between a script without a transaction and the note that it ran runs it again.
+    /// Migrations without a transaction run again if the service dies before it records them.
     #[tokio::test]
     async fn scripts_without_a_transaction_may_run_again() {
         for version in [4, 9] {
@@ -322,7 +322,7 @@ mod tests {
             .unwrap();
         assert_eq!(kept, ("c".to_owned(), 20));
 
-        // References are checked as before, towards the new table.
+        // References are checked as before, now to the new table.
         let lost =
             "insert into documents (job, name, part, body, created_at) values ('x', 'campbell', 0, '1', 'a')";
         assert!(sqlx::query(lost).execute(&store.writer).await.is_err());

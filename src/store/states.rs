@@ -1,4 +1,4 @@
-//! Where the whole wheel was at recorded instants, as a document: JSON around the numbers, which are Base64 of little-endian f64.
+//! States of the whole wheel at recorded instants, as a document: JSON around the numbers, which are Base64 of little-endian f64.
 
 use std::fmt::Write;
 
@@ -11,44 +11,44 @@ use sha2::{Digest, Sha256};
 use crate::dynamics::reduction::ReducedWheel;
 use crate::dynamics::states::{HarmonicStates, WheelStates};
 
-/// What makes a document readable.
+/// Stored document of states.
 #[derive(Serialize, Deserialize)]
 struct Stored {
     /// SHA-256 of all numbers, instants first.
     sha256: String,
-    /// The instants, revolutions since the start.
+    /// Recorded instants, revolutions since the start.
     revolutions: String,
     harmonics: Vec<StoredHarmonic>,
 }
 
-/// One nodal diameter.
+/// States of one nodal diameter.
 #[derive(Serialize, Deserialize)]
 struct StoredHarmonic {
     harmonic: usize,
-    /// SHA-256 of M_r of the reduction whose coordinates they are.
+    /// SHA-256 of M_r of the reduction whose coordinates are stored.
     reduction: String,
     unknowns: usize,
     /// Real and imaginary part of every unknown, instant after instant.
     coordinates: String,
 }
 
-/// Why a document is of no use.
+/// Error of a document of states.
 #[derive(Debug, thiserror::Error)]
 pub enum StatesError {
-    /// It is not what was written.
+    /// Document that is not what was written.
     #[error("the recorded state is damaged: {0}")]
     Damaged(String),
-    /// Its coordinates are those of another reduction.
+    /// Document with coordinates of another reduction.
     #[error(
         "the state was recorded with another reduction of the model than the one that is there: run the job again"
     )]
     OtherReduction,
 }
 
-/// The document of states of `reduced`.
+/// Packs the states of `reduced` into a document.
 ///
 /// # Errors
-/// Those of writing JSON.
+/// Failures of writing JSON.
 pub fn pack(states: &WheelStates, reduced: &ReducedWheel) -> serde_json::Result<String> {
     let mut digest = Sha256::new();
     let mut encode = |numbers: &mut dyn Iterator<Item = f64>| {
@@ -74,7 +74,7 @@ pub fn pack(states: &WheelStates, reduced: &ReducedWheel) -> serde_json::Result<
     serde_json::to_string(&Stored { sha256: hex(&digest.finalize()), revolutions, harmonics })
 }
 
-/// The states of a document, which are those of `reduced`.
+/// Unpacks the states of a document, which must belong to `reduced`.
 ///
 /// # Errors
 /// A document that is not what was written, or of another reduction.
@@ -112,10 +112,10 @@ pub fn unpack(text: &str, reduced: &ReducedWheel) -> Result<WheelStates, StatesE
     Ok(WheelStates { revolutions, harmonics })
 }
 
-/// Whether a document is what was written.
+/// Checks that a document is what was written.
 ///
 /// # Errors
-/// As of [`unpack`], but for the reduction.
+/// As of [`unpack`], except for the reduction.
 pub(super) fn check(text: &str) -> Result<(), StatesError> {
     let stored: Stored =
         serde_json::from_str(text).map_err(|error| StatesError::Damaged(error.to_string()))?;

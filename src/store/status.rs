@@ -1,4 +1,4 @@
-//! The life of a job: which status may follow which.
+//! Status of a job: which status may follow which.
 
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
@@ -9,36 +9,37 @@ use super::error::StoreError;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum JobStatus {
-    /// Waits for its turn.
+    /// Waiting for its turn.
     Accepted,
     /// Being computed.
     Running,
-    /// Set aside by the user until it is told to go on; what is finished stays.
+    /// Paused by the user until resumed; finished parts stay.
     Paused,
-    /// Finished; each speed says how it ended, and at least one was completed.
+    /// Finished; each speed reports how it ended, and at least one was completed.
     Successful,
-    /// Could not be computed, or none of its speeds was completed; `error` says why. Speeds finished before stay readable.
+    /// Failed: could not be computed, or none of its speeds was completed; `error` gives the reason. Speeds finished before stay readable.
     Failed,
     /// Cancelled by the user; speeds finished before stay readable.
     Dismissed,
 }
 
 impl JobStatus {
-    /// All statuses.
+    /// List of all statuses.
     pub const ALL: [Self; 6] =
         [Self::Accepted, Self::Running, Self::Paused, Self::Successful, Self::Failed, Self::Dismissed];
 
-    /// Whether nothing follows any more.
+    /// Whether the status is final.
     pub fn is_final(self) -> bool {
         matches!(self, Self::Successful | Self::Failed | Self::Dismissed)
     }
 
-    /// Whether it is to be computed as soon as it is its turn.
+    /// Whether the job is to be computed as soon as it is its turn.
     pub fn wants_work(self) -> bool {
         matches!(self, Self::Accepted | Self::Running)
     }
 
-    /// The transition table. A running job that a restart finds stays `running`; it is only queued again.
+    /// Whether `next` may follow this status: the transition table. A running job that a restart finds stays `running`; it is only queued
+    /// again.
     pub fn may_become(self, next: Self) -> bool {
         match self {
             Self::Accepted => matches!(next, Self::Running | Self::Paused | Self::Failed | Self::Dismissed),
@@ -48,7 +49,7 @@ impl JobStatus {
         }
     }
 
-    /// The word on the wire and in the database.
+    /// Word for the status in answers and in the database.
     pub fn as_str(self) -> &'static str {
         match self {
             Self::Accepted => "accepted",

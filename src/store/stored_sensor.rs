@@ -1,37 +1,37 @@
-//! Sensors among packed numbers.
+//! Sensors in their stored form, among packed numbers.
 
 use serde::{Deserialize, Serialize};
 
 use crate::analysis::request::{Component, Gauge, Sensor};
 
-/// A sensor as it is stored; one at a contact node along a component in the bytes in which earlier versions wrote every sensor.
+/// Sensor as it is stored; a sensor at a contact node along a component has the bytes in which earlier versions wrote every sensor.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct StoredSensor {
-    /// 0 where the reading names another node.
+    /// Index of the contact node; 0 where the reading names another node.
     contact_node: u32,
     sector: u32,
     reading: Reading,
 }
 
-/// What is read; the first four are components at the contact node.
+/// Quantity that the sensor reads; the first four are components at the contact node.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 enum Reading {
     Radial,
     Tangential,
     Axial,
     Normal,
-    /// A direction at the contact node.
+    /// Component along a direction at the contact node.
     Along([f64; 3]),
-    /// At the node of an id.
+    /// Component at the node with this id.
     AtNode(u64, Component),
-    /// A direction there.
+    /// Component along a direction at the node with this id.
     AtNodeAlong(u64, [f64; 3]),
     /// Strain between two nodes.
     Strain([u64; 2]),
 }
 
 impl StoredSensor {
-    /// `sensor`, if it is at a node.
+    /// Stored form of `sensor`, if it is at a node.
     pub(super) fn of(sensor: &Sensor) -> Option<Self> {
         let Sensor { contact_node, node, sector, component, direction, gauge, .. } = *sensor;
         if let Some(nodes) = gauge.and_then(|gauge| gauge.nodes) {
@@ -52,7 +52,7 @@ impl StoredSensor {
         Some(Self { contact_node: contact_node.unwrap_or(0), sector, reading })
     }
 
-    /// The same in every sector.
+    /// Sensor of the same reading in sector 0, for comparisons across sectors.
     pub(super) fn anywhere(self) -> Self {
         Self { sector: 0, ..self }
     }

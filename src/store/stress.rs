@@ -21,24 +21,24 @@ use super::folders::file_name;
 use crate::analysis::stress::{HarmonicStress, StaticWheel};
 use crate::dynamics::reduction::{ReducedHarmonic, ReducedWheel};
 
-/// Layout of the files, and order of the places in them: raise it when one of them changes.
+/// Layout of the files, and of the order of the places in them: raise it when one of them changes.
 const LAYOUT: i64 = 1;
 
 const MAGIC: &[u8; 8] = b"rubstres";
 const DIGEST: usize = 32;
-/// Components of a stress.
+/// Number of components of a stress.
 const COMPONENTS: usize = 6;
 
 impl BasisFolder {
-    /// Whether the stress of a nodal diameter is there, of so many places.
+    /// Whether the stress of a nodal diameter is stored, at this number of places.
     pub fn has_stress(&self, reduced: &ReducedHarmonic, places: usize) -> bool {
         self.objects.reading(&[self.harmonic_path(reduced)], || self.open_stress(reduced, places)).is_ok()
     }
 
-    /// Keeps the stress of a nodal diameter at all places.
+    /// Stores the stress of a nodal diameter at all places.
     ///
     /// # Errors
-    /// If there is no room, or the disk fails.
+    /// Lack of room, or a failure of the disk.
     pub fn keep_stress(&self, reduced: &ReducedHarmonic, stress: &HarmonicStress) -> io::Result<()> {
         let (unknowns, places) = (stress.unknowns(), stress.places());
         let bytes = HEADER + places * place_bytes(unknowns);
@@ -59,10 +59,10 @@ impl BasisFolder {
         Ok(())
     }
 
-    /// Stress of a nodal diameter at those `kept` of its places.
+    /// Reads the stress of a nodal diameter at the places with indices `kept`.
     ///
     /// # Errors
-    /// Of a file that is not there, is not what was written, or is of another reduction.
+    /// A file that is missing, is not what was written, or belongs to another reduction.
     pub fn stress(
         &self,
         reduced: &ReducedHarmonic,
@@ -92,7 +92,7 @@ impl BasisFolder {
     /// Removes the stress of all nodal diameters of `reduced`.
     ///
     /// # Errors
-    /// Those of the disk; what is not there is no error.
+    /// Failures of the disk; a missing file is no error.
     pub fn remove_stress(&self, reduced: &ReducedWheel) -> io::Result<()> {
         for reduced in &reduced.harmonics {
             let path = self.harmonic_path(reduced);
@@ -104,7 +104,7 @@ impl BasisFolder {
         Ok(())
     }
 
-    /// Keeps the wheel under its centrifugal load.
+    /// Stores the static response of the wheel to its centrifugal load.
     ///
     /// # Errors
     /// As of [`Self::keep_stress`].
@@ -121,7 +121,7 @@ impl BasisFolder {
         Ok(())
     }
 
-    /// The wheel under its centrifugal load.
+    /// Reads the static response of the wheel to its centrifugal load.
     ///
     /// # Errors
     /// As of [`Self::stress`].
@@ -130,7 +130,7 @@ impl BasisFolder {
         self.objects.reading(slice::from_ref(&path), || read_static(&path, reduced))
     }
 
-    /// Puts a file where others find it. Who does not makes it again.
+    /// Uploads a file for other processes. A process that does not find it makes it again.
     fn share(&self, path: &Path) {
         if let Err(error) = self.objects.publish_blocking(path) {
             tracing::warn!(file = file_name(path), %error, "stress stays in the data folder of this process");
@@ -215,7 +215,7 @@ mod tests {
             let expected: Vec<f32> = (0..36).map(|k| number(place, k)).collect();
             assert_eq!(found.of_place(slot).collect::<Vec<_>>(), expected);
         }
-        // Of another reduction, or another mesh.
+        // Files of another reduction, or of another mesh.
         assert!(!folder.has_stress(&harmonic(2.0), 4) && !folder.has_stress(&reduced, 5));
         let path = folder.stress_path("2");
         let mut bytes = std::fs::read(&path).unwrap();

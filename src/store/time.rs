@@ -1,6 +1,6 @@
-//! Timestamps as the database has them.
+//! Timestamps in the form of the database.
 
-/// Now, as every timestamp in the database: RFC 3339 in UTC with milliseconds, which sorts as text.
+/// Current time as a timestamp of the database: RFC 3339 in UTC with milliseconds, which sorts as text.
 pub(super) fn now() -> String {
     timestamp(chrono::Utc::now())
 }

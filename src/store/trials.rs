@@ -1,4 +1,4 @@
-//! Runs that are compared with others: of studies, of pilots, of controls.
+//! Trial runs that are compared with others: of studies, of pilots, of controls.
 
 use sha2::{Digest, Sha256};
 
@@ -10,7 +10,7 @@ use super::jobs::job::JobId;
 use super::time::now;
 use crate::analysis::run::{Trial, TrialRequest, VERSION};
 
-/// Digest of what is run, by which version of the program.
+/// Key of a trial: digest of its request and of the version of the program.
 pub fn key(request: &TrialRequest) -> Result<String, StoreError> {
     let mut digest = Sha256::new();
     digest.update(VERSION);
@@ -20,17 +20,17 @@ pub fn key(request: &TrialRequest) -> Result<String, StoreError> {
 }
 
 impl Store {
-    /// The trial of this key, if it was run before.
+    /// Finds the trial of this key, if it was run before.
     pub async fn trial(&self, key: &str) -> Result<Option<Trial>, StoreError> {
         let body: Option<String> = sqlx::query_scalar("select body from trials where key = $1")
             .bind(key)
             .fetch_optional(&self.readers)
             .await?;
-        // One that does not read is run again.
+        // An unreadable trial is run again.
         Ok(body.and_then(|body| serde_json::from_str(&body).ok()))
     }
 
-    /// Keeps a trial that `job` needed. A model deleted meanwhile keeps nothing.
+    /// Stores a trial that `job` needed. Nothing is stored for a model deleted meanwhile.
     pub async fn insert_trial(
         &self,
         job: JobId,
@@ -59,7 +59,8 @@ impl Store {
         transaction.commit().await
     }
 
-    /// Drops the trials of other versions of the program. Not where these may be at work beside this one: there they go with their jobs.
+    /// Drops the trials of other versions of the program, except on a server, where those may run beside this one: there trials are dropped
+    /// with their jobs.
     pub(super) async fn remove_stale_trials(&self) -> Result<(), StoreError> {
         if self.dialect == Dialect::Postgres {
             return Ok(());

@@ -1,4 +1,4 @@
-//! Files that have no name yet.
+//! Unfinished files, which have no final name yet.
 
 use std::fs::File;
 use std::io;
@@ -7,12 +7,12 @@ use std::path::Path;
 
 use tempfile::NamedTempFile;
 
-/// What names of files begin with that are being written.
+/// Prefix of the names of files that are being written.
 pub(super) const UNFINISHED: &str = "unfinished-";
 
-/// An empty file in `folder` whose name begins with `prefix`, removed when dropped.
+/// Creates an empty file in `folder` whose name begins with `prefix`, removed when dropped.
 ///
-/// Opened here: `tempfile` wraps what the system says, and of a lack of descriptors only its number tells that it passes.
+/// Opened here, because `tempfile` wraps errors of the system, and a lack of descriptors is recognised as passing only by its number.
 pub(super) fn unfinished_file(folder: &Path, prefix: &str) -> io::Result<NamedTempFile> {
     let open = |path: &Path| File::options().read(true).write(true).create_new(true).mode(0o600).open(path);
     tempfile::Builder::new().prefix(prefix).make_in(folder, open)

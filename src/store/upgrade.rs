@@ -1,6 +1,6 @@
-//! Tables on a server: brought up to date by accounts that may, and found so by all others.
+//! Upgrade of tables on a server by accounts that may change them; other accounts only check the version.
 //!
-//! sqlx begins by making the table of its history, which an account without the right to create is refused even where it is there.
+//! sqlx begins by making the table of its history, which an account without the right to create is refused even where the table exists.
 
 use std::collections::BTreeMap;
 
@@ -10,7 +10,7 @@ use sqlx::{AnyConnection, AssertSqlSafe};
 use super::error::StoreError;
 use super::refusal::is_forbidden;
 
-/// What accounts need that bring tables up to date, and those that use them.
+/// Rights of the accounts that bring tables up to date, and of those that use them.
 pub const ACCOUNTS: &str = "\
 The account that runs this owns the tables. It needs the right to create in the database (a schema, the extension hstore) and in its schema
 public; the owner of the database has both. An account SERVICE for `serve` and `worker` needs no more than this, which the owner grants:
@@ -22,29 +22,29 @@ public; the owner of the database has both. An account SERVICE for `serve` and `
 
 The last line is about tables of later versions.";
 
-/// Tables that are made by the same migrations.
+/// Tables that the same migrations make.
 #[derive(Debug)]
 pub(super) struct Part<'a> {
-    /// What is in them, in words.
+    /// Contents of the tables, in words.
     pub(super) name: &'static str,
-    /// The table that says which migrations were run.
+    /// Name of the table that records which migrations were run.
     pub(super) history: &'static str,
     pub(super) migrations: &'a Migrator,
 }
 
-/// What became of a part of the tables.
+/// Outcome of the upgrade of a part of the tables.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Upgrade {
-    /// What is in them, in words.
+    /// Contents of the tables, in words.
     pub part: &'static str,
-    /// Steps that were missing.
+    /// Number of migrations that were missing.
     pub steps: usize,
-    /// Version that they have now.
+    /// Version of the tables now.
     pub version: i64,
 }
 
 impl Part<'_> {
-    /// Takes the steps that are missing, while others that want the same wait. Where none is, it needs no right to.
+    /// Runs missing migrations, while other processes that want the same wait. If none is missing, no right to change tables is needed.
     pub(super) async fn bring_up_to_date(
         &self,
         connection: &mut AnyConnection,
@@ -52,7 +52,7 @@ impl Part<'_> {
         let steps = self.missing(connection).await?;
         if steps > 0 {
             self.migrations.run(connection).await.map_err(|error| match error {
-                // Another program was faster.
+                // A later program upgraded the tables first.
                 MigrateError::VersionMissing(found) => self.newer(found),
                 MigrateError::Execute(error) | MigrateError::ExecuteMigration(error, _)
                     if is_forbidden(&error) =>
@@ -65,7 +65,7 @@ impl Part<'_> {
         Ok(Upgrade { part: self.name, steps, version: self.version() })
     }
 
-    /// How many steps are missing.
+    /// Number of missing migrations.
     async fn missing(&self, connection: &mut AnyConnection) -> Result<usize, StoreError> {
         let mut found = self.found(connection).await.map_err(|error| {
             if is_forbidden(&error) { StoreError::NotUpToDate(error) } else { error.into() }
@@ -111,7 +111,7 @@ mod tests {
     use crate::store::testing::server;
     use crate::store::{Store, StoreError};
 
-    /// The lines of [`ACCOUNTS`] that the owner says, for one account.
+    /// Lines of [`ACCOUNTS`] for the owner to run, for one account.
     fn grants(account: &str) -> String {
         let lines: Vec<&str> = ACCOUNTS.lines().filter(|line| line.starts_with("  ")).collect();
         assert_eq!(lines.len(), 4);
@@ -129,7 +129,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let open = async || Store::connect(folder.path(), &service).await;
 
-        // Nothing is there, then nothing may be read.
+        // Without tables, nothing may be read.
         assert!(matches!(open().await, Err(StoreError::NotUpToDate(_))));
         let upgrades = migrate(&owner).await.unwrap();
         assert!(upgrades.len() == 2 && upgrades.iter().all(|upgrade| upgrade.steps > 0), "{upgrades:?}");
@@ -145,7 +145,7 @@ mod tests {
         queue.tidy().await.unwrap();
         assert!(queue.claim("anything").await.unwrap().is_some());
 
-        // A step is missing, which the account may not take, and the owner takes.
+        // A migration is missing, which the account may not run; the owner runs it.
         connection
             .execute(
                 "delete from _sqlx_migrations where version = (select max(version) from _sqlx_migrations)",

@@ -1,4 +1,4 @@
-//! The one way to write: a transaction.
+//! Transactions: the only way to write.
 
 use std::ops::{Deref, DerefMut};
 
@@ -11,11 +11,11 @@ use super::error::StoreError;
 use super::handle::Store;
 use super::jobs::job::JobId;
 
-/// A transaction. In `SQLite` it holds the lock for writing from its beginning.
+/// Writing transaction. In `SQLite` it holds the lock for writing from its beginning.
 ///
-/// Ended by [`Write::commit`] or [`Write::rollback`]. In every other case (an error, a request whose client is gone) the
-/// connection is closed and with it whatever it was in the middle of: after a full disk or an I/O error `SQLite` may have
-/// ended the transaction by itself or not, and a connection that is wrong about that takes all later writes with it.
+/// Ended by [`Write::commit`] or [`Write::rollback`]. In every other case (an error, a request whose client is gone) the connection is
+/// closed, and its transaction with it: after a full disk or an I/O error `SQLite` may have ended the transaction by itself or not, and a
+/// connection that is wrong about that takes all later writes with it.
 #[derive(Debug)]
 pub(super) struct Write {
     connection: PoolConnection<Any>,
@@ -25,13 +25,13 @@ pub(super) struct Write {
 }
 
 impl Store {
-    /// Begins to write. While deletions have the last room, the disk is full for all others.
+    /// Begins a transaction. While deletions have the last room, the disk counts as full for it.
     pub(super) async fn write(&self) -> Result<Write, StoreError> {
         self.reserve.expect_room().await?;
         self.write_removal().await
     }
 
-    /// The same for what makes room, or ends work that takes it.
+    /// Begins a transaction that releases disk space, or ends work that takes it; it may use the reserve.
     pub(super) async fn write_removal(&self) -> Result<Write, StoreError> {
         let mut write = Write {
             connection: self.writer.acquire().await?,
@@ -58,17 +58,17 @@ impl Store {
 }
 
 impl Write {
-    /// Waits until nobody else writes by what they found of this, and lets others wait.
+    /// Guards a subject: waits until no other transaction guards it, and makes others wait.
     pub(super) async fn guard(&mut self, what: Guarded<'_>) -> Result<(), StoreError> {
         self.dialect.guard(&mut self.connection, what).await
     }
 
-    /// Keeps what was written.
+    /// Commits what was written.
     pub(super) async fn commit(self) -> Result<(), StoreError> {
         self.end("commit").await
     }
 
-    /// The same of what changes job `id`: who follows it hears of it.
+    /// Commits a change of job `id`, and notifies its followers.
     pub(super) async fn commit_job(self, id: JobId) -> Result<(), StoreError> {
         let changes = self.changes.clone();
         self.end("commit").await?;
@@ -76,7 +76,7 @@ impl Write {
         Ok(())
     }
 
-    /// The same of what may change any job.
+    /// Commits a change that may concern any job, and notifies all followers.
     pub(super) async fn commit_jobs(self) -> Result<(), StoreError> {
         let changes = self.changes.clone();
         self.end("commit").await?;
@@ -84,7 +84,7 @@ impl Write {
         Ok(())
     }
 
-    /// Takes back what was written.
+    /// Rolls back what was written.
     pub(super) async fn rollback(self) -> Result<(), StoreError> {
         self.end("rollback").await
     }
@@ -141,19 +141,19 @@ mod tests {
         assert!(store.with_reserve(second).await.unwrap_err().is_disk_full());
         assert!(attempts.take() == 1 && !store.reserve.is_taken(), "there was none");
 
-        // What a killed start has left is none either.
+        // A partial file left by an interrupted start does not count.
         std::fs::write(&file, "short").unwrap();
         assert!(store.reserve.keep().await.unwrap());
         assert_eq!(file.metadata().unwrap().len(), BYTES);
         store.with_reserve(second).await.unwrap();
         assert!(store.reserve.is_taken() && !file.exists());
-        // Another deletion has what is left of it.
+        // Another deletion has taken what is left of the reserve.
         attempts.set(0);
         store.with_reserve(second).await.unwrap();
-        // The first that writes, now that there is room, keeps a new one.
+        // The first write, now that there is room, makes a new reserve.
         store.probe().await.unwrap();
         assert!(!store.reserve.is_taken() && file.exists());
-        // Other failures leave it alone.
+        // Other failures leave the reserve alone.
         assert!(store.with_reserve(|| async { Err::<(), _>(StoreError::Spectra) }).await.is_err());
         assert!(file.exists());
     }

@@ -15,13 +15,13 @@ use serde_json::json;
 
 use crate::wheel::Wheel;
 
-/// Scenes on each wheel.
+/// Number of scenes on each wheel.
 const SCENES: u64 = 12;
 
 /// True error over estimate that nine in ten scenes stay within: an estimate is rarely exceeded, and not absurdly large.
 const BOUNDS: std::ops::RangeInclusive<f64> = 0.1..=1.2;
 
-/// Reproducible numbers in [0, 1).
+/// Generator of reproducible numbers in [0, 1).
 pub(crate) struct Draw(pub(crate) u64);
 
 impl Draw {
@@ -39,7 +39,7 @@ impl Draw {
     }
 }
 
-/// A sweep of one speed and the accuracy that is asked for.
+/// Draws a sweep of one speed and the accuracy that is asked for.
 pub(crate) fn scene(draw: &mut Draw) -> (serde_json::Value, f64) {
     let (leading, trailing) = (draw.within(0.2, 0.5), draw.within(0.15, 0.4));
     let amplitude = leading.min(trailing) * draw.within(1.0, 2.0);
@@ -61,16 +61,16 @@ pub(crate) fn scene(draw: &mut Draw) -> (serde_json::Value, f64) {
     (request, draw.among(&[0.2, 0.1, 0.05]))
 }
 
-/// What one scene gave.
+/// Outcome of one scene.
 #[derive(Debug)]
 struct Outcome {
     estimate: f64,
     truth: f64,
-    /// (target, true error of what was chosen for it), or why none was.
+    /// (target, true error of the setting chosen for it), or the reason why none was chosen.
     target: Result<(f64, f64), String>,
 }
 
-/// The difference of the speed at `index` from the reference, as the service measures it.
+/// True error: the difference of the speed at `index` from the reference, as the service measures it.
 pub(crate) fn truth(wheel: &mut Wheel, request: &ResolvedSweep, index: usize) -> f64 {
     let reduced = wheel.reduced(request.modes_per_speed());
     let result = run_speed(&reduced, request, index, None, &Unwatched).unwrap();
@@ -118,7 +118,7 @@ fn outcome(wheel: &mut Wheel, draw: &mut Draw) -> Outcome {
     Outcome { estimate, truth: truth_of_fixed, target: reached }
 }
 
-/// What the pilot runs choose, as the service goes about it.
+/// Choice that the pilot runs make, as the service goes about it.
 pub(crate) fn chosen(wheel: &mut Wheel, request: &ResolvedSweep) -> Result<Choice, String> {
     let resources = Resources { workers: 2, spent_s: 0.0, reductions: Vec::new(), most_modes: None };
     let mut known: Vec<(TrialRequest, rubmap::analysis::run::Trial)> = Vec::new();
@@ -138,10 +138,10 @@ pub(crate) fn chosen(wheel: &mut Wheel, request: &ResolvedSweep) -> Result<Choic
     }
 }
 
-/// Random wheels whose stress errors are covered, with so many speeds each.
+/// Number of random wheels whose stress errors are covered, and of speeds of each.
 const STRESSED: (u64, usize) = (10, 4);
 
-/// A wheel of coarse mesh, and a sweep on it with stress.
+/// Draws a wheel of coarse mesh, and a sweep on it with stress.
 fn stressed(draw: &mut Draw) -> (Wheel, serde_json::Value) {
     let thickness = draw.within(0.7, 1.4);
     let coarse = Wheel::coarse_parameters(draw.among(&[3, 4, 5, 7]));
@@ -163,7 +163,7 @@ fn stressed(draw: &mut Draw) -> (Wheel, serde_json::Value) {
     (wheel, body)
 }
 
-/// (true, estimated) errors of the largest stress at each speed.
+/// Errors (true, estimated) of the largest stress at each speed.
 fn stress_errors(draw: &mut Draw) -> Vec<(f64, f64)> {
     let (mut wheel, body) = stressed(draw);
     let request = wheel.resolved(body.clone());
@@ -187,7 +187,7 @@ fn stress_errors(draw: &mut Draw) -> Vec<(f64, f64)> {
     let (finest, reduced) = (wheel.resolved(finest), wheel.reduced(160));
     let truth = |error: &PointError| {
         let exact = run_speed(&reduced, &finest, error.index as usize, None, &Unwatched).unwrap().point;
-        // Of a speed that diverges there is none.
+        // A speed that diverges has no stress.
         let largest = |point: &Point| Some(point.stress.as_ref()?.largest.von_mises);
         let truth = (largest(&points[error.index as usize])? / largest(&exact)? - 1.0).abs();
         Some((truth, error.estimated_stress_error?))
@@ -195,7 +195,8 @@ fn stress_errors(draw: &mut Draw) -> Vec<(f64, f64)> {
     estimate.points.iter().filter_map(truth).collect()
 }
 
-/// On random wheels at most one largest stress in twenty is farther off than its estimate, and estimates are not absurdly large.
+/// Errors of stress cover the true ones: on random wheels at most one largest stress in twenty is farther off than its estimate,
+/// and estimates are not absurdly large.
 #[test]
 fn errors_of_stress_cover_the_true_ones() {
     let seeds: Vec<u64> = (0..STRESSED.0).collect();

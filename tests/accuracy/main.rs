@@ -1,4 +1,4 @@
-//! What accuracy costs in time: are orders as theory has them, estimates honest, targets met?
+//! Accuracy and its cost in time: are orders as theory has them, estimates honest, targets met?
 
 mod honesty;
 mod orders;

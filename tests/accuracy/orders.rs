@@ -18,7 +18,7 @@ fn study(wheel: &mut Wheel, body: Value) -> WorkPrecision {
     work_precision(&request, (facts.sectors, &facts.units), &[], &find).unwrap().0
 }
 
-/// One travelling mode, lightly damped, nothing to touch.
+/// Request for one travelling mode, lightly damped, that touches nothing.
 fn free_motion() -> Value {
     json!({
         "model": "",
@@ -36,7 +36,7 @@ fn free_motion() -> Value {
 #[test]
 fn central_differences_are_of_second_order_in_free_motion() {
     let mut body = free_motion();
-    // Above the limit of the stiffest mode.
+    // These steps are above the limit of the stiffest mode.
     body["grid"] = json!({"modes_per_speed": [2], "schemes": ["central_differences"],
         "steps_per_revolution": [40_000, 80_000, 160_000]});
     let found = study(&mut Wheel::coarse(5), body);
@@ -56,8 +56,7 @@ fn the_exact_propagator_is_exact_in_free_motion() {
     assert_eq!(order.orders, [None], "round-off has no order");
 }
 
-/// The sizes of the paper on the demo's impeller: every larger one is closer to the reference, in the displacement over the first
-/// revolutions.
+/// Numbers of modes of the paper on the demo's impeller: every larger one is closer to the reference, in the displacement over the first revolutions.
 #[test]
 fn more_modes_are_closer() {
     let casing = PaperCasing::of(&ImpellerParameters::default());

@@ -7,13 +7,13 @@ use serde_json::json;
 use crate::honesty::{Draw, chosen, scene, truth};
 use crate::wheel::Wheel;
 
-/// Sweeps of each wheel.
+/// Number of sweeps of each wheel.
 const SWEEPS: u64 = 3;
 
-/// Speeds of each: enough for cheaper settings to be tried.
+/// Number of speeds of each sweep: enough for cheaper settings to be tried.
 const SPEEDS: usize = 42;
 
-/// The second pilot speed, and one half way to the third.
+/// Indices of the speeds that are compared: the second pilot speed, and one half way to the third.
 const LOOKED_AT: [usize; 2] = [14, 20];
 
 #[test]
@@ -51,7 +51,7 @@ fn settings_beside_the_climb_keep_their_targets() {
         .filter(|(_, choice, _)| choice.setting.scheme == SchemeChoice::MasslessBoundary)
         .count();
     println!("{} chosen, {} of them beside the climb, {massless} without mass", found.len(), beside.len());
-    // Otherwise this says nothing.
+    // With fewer this says nothing.
     assert!(massless >= 2);
     let met = |place: usize| beside.iter().filter(|(target, _, errors)| errors[place] <= *target).count();
     println!("targets met in {} at a pilot speed, in {} between two", met(0), met(1));

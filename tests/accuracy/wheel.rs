@@ -18,16 +18,16 @@ use rubmap::package;
 use rubmap::solid::mesh::SectorMesh;
 use serde_json::Value;
 
-/// A wheel of coarse mesh, with every reduction made once.
+/// Wheel of coarse mesh, with every reduction made once.
 pub(crate) struct Wheel {
     sector: SectorModel,
     pub(crate) facts: ModelFacts,
     reductions: BTreeMap<u32, Arc<ReducedSector>>,
-    /// Where stress is wanted.
+    /// Elements and nodes, where stress is wanted.
     elements: Option<(SectorMesh, Vec<SectorNode>)>,
 }
 
-/// Keeps whole bases in memory.
+/// Checkpoints that keep whole bases in memory.
 #[derive(Default)]
 struct Bases(Mutex<BTreeMap<usize, Vec<Vec<f64>>>>);
 
@@ -65,7 +65,7 @@ impl Wheel {
         Self { elements: None, ..Self::with_stress(parameters) }
     }
 
-    /// With stress beside its reductions.
+    /// Makes a wheel with stress beside its reductions.
     pub(crate) fn with_stress(parameters: &ImpellerParameters) -> Self {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("wheel.zip");

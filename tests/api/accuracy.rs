@@ -1,4 +1,4 @@
-//! An accuracy or a budget in place of knobs, and the errors of what came of it.
+//! Jobs with an accuracy or a budget in place of knobs, and the errors of their results.
 
 use serde_json::{Value, json};
 
@@ -62,7 +62,7 @@ async fn a_target_is_planned_met_and_reported() {
         assert_eq!(critical["amplitude_error"], of["estimated_error"]);
     }
 
-    // The pilot runs are kept: the plan has the choice at once, and the settings of the result give the same numbers.
+    // The pilot runs are stored: the plan has the choice at once, and the settings of the result give the same numbers.
     let plan = api.post("/v1/sweeps/plan", &request).await.body;
     assert_eq!(plan["choice"]["setting"], choice["setting"]);
     assert!(plan["estimate"].is_object() && plan["pilot_speeds_rad_s"].is_null());
@@ -114,7 +114,7 @@ async fn a_target_that_cannot_be_met_is_said_before_the_sweep() {
         (&json!("failed"), &json!("/accuracy/target"))
     );
     assert_eq!(job["speeds"]["finished"], 0);
-    // What was found out is kept, and the plan says so at once.
+    // The choice is stored, and the plan says so at once.
     let plan = api.post("/v1/sweeps/plan", &request).await;
     assert_eq!(plan.pointers(422, "invalid-request"), ["/accuracy/target"]);
     app.stop().await;
@@ -126,7 +126,7 @@ async fn a_climb_ends_with_its_time() {
     let api = &app.api;
     let model = api.model(model::package(1.0)).await;
     let mut request = without_knobs(sweep_of(&model));
-    // Some seconds for every pilot run.
+    // Every pilot run takes some seconds.
     request["integration"]["revolutions"] = json!(20_000);
     request["accuracy"] = json!({"target": 1e-6, "seconds": 1});
     let id = api.sweep(&request).await;

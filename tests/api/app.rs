@@ -15,16 +15,16 @@ use tempfile::TempDir;
 use tokio::task::JoinHandle;
 use tokio_util::sync::CancellationToken;
 
-/// Longer than anything here takes on a loaded machine.
+/// Longest time to wait: longer than anything here takes on a loaded machine.
 pub(crate) const PATIENCE: Duration = Duration::from_secs(300);
 
-/// A running service.
+/// Running service in this process.
 pub(crate) struct TestApp {
     pub(crate) api: Api,
     stop: CancellationToken,
     service: JoinHandle<()>,
     data: PathBuf,
-    /// Removed with the app that made it.
+    /// Data folder, removed with the app that made it.
     _folder: Option<TempDir>,
 }
 
@@ -33,7 +33,7 @@ impl TestApp {
         Self::start_with(|_| {}).await
     }
 
-    /// With settings changed by `change`.
+    /// Starts a service with settings changed by `change`.
     pub(crate) async fn start_with(change: impl FnOnce(&mut Config)) -> Self {
         let folder = tempfile::tempdir().unwrap();
         let mut config = config(folder.path());
@@ -41,7 +41,7 @@ impl TestApp {
         Self { _folder: Some(folder), ..Self::run(config).await }
     }
 
-    /// On a data folder that outlives it.
+    /// Starts a service on a data folder that outlives it.
     pub(crate) async fn start_on(data: &Path) -> Self {
         Self::run(config(data)).await
     }
@@ -72,7 +72,7 @@ pub(crate) fn config(data: &Path) -> Config {
     Config { workers: Some(2), upload_bytes: 1 << 20, ..Config::local(data) }
 }
 
-/// A client of the service.
+/// Client of the service.
 #[derive(Clone)]
 pub(crate) struct Api {
     base: String,
@@ -153,12 +153,12 @@ impl Api {
     }
 }
 
-/// An answer of the service.
+/// Answer of the service.
 pub(crate) struct Answer {
     pub(crate) status: StatusCode,
     pub(crate) location: Option<String>,
     pub(crate) media_type: String,
-    /// Null if there is none.
+    /// Body in JSON; null if there is none.
     pub(crate) body: Value,
 }
 
@@ -197,7 +197,7 @@ impl Answer {
         self.body["errors"].as_array().cloned().unwrap_or_default()
     }
 
-    /// Like [`Answer::problem`], for problems that point at fields.
+    /// Asserts that this is a problem of `kind` with `status`, like [`Answer::problem`]; returns the pointers of its items.
     #[track_caller]
     pub(crate) fn pointers(&self, status: u16, kind: &str) -> Vec<String> {
         let items = self.problem(status, kind);
@@ -205,7 +205,7 @@ impl Answer {
     }
 }
 
-/// A short sweep with contact.
+/// Request for a short sweep with contact.
 pub(crate) fn sweep_of(model: &str) -> Value {
     json!({
         "model": model,
@@ -225,7 +225,7 @@ pub(crate) fn sweep_of(model: &str) -> Value {
     })
 }
 
-/// A sweep whose speeds take so long that a test can do something meanwhile.
+/// Request for a sweep whose speeds take so long that a test can do something meanwhile.
 pub(crate) fn long_sweep_of(model: &str, speeds: u32) -> Value {
     let mut request = sweep_of(model);
     request["speeds"]["count"] = speeds.into();

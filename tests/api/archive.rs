@@ -1,4 +1,4 @@
-//! A job as a file, and the program that computes it again.
+//! Archives of jobs, and the program that computes such a job again.
 
 use std::collections::BTreeMap;
 use std::io::{Cursor, Read, Write};
@@ -26,7 +26,7 @@ pub(crate) async fn download(api: &Api, id: &str) -> Vec<u8> {
     response.bytes().await.unwrap().to_vec()
 }
 
-/// What another program finds in a zip.
+/// Entries that another program finds in a zip.
 fn entries(zip: &[u8]) -> Entries {
     let mut zip = ZipArchive::new(Cursor::new(zip)).unwrap();
     (0..zip.len())
@@ -57,7 +57,7 @@ fn json_of(entries: &Entries, name: &str) -> Value {
     serde_json::from_slice(bytes).unwrap()
 }
 
-/// With an entry changed, and the manifest after it.
+/// Archive with an entry changed, and its manifest to fit.
 fn changed(mut entries: Entries, name: &str, change: impl FnOnce(&mut Value)) -> Entries {
     let mut value = json_of(&entries, name);
     change(&mut value);
@@ -81,7 +81,7 @@ fn changed(mut entries: Entries, name: &str, change: impl FnOnce(&mut Value)) ->
     entries
 }
 
-/// Whether `rubmap repeat` is content with an archive, and what it says.
+/// Runs `rubmap repeat` on an archive; returns whether it found all the same, and its output.
 pub(crate) fn repeat(folder: &Path, archive: &[u8]) -> (bool, String) {
     let path = folder.join("archive.zip");
     std::fs::write(&path, archive).unwrap();
@@ -113,7 +113,7 @@ async fn an_archive_has_what_was_asked_and_found_and_says_so() {
     assert_eq!(names, expected);
     assert_eq!(found[2].1, package, "byte by byte");
 
-    // What the service says one by one.
+    // The service gives the same one by one.
     assert_eq!(json_of(&found, "settings.json"), job["request"]);
     let spectra = api.get(&format!("/v1/jobs/{id}/spectra/3")).await.body;
     assert_eq!(json_of(&found, "results/spectra/00003.json"), spectra["spectra"]);
@@ -138,7 +138,7 @@ async fn an_archive_has_what_was_asked_and_found_and_says_so() {
     assert_eq!(manifest["computed"]["vectors"], rubmap::analysis::run::vectors());
     assert_eq!(manifest["computed"]["revision"], rubmap::analysis::run::REVISION);
 
-    // The same bytes again, and by the next service.
+    // The archive has the same bytes when it is made again, and by the next service.
     assert_eq!(download(api, &id).await, archive);
     let asked = api.request("GET", &format!("/v1/jobs/{id}/archive")).header("accept-encoding", "gzip");
     assert!(
@@ -174,7 +174,7 @@ async fn only_what_can_be_repeated_has_an_archive() {
     app.stop().await;
 }
 
-/// Made while others compute, with rounds of a refinement, wear, and settings of every kind of job.
+/// Archives made while others compute, with rounds of a refinement, wear, and settings of every kind of job, repeat to the bit.
 #[tokio::test]
 async fn every_kind_of_job_repeats_to_the_bit() {
     let app = TestApp::start().await;
@@ -233,7 +233,7 @@ async fn what_was_changed_or_is_no_archive_is_said() {
         }
     };
 
-    // A bit of the stored bytes of a result, and a byte of a result that was zipped anew.
+    // Changed are a bit of the stored bytes of a result, and a byte of a result that was zipped anew.
     let name = "results/campbell/0.json";
     let start =
         archive.windows(name.len()).position(|window| window == name.as_bytes()).unwrap() + name.len();
@@ -252,7 +252,7 @@ async fn what_was_changed_or_is_no_archive_is_said() {
     let fewer = found.iter().filter(|(entry, _)| entry != name).cloned().collect();
     refused(&zipped(&fewer), &[name, "cannot be read"]);
 
-    // With a manifest that fits: only computing it again shows it.
+    // The manifest fits: only computing the result again shows the change.
     let forged = changed(found.clone(), name, |campbell| {
         let frequency = &mut campbell["frequencies_hz"][1][0][0];
         *frequency = f64::from_bits(frequency.as_f64().unwrap().to_bits() + 1).into();
@@ -277,7 +277,7 @@ async fn what_was_changed_or_is_no_archive_is_said() {
     let empty = changed(found.clone(), "manifest.json", |manifest| *manifest = json!({}));
     refused(&zipped(&empty), &["manifest.json", "missing field `format`"]);
 
-    // Bombs: more than the manifest says, and a manifest that says too much.
+    // Bombs have more than the manifest says, or a manifest that says too much.
     let mut bomb = found.clone();
     bomb[3].1 = vec![b'0'; 200 << 20];
     refused(&zipped(&bomb), &[name, "is longer than"]);

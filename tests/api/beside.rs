@@ -1,4 +1,4 @@
-//! What lies beside a reduction (its basis, stress in its coordinates) and the states that only it can read: left out, lost, damaged, and
+//! Files beside a reduction (its basis, stress in its coordinates) and the states that only they can read: left out, lost, damaged, and
 //! on a disk without room.
 
 use std::path::{Path, PathBuf};
@@ -18,7 +18,7 @@ use super::model::files_in;
 use super::program::Program;
 use super::small_disk::SmallDisk;
 
-/// The generator's small impeller with a coarse mesh, of four sectors.
+/// Package of the generator's small impeller with a coarse mesh, of four sectors.
 fn impeller() -> Vec<u8> {
     let mut given = serde_json::to_value(rubmap::impeller::ImpellerParameters::default()).unwrap();
     let wanted = coarse();
@@ -31,7 +31,7 @@ fn impeller() -> Vec<u8> {
     bytes.into_inner()
 }
 
-/// Two speeds with stress, and states of the second.
+/// Request for two speeds with stress, and states of the second.
 fn recording(model: &str) -> Value {
     let mut request = sweep_of(model);
     request["speeds"] = json!({"values": [1200.0, 1300.0], "unit": "rad_s"});
@@ -39,7 +39,7 @@ fn recording(model: &str) -> Value {
     request
 }
 
-/// An analysis that leaves the basis out, insists on it, or says nothing of it.
+/// Request for an analysis that leaves the basis out, insists on it, or says nothing of it.
 fn analysis(model: &str, fields: Option<bool>) -> Value {
     let mut request = modal_analysis_of(model);
     if let Some(fields) = fields {
@@ -62,7 +62,7 @@ async fn bytes(api: &Api, path: &str) -> (StatusCode, Vec<u8>) {
     (answer.status(), answer.bytes().await.unwrap().to_vec())
 }
 
-/// Files beside the only reduction whose names have `part` after the layout.
+/// Paths of the files beside the only reduction whose names have `part` after the layout.
 fn beside(data: &Path, part: &str) -> Vec<PathBuf> {
     let root = data.join("bases");
     let folders = if root.exists() { files_in(&root) } else { Vec::new() };
@@ -79,7 +79,7 @@ fn size(files: &[PathBuf]) -> f64 {
     files.iter().map(|file| file.metadata().unwrap().len() as f64).sum()
 }
 
-/// Stress of all speeds.
+/// Stress of all speeds of a sweep.
 async fn stress(api: &Api, id: &str) -> Vec<Value> {
     let points = points(api, id).await;
     points.values().map(|point| point["stress"].clone()).collect()
@@ -102,7 +102,7 @@ async fn a_basis_may_be_left_out_and_asked_for_later() {
         (&Value::Null, &json!(false))
     );
 
-    // What is made of it cannot do without.
+    // Results that are made of the basis cannot do without it.
     let mut asked = recording(&model);
     asked["fields"] = false.into();
     let states = asked["record"]["histories"].clone();
@@ -120,12 +120,12 @@ async fn a_basis_may_be_left_out_and_asked_for_later() {
     finished(api, "/v1/modal-analyses", &analysis(&model, Some(false))).await;
     assert!(beside(app.data(), "").is_empty());
     let modes = format!("/v1/models/{model}/modes?nodal_diameter=1&format=npz");
-    // Frequencies need none.
+    // Frequencies need no basis.
     assert_eq!(api.get(&format!("/v1/models/{model}/modes")).await.status, 200);
     let refused = api.get(&modes).await;
     refused.problem(409, "not-reduced");
     assert!(refused.text("/detail").contains("\"fields\": true"), "{}", refused.body);
-    // Who does not insist does not reduce for it.
+    // A request that does not insist on the basis does not reduce for it.
     finished(api, "/v1/modal-analyses", &analysis(&model, None)).await;
     assert!(beside(app.data(), "").is_empty());
     finished(api, "/v1/modal-analyses", &analysis(&model, Some(true))).await;
@@ -155,7 +155,7 @@ async fn what_is_lost_or_damaged_is_made_anew() {
             ["stress", "fields"].map(|rel| format!("/v1/jobs/{id}/{rel}"))
         );
     }
-    // Of what was planned, that was written: no direction was dropped, and nodes that never move have stress, too.
+    // Written was what was planned: no direction was dropped, and nodes that never move have stress, too.
     let near = |planned: &str, files: Vec<PathBuf>| {
         let (planned, found) = (plan[planned].as_f64().unwrap(), size(&files));
         assert!((found / planned - 1.0).abs() < 0.15, "{planned} {found} {files:?}");
@@ -177,7 +177,7 @@ async fn what_is_lost_or_damaged_is_made_anew() {
         .collect();
     assert_eq!(whole.len(), 7);
 
-    // Each file damaged in all of its rows, cut short, or gone; under a service that has read it, and before it starts.
+    // Each file is damaged in all of its rows, cut short, or gone; under a service that has read it, and before it starts.
     for (turn, (file, written)) in whole.iter().enumerate() {
         let mut spoilt = written.clone();
         // A row of stress that nobody follows is not read.
@@ -202,7 +202,7 @@ async fn what_is_lost_or_damaged_is_made_anew() {
         assert_eq!(stress(api, &again).await, expected, "{name}");
         assert_eq!(&std::fs::read(file).unwrap(), written, "{name}");
         if name.contains("-harmonic-") {
-            // Once more, while a service has the reduction in memory and knows of its basis.
+            // Once more it is damaged while a service has the reduction in memory and knows of its basis.
             std::fs::write(file, &spoilt).unwrap();
             api.get(&fields).await.problem(409, "not-reduced");
             finished(api, "/v1/modal-analyses", &analysis(&model, Some(true))).await;
@@ -211,7 +211,7 @@ async fn what_is_lost_or_damaged_is_made_anew() {
         app.stop().await;
     }
 
-    // All of it, under a sweep with stress.
+    // All files go, under a sweep with stress.
     std::fs::remove_dir_all(data.path().join("bases")).unwrap();
     let app = TestApp::start_on(data.path()).await;
     let again = finished(&app.api, "/v1/sweeps", &request).await;
@@ -251,7 +251,7 @@ async fn states_are_kept_by_archives_and_backups_and_checked() {
     assert!(checked.status.success(), "{}", said(&checked));
     let options = sqlx::sqlite::SqliteConnectOptions::new().filename(copy.join("rubmap.sqlite"));
     let mut database = options.connect().await.unwrap();
-    // One number is another.
+    // A stored number is changed.
     sqlx::query("update documents set body = replace(body, '\"coordinates\":\"', '\"coordinates\":\"AAAA') where name = 'states'")
         .execute(&mut database)
         .await
@@ -266,7 +266,7 @@ async fn states_are_kept_by_archives_and_backups_and_checked() {
     app.stop().await;
 }
 
-/// There is room for the database, and none for a basis.
+/// Stress waits for room on the disk, which has room for the database, and none for a basis.
 #[tokio::test]
 async fn stress_waits_for_room_on_the_disk() {
     let Some(disk) = SmallDisk::mount(64) else { return };
@@ -290,7 +290,7 @@ async fn stress_waits_for_room_on_the_disk() {
     program.terminate();
 }
 
-/// Killed as soon as each of the files is there, and started again.
+/// Kills the service as soon as each of the files is there, and starts it again.
 #[tokio::test]
 async fn kills_leave_no_half_file_that_is_read() {
     let undisturbed = tempfile::tempdir().unwrap();

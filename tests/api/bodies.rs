@@ -1,4 +1,4 @@
-//! Bodies are held against the contract: everything that is wrong with their structure comes at once, in users' words.
+//! Checks of bodies against the contract: everything that is wrong with their structure is reported at once, in users' words.
 
 use std::path::Path;
 
@@ -12,7 +12,7 @@ async fn post_text(api: &Api, path: &str, body: Vec<u8>) -> Answer {
     Answer::of(request.send().await.unwrap()).await
 }
 
-/// Pointers and details.
+/// Pointers and details of a problem's items.
 #[track_caller]
 fn items(answer: &Answer, kind: &str) -> Vec<(String, String)> {
     let text = |item: &Value, name: &str| item[name].as_str().unwrap_or_default().to_owned();
@@ -129,7 +129,7 @@ async fn what_only_serde_would_take_is_refused() {
     app.stop().await;
 }
 
-/// Whatever is wrong with a request of whatever size, its answer is short and says how much more is wrong.
+/// Answers are short: whatever is wrong with a request of whatever size, the answer says how much more is wrong.
 #[tokio::test]
 async fn answers_are_short() {
     let app = TestApp::start().await;
@@ -194,7 +194,7 @@ async fn depth_does_no_harm() {
     app.stop().await;
 }
 
-/// The model of these bodies does not exist here; this is what a body is told whose structure is sound.
+/// Requests of the corpus whose structure is sound pass: their model does not exist here, and the answer says only that.
 #[tokio::test]
 async fn the_corpus_of_sound_requests_passes() {
     let app = TestApp::start().await;
@@ -221,7 +221,7 @@ async fn the_corpus_of_sound_requests_passes() {
     app.stop().await;
 }
 
-/// A value that a schema admits, with all its fields.
+/// Example of a value that a schema admits, with all its fields.
 fn example(schema: &Value, schemas: &Value) -> Value {
     if let Some(name) = schema["$ref"].as_str() {
         return example(&schemas[name.rsplit('/').next().unwrap()], schemas);
@@ -248,7 +248,7 @@ fn example(schema: &Value, schemas: &Value) -> Value {
     }
 }
 
-/// What the check of bodies does not know it would not check.
+/// Asserts that the check of bodies knows all keywords of the contract: it would not check others.
 fn keywords_are_known(schema: &Value) {
     const KNOWN: [&str; 19] = [
         "$ref",
@@ -302,8 +302,7 @@ fn all_pointers(value: &Value, pointer: &str, found: &mut Vec<String>) {
     }
 }
 
-/// Every place of every body, with values of every type in it: none is refused in Rust's words, and what is refused is
-/// refused there.
+/// Replaces every part of every body by values of every type: none is refused in Rust's words, and refusals point to the part.
 #[tokio::test]
 async fn no_place_of_any_body_speaks_rust() {
     let app = TestApp::start().await;

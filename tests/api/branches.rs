@@ -1,4 +1,4 @@
-//! Branches of periodic responses: followed, told as they come, found again after a kill.
+//! Branches of periodic responses: followed, reported as they come, found again after a kill.
 
 use serde_json::{Value, json};
 
@@ -8,7 +8,7 @@ use super::formats::get;
 use super::model;
 use super::program::Program;
 
-/// Branches over speed about the one of [`case_of`].
+/// Request for branches over speed about the one of [`case_of`].
 pub(super) fn branches_of(model: &str) -> Value {
     let mut request = case_of(model);
     request["scene"]["damping"] = json!({"modal_ratio": 0.02});
@@ -32,7 +32,7 @@ fn values(branch: &Value) -> Vec<f64> {
     branch["points"].as_array().unwrap().iter().map(|point| point["value"].as_f64().unwrap()).collect()
 }
 
-/// Every stable point of a branch is what a long march at its speed comes to, and the ends are where they were asked for.
+/// Every stable point of a branch is the limit of a long march at its speed, and the ends are where they were asked for.
 #[tokio::test]
 async fn branches_are_followed_to_both_ends_and_march_to_the_same() {
     let app = TestApp::start().await;
@@ -97,7 +97,7 @@ async fn branches_are_followed_to_both_ends_and_march_to_the_same() {
     assert!(settled > 1, "{map}");
 }
 
-/// Followed from a hair beside where an amplitude is largest, a branch has the same maximum as from elsewhere.
+/// A branch that is followed from a hair beside its largest amplitude has the same maximum as from elsewhere.
 #[tokio::test]
 async fn a_maximum_where_a_branch_begins_is_found() {
     let app = TestApp::start().await;
@@ -119,7 +119,7 @@ async fn a_maximum_where_a_branch_begins_is_found() {
     request["along"] = json!({"parameter": "speed", "from": 0.975 * at, "to": 1.02 * at});
     let again = followed(api, &request).await;
     let maxima = again["branches"][0]["maxima"].as_array().unwrap();
-    // As well as steps of time let it be known.
+    // It is the same as well as steps of time let it be known.
     let same = maxima.iter().find(|other| {
         let off = |field: &str| (number(other, field) / number(highest, field) - 1.0).abs();
         other["sensor"] == highest["sensor"] && off("value") < 5e-3 && off("half_peak_to_peak") < 1e-3
@@ -128,7 +128,7 @@ async fn a_maximum_where_a_branch_begins_is_found() {
     app.stop().await;
 }
 
-/// What was foretold of branches that go to both ends is how they were stepped, and no more than they took.
+/// Asserts that branches that go to both ends were stepped as planned, and took no more than that.
 fn assert_planned(plan: &Value, found: &Value) {
     assert_eq!(plan["reduction"], "stored");
     let (point, points) = (&plan["point"], found["branches"][0]["points"].as_array().unwrap().len() as u64);
@@ -144,7 +144,7 @@ fn assert_planned(plan: &Value, found: &Value) {
     }
 }
 
-/// Where a branch of doubled period begins, its own stability is not that of the flip: it is followed once, and doubles twice the period.
+/// A branch of doubled period does not have, where it begins, the stability of the flip: the flip is followed once, by a branch of twice the period.
 #[tokio::test]
 async fn a_flip_is_doubled_once() {
     let app = TestApp::start().await;
@@ -180,7 +180,7 @@ async fn a_flip_is_doubled_once() {
     app.stop().await;
 }
 
-/// Over damping, clearance and the lobes: the scene as it is lies on each, with the same amplitude.
+/// Branches over damping, clearance and the lobes: the scene as it is lies on each, with the same amplitude.
 #[tokio::test]
 async fn branches_over_other_numbers_pass_through_the_scene_as_it_is() {
     let app = TestApp::start().await;
@@ -201,7 +201,7 @@ async fn branches_over_other_numbers_pass_through_the_scene_as_it_is() {
     assert!(amplitudes.iter().all(|amplitude| amplitude == &amplitudes[0]), "{amplitudes:?}");
 }
 
-/// Where nothing ever touches, the response is rest, at every speed.
+/// Rest is the response, at every speed, where nothing ever touches.
 #[tokio::test]
 async fn rest_is_a_branch_too() {
     let app = TestApp::start().await;
@@ -294,7 +294,7 @@ async fn what_cannot_be_followed_is_refused_at_its_field() {
     refused(&|request| request["speed"]["value"] = json!(-3.0), "/speed/value").await;
 }
 
-/// The same in all forms, of a job that was dismissed as well, and nothing of another kind.
+/// Branches are the same in all forms, also of a job that was dismissed, and are nothing of another kind of job.
 #[tokio::test]
 async fn branches_are_told_in_all_forms_and_of_other_jobs_not_at_all() {
     let app = TestApp::start().await;
@@ -327,7 +327,7 @@ async fn branches_are_told_in_all_forms_and_of_other_jobs_not_at_all() {
     assert_eq!(values(branch).len(), 3 + 1 + 3);
 }
 
-/// Killed between two legs, branches go on to the same bits.
+/// Branches that are killed between two legs go on to the same bits.
 #[tokio::test]
 async fn killed_branches_go_on_where_they_were() {
     let data = tempfile::tempdir().unwrap();

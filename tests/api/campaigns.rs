@@ -1,4 +1,4 @@
-//! Campaigns: many designs in one job, each as its own sweep would have it; told as they come, set aside, found again after a kill.
+//! Campaigns: many designs in one job, each as its own sweep would have it; reported as they come, paused, found again after a kill.
 
 use serde_json::{Value, json};
 
@@ -8,7 +8,7 @@ use super::model;
 use super::npz::Npz;
 use super::program::Program;
 
-/// A grid of clearance and damping over the three slowest speeds of [`sweep_of`].
+/// Request for a grid of clearance and damping over the three slowest speeds of [`sweep_of`].
 pub(crate) fn campaign_of(model: &str) -> Value {
     let mut request = sweep_of(model);
     request["speeds"] = json!({"from": 300.0, "to": 540.0, "count": 3, "unit": "rad_s"});
@@ -21,7 +21,7 @@ pub(crate) fn campaign_of(model: &str) -> Value {
     request
 }
 
-/// One that looks for the clearance at which the limit is met.
+/// Request for a campaign that looks for the clearance at which the limit is met.
 fn threshold_of(model: &str) -> Value {
     let mut request = campaign_of(model);
     request["parameters"][0] =
@@ -46,7 +46,7 @@ async fn told(api: &Api, id: &str) -> Value {
     answer.body
 }
 
-/// What was found, without the times of this machine.
+/// Results of a campaign without the times of this machine.
 fn timeless(mut campaign: Value) -> Value {
     campaign["spent"]["computing_time_s"] = Value::Null;
     campaign["plan"] = Value::Null;
@@ -113,7 +113,7 @@ async fn designs_are_what_their_sweeps_are() {
     app.stop().await;
 }
 
-/// The severities of the sweep that a design is.
+/// Severities of the sweep that a design is.
 async fn severities_of(api: &Api, model: &str, request: &Value, values: &Value) -> Value {
     let (added, damping) = (values[0].as_f64().unwrap(), &values[1]);
     let mut sweep = sweep_of(model);
@@ -130,7 +130,7 @@ async fn severities_of(api: &Api, model: &str, request: &Value, values: &Value) 
     map["points"].as_array().unwrap().iter().map(largest).collect()
 }
 
-/// No parameter may be called as anything else in tables and archives of this campaign.
+/// Asserts that no parameter may be called as anything else in tables and archives of this campaign.
 async fn columns_are_no_names(api: &Api, request: &Value, id: &str) {
     let named: Vec<&str> = request["parameters"]
         .as_array()
@@ -182,7 +182,7 @@ async fn sensitivities_are_told() {
     app.stop().await;
 }
 
-/// Both models are what their sweeps are, and neither goes while a campaign wants it.
+/// Results of both models are those of their sweeps, and neither model goes while a campaign wants it.
 #[tokio::test]
 async fn two_models_are_compared() {
     let app = TestApp::start().await;
@@ -237,7 +237,7 @@ async fn two_models_are_compared() {
     app.stop().await;
 }
 
-/// Set aside nothing goes on, what is finished can be read, and then nothing is computed again.
+/// A paused campaign does not go on, its finished designs can be read, and nothing is computed again afterwards.
 #[tokio::test]
 async fn a_campaign_that_is_set_aside_goes_on() {
     let app = TestApp::start().await;
@@ -260,13 +260,13 @@ async fn a_campaign_that_is_set_aside_goes_on() {
     };
     assert!((2..12).contains(&count(&before)), "{before}");
     assert_eq!(api.get("/v1/jobs?status=paused").await.body["jobs"].as_array().unwrap().len(), 1);
-    // As long as another job takes, for which there is a worker now.
+    // The campaign stays paused as long as another job takes, for which there is a worker now.
     let other = api.sweep(&sweep_of(request["model"].as_str().unwrap())).await;
     assert_eq!(api.finish(&other).await["status"], "successful");
-    // What was being stored at that moment may have come after the answer: of each worker one.
+    // One speed of each worker, which was being stored at that moment, may have come after the answer.
     assert!(count(&told(api, &id).await) <= count(&before) + 4, "it went on");
 
-    // However quickly one changes one's mind, nothing is forgotten.
+    // A job that is paused and continued in quick turns forgets nothing.
     for _ in 0..8 {
         for verb in ["continue", "pause", "continue"] {
             let answer = api.post(&format!("/v1/jobs/{id}/{verb}"), &json!({})).await;
@@ -294,14 +294,14 @@ async fn a_campaign_that_is_set_aside_goes_on() {
     app.stop().await;
 }
 
-/// Killed, and set aside over a restart, it adds the designs and finds the numbers that it would have undisturbed.
+/// A campaign that is killed, and paused over a restart, adds the designs and finds the numbers that it would have undisturbed.
 #[tokio::test]
 async fn a_killed_campaign_ends_as_if_undisturbed() {
     let undisturbed = tempfile::tempdir().unwrap();
     let program = Program::serve(undisturbed.path());
     let model = program.api.model(model::package(1.0)).await;
     let mut request = threshold_of(&model);
-    // A limit that half of the first designs meet.
+    // Half of the first designs meet the limit.
     let mut first = request.clone();
     first.as_object_mut().unwrap().retain(|field, _| field != "limit" && field != "threshold");
     let id = posted(&program.api, &first).await;
@@ -329,7 +329,7 @@ async fn a_killed_campaign_ends_as_if_undisturbed() {
     program.api.follow(&id, |job| job["speeds"]["finished"].as_u64() >= Some(5)).await;
     program.kill();
     let program = Program::serve(data.path());
-    // In the second round.
+    // The campaign is in its second round.
     program.api.follow(&id, |job| job["speeds"]["total"].as_u64() > Some(18)).await;
     program.kill();
     let program = Program::serve(data.path());

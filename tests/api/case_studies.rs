@@ -1,11 +1,11 @@
-//! What happened at a speed: case studies, histories of sweeps, contact over speed.
+//! Case studies, histories of sweeps, and contact over speed.
 
 use serde_json::{Value, json};
 
 use super::app::{Api, TestApp, sweep_of};
 use super::model;
 
-/// A case study of speed 2 of [`sweep_of`].
+/// Request for a case study of speed 2 of [`sweep_of`].
 pub(super) fn case_of(model: &str) -> Value {
     let sweep = sweep_of(model);
     let values = sweep["speeds"]["values"].as_array();
@@ -34,7 +34,7 @@ fn numbers(list: &Value) -> Vec<f64> {
     list.as_array().unwrap().iter().map(|number| number.as_f64().unwrap()).collect()
 }
 
-/// Histories without what says where they come from.
+/// Histories without the fields that say where they come from.
 fn happened(mut histories: Value) -> Value {
     let fields = histories.as_object_mut().unwrap();
     fields.retain(|field, _| !["index", "settings"].contains(&field.as_str()));
@@ -104,7 +104,7 @@ async fn histories_are_the_same_however_they_are_asked_for() {
     let truth = histories(api, &with, 2).await;
     assert_eq!(happened(histories(api, &later, 2).await), happened(truth.clone()));
     assert_eq!(happened(histories(api, &case, 0).await), happened(truth.clone()));
-    // It is the run of the sweep.
+    // The case study is the run of the sweep.
     let spectra = api.get(&format!("/v1/jobs/{without}/spectra/2")).await.body;
     for field in ["responses", "contact", "energy", "contact_impulse", "settling"] {
         assert_eq!(truth["point"][field], spectra["point"][field], "{field}");
@@ -192,7 +192,7 @@ async fn one_table_ranks_the_critical_speeds_of_the_wheel() {
     let api = &app.api;
     let model = api.model(model::package(1.0)).await;
     let mut request = sweep_of(&model);
-    // Every component of every node of a blade, which all move alike.
+    // Sensors are at every component of every node of a blade, which all move alike.
     let sensor =
         |node: u32, component: &str| json!({"contact_node": node, "sector": 0, "component": component});
     let components = ["radial", "tangential", "axial"];
@@ -222,7 +222,7 @@ async fn one_table_ranks_the_critical_speeds_of_the_wheel() {
     app.stop().await;
 }
 
-/// Far from the casing and driven at an engine order, the tips move as linear theory says.
+/// Tips far from the casing, driven at an engine order, move as linear theory says.
 #[tokio::test]
 async fn what_motion_takes_of_the_clearance_is_linear_where_nothing_touches() {
     let app = TestApp::start().await;

@@ -1,4 +1,4 @@
-//! Measured casings: from a table to what a sweep says of them.
+//! Measured casings: from a table to the results of a sweep.
 
 use std::f64::consts::TAU;
 use std::fmt::Write;
@@ -15,7 +15,7 @@ async fn read(api: &Api, table: impl Into<Vec<u8>>) -> Answer {
     Answer::of(request.send().await.unwrap()).await
 }
 
-/// Two lobes at leading and trailing edge, half as high there, every two degrees.
+/// Table of two lobes at leading and trailing edge, half as high there, every two degrees.
 fn table(outlier: f64) -> String {
     let mut text = "angle_deg;0;1\n".to_owned();
     for i in 0..180 {
@@ -88,7 +88,7 @@ async fn tables_that_are_none_are_refused_by_line() {
     app.stop().await;
 }
 
-/// Each wrong part of a shape is refused where it stands, and nothing else is said of it.
+/// Wrong shapes are refused at their places: each wrong part where it stands, and nothing else is said of it.
 #[tokio::test]
 async fn wrong_shapes_are_refused_at_their_places() {
     let app = TestApp::start().await;
@@ -110,7 +110,7 @@ async fn wrong_shapes_are_refused_at_their_places() {
         (json!({"waves": [{"order": 2, "amplitude": 0.1, "along_chord": [1, 2]}]}), "/waves/0/along_chord/1"),
         (json!({"tilt": {"angle_rad": 0.1}}), "/tilt/angle_rad"),
         (measured(&angles[..6], json!([0]), json!([[0.1, 0.1, 0.1, 0.1, 0.1, 0.1]])), "/measured/angles_rad"),
-        // A turn later the first angle again, but for the last digit.
+        // The table has the first angle again a turn later, but for the last digit.
         (
             measured(
                 &(0..13).map(|i| 102f64.to_radians() + f64::from(i) * TAU / 12.0).collect::<Vec<_>>(),
@@ -135,7 +135,7 @@ async fn wrong_shapes_are_refused_at_their_places() {
         let at = items[0]["pointer"].as_str().unwrap();
         assert_eq!(at, format!("/scene/casing{pointer}"), "{shape}: {items:?}");
     }
-    // A tilt may lean into the blade: only with a ramp.
+    // A tilt may reach into the blade only with a ramp.
     let mut tilted = sweep_of(&model);
     tilted["scene"]["casing"]["tilt"] = json!({"angle_rad": 5e-4, "towards_rad": 1.0});
     let plan = api.post("/v1/sweeps/plan", &tilted).await;
@@ -166,7 +166,7 @@ async fn cold_clearances_are_closed_by_growing_tips() {
     let running = |index: usize, node: usize| -> f64 {
         map["points"][index]["running_clearance"][node].as_f64().unwrap()
     };
-    // In proportion to Ω² but for what stiffening takes; nodes 0 and the last are those at the ends.
+    // Growth is in proportion to Ω² but for what stiffening takes; nodes 0 and the last are those at the ends.
     let last = map["points"][0]["running_clearance"].as_array().unwrap().len() - 1;
     for (node, cold) in [(0, 0.5), (last, 0.4)] {
         let ratio = (cold - running(1, node)) / (cold - running(0, node));
@@ -187,7 +187,7 @@ async fn cold_clearances_are_closed_by_growing_tips() {
     app.stop().await;
 }
 
-/// A turn closed by a rounded repetition of its first point, and a scan whose second pass lies beside its first: curves through their errors.
+/// Curves through errors are refused: a turn closed by a rounded repetition of its first point, and a scan whose second pass lies beside its first.
 #[tokio::test]
 async fn curves_through_errors_are_refused() {
     let app = TestApp::start().await;

@@ -5,10 +5,10 @@ use serde_json::{Value, json};
 use super::app::{Api, TestApp, long_sweep_of, sweep_of};
 use super::model;
 
-/// Speeds out of order.
+/// Speeds in rad/s, out of order.
 const SPEEDS: [f64; 6] = [500.0, 300.0, 900.0, 700.0, 400.0, 600.0];
 
-/// Their indices from the fastest to the slowest.
+/// Indices of the speeds from the fastest to the slowest.
 const DOWN: [u64; 6] = [2, 3, 5, 0, 4, 1];
 
 fn downwards(mut request: Value) -> Value {
@@ -23,7 +23,7 @@ pub(crate) async fn finished(api: &Api, id: &str) -> Vec<u64> {
     map["points"].as_array().unwrap().iter().map(|point| point["index"].as_u64().unwrap()).collect()
 }
 
-/// The first `count` of `order`, ascending.
+/// Indices of the first `count` of `order`, ascending.
 pub(crate) fn first_of(order: &[u64], count: usize) -> Vec<u64> {
     let mut first = order[..count].to_vec();
     first.sort_unstable();
@@ -47,7 +47,7 @@ async fn speeds_follow_each_other_downwards() {
             break;
         }
         let job = api.job(&id).await;
-        // It may have ended since.
+        // The job may have ended since.
         assert!(!["failed", "dismissed"].contains(&job.text("/status").as_str()), "{}", job.body);
     }
     assert!(seen.len() > 3, "too fast to be followed: {seen:?}");
@@ -69,7 +69,7 @@ async fn a_chain_is_the_same_to_the_bit_for_any_number_of_workers() {
         let app = TestApp::start_with(|config| config.workers = Some(workers)).await;
         let model = app.api.model(model::package(1.0)).await;
         let id = app.api.sweep(&downwards(sweep_of(&model))).await;
-        // Something else to do meanwhile.
+        // Another job computes meanwhile.
         let other = app.api.sweep(&sweep_of(&model)).await;
         assert_eq!(app.api.finish(&id).await["status"], "successful");
         assert_eq!(app.api.finish(&other).await["status"], "successful");

@@ -1,4 +1,4 @@
-//! Checkpoints of reductions: when they go. That they serve is shown by the program that is killed.
+//! Checkpoints of reductions: when they go. The program that is killed shows that they serve.
 
 use rubmap::dynamics::reduction::Checkpoints;
 use rubmap::store::Store;
@@ -19,7 +19,7 @@ async fn a_start_removes_what_nobody_will_use() {
     let root = data.path().join("checkpoints");
     let gone = "0".repeat(64);
     let store = Store::open(data.path()).await.unwrap();
-    // Modes 5: wanted. Modes 3: reduced already.
+    // Checkpoints with 5 modes are wanted; with 3 modes the model is reduced already.
     for (model, modes_per_speed) in [(&model, 5), (&model, 3), (&gone, 5)] {
         store.checkpoints(model, modes_per_speed).save("harmonic-1", vec![7; 1000]);
     }
@@ -45,7 +45,7 @@ async fn a_start_removes_what_nobody_will_use() {
 #[tokio::test]
 async fn checkpoints_that_cannot_be_written_do_not_fail_the_job() {
     let data = tempfile::tempdir().unwrap();
-    // A file where the folder should be.
+    // A file stands where the folder should be.
     std::fs::write(data.path().join("checkpoints"), "").unwrap();
     let app = TestApp::start_on(data.path()).await;
     let model = app.api.model(model::package(1.0)).await;

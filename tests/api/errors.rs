@@ -1,4 +1,4 @@
-//! Whatever goes wrong, the answer is a problem.
+//! Errors of all kinds: the answer is a problem.
 
 use serde_json::json;
 

@@ -15,7 +15,7 @@ use super::model;
 /// Least time between two events of a job.
 const BETWEEN: Duration = Duration::from_millis(300);
 
-/// A stream of events as it comes.
+/// Stream of events as they come.
 struct Events {
     response: Response,
     heard: String,
@@ -30,7 +30,7 @@ impl Events {
         Self { response, heard: String::new() }
     }
 
-    /// The data of the next event; `None` at the end of the stream.
+    /// Reads the data of the next event; `None` at the end of the stream.
     async fn next(&mut self) -> Option<String> {
         loop {
             if let Some((event, rest)) = self.heard.split_once("\n\n") {
@@ -54,7 +54,7 @@ impl Events {
         }
     }
 
-    /// The first job that is told and passes `wanted`.
+    /// Waits for the first job that is reported and passes `wanted`.
     async fn until(&mut self, wanted: impl Fn(&Value) -> bool) -> Value {
         loop {
             let job = serde_json::from_str(&self.next().await.expect("the stream ends")).unwrap();
@@ -91,7 +91,7 @@ async fn a_sweep_is_followed_from_its_beginning_to_its_end() {
     let told = |wanted: &str| jobs.iter().filter(|job| job["status"] == wanted).count();
     assert!(told("running") >= 2 && told("successful") == 1, "{jobs:?}");
 
-    // Who comes late hears how it ended.
+    // A late listener hears how the job ended.
     let mut late = Events::of(api, &id).await;
     assert_eq!(late.next().await.as_ref(), events.last());
     assert_eq!(late.next().await, None);
@@ -113,10 +113,10 @@ async fn all_who_follow_a_job_hear_the_same() {
         others.push(Events::of(api, &id).await);
     }
     for other in &mut others {
-        // What is known already comes at once.
+        // The first event reports at once what is known already.
         other.until(|job| job["speeds"]["finished"].as_u64() >= Some(1)).await;
     }
-    // Some leave; a new name and the end reach all others.
+    // Some listeners leave; a new name and the end reach all others.
     others.pop();
     let named = api.request("PATCH", &format!("/v1/jobs/{id}")).json(&json!({"name": "followed"}));
     assert_eq!(named.send().await.unwrap().status(), 200);
@@ -131,7 +131,7 @@ async fn all_who_follow_a_job_hear_the_same() {
     app.stop().await;
 }
 
-/// Nothing of it is in the database, which takes nothing.
+/// Reports what a job waits for. Nothing of it is in the database, which takes nothing.
 #[tokio::test]
 async fn what_a_job_waits_for_is_told() {
     let app = TestApp::start().await;
@@ -181,7 +181,7 @@ async fn followers_leave_room_for_others() {
     let id = api.sweep(&long_sweep_of(&model, 5000)).await;
     let mut followers = Vec::new();
     for _ in 0..16 {
-        // Each on a connection of its own.
+        // Each follower has a connection of its own.
         followers.push(Events::of(&Api::new(api.base()), &id).await);
     }
     let answer = timeout(PATIENCE, Api::new(api.base()).get("/readyz")).await.expect("nobody else is served");

@@ -1,4 +1,4 @@
-//! What the machine may refuse for a while (room on the disk, a lock, descriptors, a file) costs time and no work.
+//! Faults of the machine that pass (no room on the disk, a lock, no descriptors, a missing file) cost time and no work.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -18,7 +18,7 @@ use super::model;
 use super::program::Program;
 use super::small_disk::SmallDisk;
 
-/// A sweep of one quick speed.
+/// Request for a sweep of one quick speed.
 fn quick_sweep_of(model: &str) -> Value {
     let mut request = sweep_of(model);
     request["speeds"] = serde_json::json!({"values": [500.0], "unit": "rad_s"});
@@ -37,7 +37,7 @@ async fn a_full_disk_loses_nothing_that_was_accepted() {
     disk.fill();
     let mut accepted = Vec::new();
     let mut refused = 0;
-    // Some find room in what the database has already; then there is none.
+    // Some jobs find room that the database has already; then there is none.
     for _ in 0..400 {
         let response = api.request("POST", "/v1/sweeps").json(&quick_sweep_of(&model)).send().await.unwrap();
         match response.status().as_u16() {
@@ -81,7 +81,7 @@ async fn a_full_disk_loses_nothing_that_was_accepted() {
     disk.make_room();
     let program = Program::serve(&disk.data());
     let api = &program.api;
-    // At the first try: nothing is left of the failures.
+    // Jobs are accepted at the first try: nothing is left of the failures.
     accepted.push(api.sweep(&quick_sweep_of(&model)).await);
     api.model(model::package(1.5)).await;
     for id in accepted.iter().chain([&running]) {
@@ -97,7 +97,7 @@ async fn a_full_disk_loses_nothing_that_was_accepted() {
     assert_eq!(points(&program.api, &running).await, before);
 }
 
-/// On a disk to the last byte, too: who uses the service may not reach its disk.
+/// Makes room on a disk that is full to the last byte: the users of the service may not reach its disk.
 #[tokio::test]
 async fn room_can_be_made_on_a_full_disk() {
     let Some(disk) = SmallDisk::mount(48) else { return };
@@ -186,7 +186,7 @@ async fn a_package_that_is_absent_for_a_while_is_waited_for() {
     std::fs::rename(&aside, &package).unwrap();
     assert_eq!(api.finish(&id).await["status"], "successful");
 
-    // Or it is uploaded again.
+    // The package may also be uploaded again.
     std::fs::remove_file(&package).unwrap();
     let mut request = modal_analysis_of(&model);
     request["modes_per_speed"] = 4.into();
@@ -197,7 +197,7 @@ async fn a_package_that_is_absent_for_a_while_is_waited_for() {
     app.stop().await;
 }
 
-/// Whatever is open in the process, descriptors of the tests included: a child with few of them.
+/// Waits out a lack of descriptors, in a child that has few of them: the limit counts all that are open in a process, those of tests included.
 #[tokio::test]
 async fn a_lack_of_descriptors_is_waited_out() {
     let data = tempfile::tempdir().unwrap();
@@ -206,7 +206,7 @@ async fn a_lack_of_descriptors_is_waited_out() {
     let model = api.model(model::package(1.0)).await;
     let running = api.sweep(&long_sweep_of(&model, 12)).await;
     api.follow(&running, |job| job["speeds"]["finished"].as_u64() >= Some(1)).await;
-    // No more than are open already: whatever opens a file fails.
+    // The limit is the number of those open already: whatever opens a file fails.
     let limit = |number: &str| {
         let pid = program.id().to_string();
         Command::new("prlimit").args(["--pid", &pid, &format!("--nofile={number}:1024")]).status()
@@ -262,7 +262,7 @@ async fn sigterm_ends_a_service_with_hundreds_of_jobs_queued() {
     store.close().await;
 }
 
-/// Longer than one speed, shorter than what the service waits before it computes what it was killed under.
+/// Life of the service: longer than one speed, shorter than it waits before it computes the job under which it was killed.
 const LIFE: Duration = Duration::from_millis(400);
 
 #[tokio::test]
@@ -271,7 +271,7 @@ async fn kills_fail_neither_what_runs_nor_what_waits_beside_it() {
     let program = Program::serve(data.path());
     let model = program.api.model(model::package(1.0)).await;
     let mut long = long_sweep_of(&model, 2);
-    // A speed that takes longer than the service lives.
+    // Its speed takes longer than the service lives.
     long["integration"]["revolutions"] = 4000.into();
     let mut ids = vec![program.api.sweep(&long).await];
     for _ in 0..10 {

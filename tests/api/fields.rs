@@ -1,4 +1,4 @@
-//! Modes, deflection shapes and instants of the whole wheel as files: VTK's by a strict XML reader, closed wheels, volumes.
+//! Modes, deflection shapes and instants of the whole wheel as files: VTK's files by a strict XML reader, closed wheels, volumes.
 
 use std::collections::HashMap;
 
@@ -14,7 +14,7 @@ use super::vtk::{Vtk, raw};
 
 pub(super) const SECTORS: usize = 5;
 
-/// A small impeller with a mesh.
+/// Package of a small impeller with a mesh.
 pub(super) fn impeller() -> package::raw::RawPackage {
     let mesh = MeshDensities {
         between_contact_nodes: 1,
@@ -26,7 +26,7 @@ pub(super) fn impeller() -> package::raw::RawPackage {
     generate(&ImpellerParameters { sectors: SECTORS, contact_nodes: 4, mesh, ..Default::default() }).unwrap()
 }
 
-/// Nodes of the high face, clamped ones too: a sector back there is another.
+/// Number of nodes of the high face, clamped ones too: a sector read back has as many more of its own.
 fn high_nodes(package: &package::raw::RawPackage) -> usize {
     let (sin, cos) = (std::f64::consts::TAU / SECTORS as f64).sin_cos();
     let back = |[x, y, z]: [f64; 3]| [x * cos + y * sin, y * cos - x * sin, z];
@@ -45,7 +45,7 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
 
 const GAUSS: [f64; 2] = [-0.577_350_269_189_625_8, 0.577_350_269_189_625_8];
 
-/// Of a hexahedron in VTK's order: the determinant of its trilinear map, exact with two points an axis.
+/// Volume of a hexahedron in VTK's order: the integral of the determinant of its trilinear map, exact with two points an axis.
 fn volume(corners: [[f64; 3]; 8]) -> f64 {
     let signs = |k: usize| {
         let (x, y) = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)][k % 4];
@@ -72,7 +72,7 @@ fn volume(corners: [[f64; 3]; 8]) -> f64 {
     volume
 }
 
-/// Its share of the volume within a closed surface: ∮ x·n dA/3 over a bilinear face.
+/// Share of a face in the volume within a closed surface: ∮ x·n dA/3 over a bilinear face.
 fn flux(corners: [[f64; 3]; 4]) -> f64 {
     let mut flux = 0.0;
     for xi in GAUSS {
@@ -225,7 +225,7 @@ async fn a_wheel_is_closed_and_its_modes_are_where_they_belong() {
     let svg = String::from_utf8(raw(api, &format!("{mode}&format=svg")).await).unwrap();
     assert!(roxmltree::Document::parse(&svg).is_ok());
 
-    // Without a number of modes it is the finest reduction: a finer one is another answer.
+    // The default is the finest reduction: a finer one gives another answer.
     let finer = json!({"model": model, "modes_per_speed": 5, "speeds": {"values": [0.0], "unit": "rad_s"}});
     let job = api.post("/v1/modal-analyses", &finer).await.text("/id");
     assert_eq!(api.finish(&job).await["status"], "successful");
@@ -235,7 +235,7 @@ async fn a_wheel_is_closed_and_its_modes_are_where_they_belong() {
     app.stop().await;
 }
 
-/// A sweep of the impeller at two speeds, with stress, and the state of the second.
+/// Runs a sweep of the impeller at two speeds, with stress, and the state of the second.
 async fn sweep_with_states(api: &Api) -> Value {
     let mut file = std::io::Cursor::new(Vec::new());
     package::write(&impeller(), &mut file).unwrap();
@@ -267,8 +267,8 @@ async fn a_report_shows_the_wheel_where_it_moves_most() {
     app.stop().await;
 }
 
-/// The sweep follows stress in the coordinates of the reduction, the field is made of displacement: with the static part both have the
-/// same largest stress, at the same node, blade and instant.
+/// A field with its static part has the largest stress of the sweep, at the same node, blade and instant: the sweep follows stress in
+/// the coordinates of the reduction, the field is made of displacement.
 #[tokio::test]
 async fn a_field_with_its_static_part_has_the_largest_stress_of_the_sweep() {
     let app = TestApp::start_with(|config| config.upload_bytes = 64 << 20).await;
@@ -343,7 +343,7 @@ async fn a_field_with_its_static_part_has_the_largest_stress_of_the_sweep() {
     app.stop().await;
 }
 
-/// Of a wheel without a mesh: its nodes, and what was recorded of them.
+/// A wheel without a mesh gives fields at its nodes, of what was recorded of them.
 #[tokio::test]
 async fn a_recorded_run_gives_instants_and_deflection_shapes() {
     let app = TestApp::start().await;
@@ -358,7 +358,7 @@ async fn a_recorded_run_gives_instants_and_deflection_shapes() {
     api.get(&format!("/v1/jobs/{without}/fields")).await.problem(404, "history-not-recorded");
 
     request["record"] = json!({"revolutions": [8, 10], "quantities": ["displacement", "state"]});
-    // A contact node, whose history the field must repeat.
+    // The sensor is at a contact node, whose history the field must repeat.
     request["sensors"] = json!([{"node": 3, "component": "radial", "sector": 2}]);
     let answer = api.post("/v1/case-studies", &request).await;
     let id = answer.text("/id");

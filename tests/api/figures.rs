@@ -24,13 +24,13 @@ fn numbers(value: &Value) -> Vec<f64> {
     list.iter().map(|value| value.as_f64().unwrap_or(f64::NAN)).collect()
 }
 
-/// The trace of this name.
+/// Trace of this name.
 fn trace<'a>(figure: &'a Value, name: &str) -> &'a Value {
     let traces = figure["data"].as_array().unwrap();
     traces.iter().find(|trace| trace["name"] == name).unwrap_or_else(|| panic!("no {name}: {figure}"))
 }
 
-/// Equal but for single precision.
+/// Asserts that two numbers are equal but for single precision.
 #[track_caller]
 fn assert_near(a: f64, b: f64) {
     assert!((a - b).abs() <= 1e-6 * b.abs(), "{a} {b}");
@@ -47,7 +47,7 @@ async fn a_map_has_the_numbers_of_its_arrays() {
     let amplitude = file.array("amplitude").reals();
     let cells = &shown["data"][0];
     let (x, y) = (numbers(&cells["x"]), numbers(&cells["y"]));
-    // Without the mean.
+    // The figure leaves out the mean.
     assert_eq!((x.len(), y.len()), (speeds.len(), orders.len() - 1));
     for (column, speed) in speeds.iter().enumerate() {
         assert_near(x[column], speed * 60.0 / TAU);
@@ -68,7 +68,7 @@ async fn a_map_has_the_numbers_of_its_arrays() {
         assert_near(shown, point["responses"][0]["rms"].as_f64().unwrap());
     }
     assert_eq!(numbers(&shown["layout"]["meta"]["speeds_rpm"]), numbers(&level["x"]));
-    // Parts and sheets.
+    // The query selects parts and sheets.
     let part = figure(api, &format!("{path}?sensor=1&nodal_diameter=2&axis=frequency&speeds=1-3")).await;
     assert_eq!(part["data"][0]["x"].as_array().unwrap().len(), 3);
     assert_eq!(part["layout"]["meta"]["units"]["y"], "Hz");
@@ -79,7 +79,7 @@ async fn a_map_has_the_numbers_of_its_arrays() {
     app.stop().await;
 }
 
-/// A wave of nodal diameter n at engine order k is seen at k ± n, of all at one place the largest.
+/// Waves of nodal diameter n at engine order k are seen at k ± n, of all at one place the largest.
 #[tokio::test]
 async fn a_map_in_the_fixed_frame_has_the_lines_where_they_are_seen() {
     let app = TestApp::start().await;
@@ -87,7 +87,7 @@ async fn a_map_in_the_fixed_frame_has_the_lines_where_they_are_seen() {
     let sweep = worn_sweep(api, &api.model(model::package(1.0)).await).await;
     let file = arrays(api, &format!("{sweep}/spectra/3")).await;
     let (orders, rows) = (file.array("engine_orders").reals(), file.array("nodal_diameters").reals());
-    // Of the first sensor.
+    // The shape is that of the first sensor.
     let diameters = file.array("nodal_diameters").shape[1];
     let rows: Vec<&[f64]> = rows.chunks(orders.len()).take(diameters).collect();
     for only in [None, Some(1)] {

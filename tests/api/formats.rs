@@ -1,4 +1,4 @@
-//! Results as JSON, CSV, npz, SVG, PNG and figures: which form is answered, that each can be read, parts of results, speeds in other units.
+//! Results as JSON, CSV, npz, SVG, PNG and figures: the form of the answer, its content, parts of results, speeds in other units.
 
 use reqwest::StatusCode;
 use reqwest::header::HeaderMap;
@@ -8,7 +8,7 @@ use super::app::{Answer, Api, TestApp, modal_analysis_of, sweep_of};
 use super::model;
 use super::npz::Npz;
 
-/// An answer as it comes.
+/// Answer as it comes.
 pub(super) struct Raw {
     status: StatusCode,
     headers: HeaderMap,
@@ -57,7 +57,7 @@ pub(super) fn table(csv: &str) -> Vec<Vec<&str>> {
     rows
 }
 
-/// A sweep with two sensors and a coating, ended well.
+/// Runs a sweep with two sensors and a coating to a good end.
 pub(super) async fn worn_sweep(api: &Api, model: &str) -> String {
     let mut request = sweep_of(model);
     request["scene"]["abradable"] = json!({"modulus": 2e4, "yield_stress": 20.0, "hardening": 500.0, "thickness": 2.0, "rods_around": 90});
@@ -86,7 +86,7 @@ const FORMS: [(&str, &str); 6] = [
     ("plotly", "application/vnd.plotly.v1+json"),
 ];
 
-/// A form must be what it says it is.
+/// Asserts that an answer has the form that it claims.
 fn assert_reads(form: &str, raw: &Raw) {
     match form {
         "json" => assert!(raw.json().is_object()),
@@ -144,14 +144,14 @@ async fn every_result_comes_in_every_form() {
             assert_eq!(raw.header("content-type"), content_type, "{asked}");
             assert!(raw.headers.get_all("vary").iter().any(|value| value == "accept"), "{asked}");
             assert_reads(form, &raw);
-            // The same by the header, which the query is above.
+            // The header asks for the same form, which the query overrides.
             let media_type = content_type.split(';').next().unwrap();
             let accepted =
                 get(api, &format!("{path}{joint}width=640"), &[("accept", media_type)]).await.good();
             assert!(accepted.body == raw.body, "{asked}");
             let both = get(api, &asked, &[("accept", "text/html")]).await.good();
             assert_eq!(both.header("content-type"), content_type);
-            // The client that has it gets nothing.
+            // A client that has the drawing gets no second copy.
             let tag = raw.header("etag");
             assert!(tag.starts_with('"') && tag == accepted.header("etag"), "{asked}");
             for list in [tag, &format!("\"other\", W/{tag}"), "*"] {
@@ -496,13 +496,13 @@ async fn a_sheet_and_a_window_are_drawn() {
         let drawing = get(api, &format!("{path}{query}"), &[]).await.good();
         assert!(roxmltree::Document::parse(drawing.text()).is_ok());
         assert!(drawing.body != whole.body && drawing.header("etag") != whole.header("etag"), "{query}");
-        // Drawn once, and then as it was.
+        // The file is drawn once, and then comes as it was.
         assert!(get(api, &format!("{path}{query}"), &[]).await.body == drawing.body);
     }
     app.stop().await;
 }
 
-/// What both must find equal, to the bit: the map as an array and as a table.
+/// Program that reads the map as an array and as a table, which both must be equal to the bit.
 const READ_BY_PYTHON: &str = "
 import sys, numpy, pandas
 for name in sys.argv[1:]:
@@ -515,7 +515,7 @@ for name in sys.argv[1:]:
         assert str(arrays['version']) and 'mm' in str(arrays['units'])
 ";
 
-/// By the programs that they are for, where these are installed: in `RUBMAP_PYTHON`, or else `python3`.
+/// Reads results by the programs that they are for, where these are installed: in `RUBMAP_PYTHON`, or else `python3`.
 #[tokio::test]
 async fn numpy_and_pandas_read_them() {
     let python = std::env::var("RUBMAP_PYTHON").unwrap_or_else(|_| "python3".to_owned());

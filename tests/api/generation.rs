@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use super::app::{Answer, Api, TestApp, modal_analysis_of};
 use super::model::files_in;
 
-/// A mesh as coarse as it gets.
+/// Parameters of a mesh as coarse as it gets.
 pub(crate) fn coarse() -> Value {
     json!({
         "preset": "small",
@@ -25,7 +25,7 @@ async fn generation_of(api: &Api, parameters: &Value) -> String {
     id
 }
 
-/// The package that `rubmap generate` makes.
+/// Package that `rubmap generate` makes.
 fn generated_by_command(parameters: &Value) -> Vec<u8> {
     let folder = tempfile::tempdir().unwrap();
     let [file, zip] = ["parameters.json", "impeller.zip"].map(|name| folder.path().join(name));
@@ -55,7 +55,7 @@ async fn a_generated_model_is_the_one_that_would_be_uploaded() {
     assert_eq!((uploaded.status.as_u16(), uploaded.text("/id").as_str()), (200, model));
     assert_eq!(uploaded.body["size_bytes"], detail["size_bytes"]);
 
-    // Another generation of the same finds it there, and it serves like any other.
+    // Another generation of the same model finds it there, and it serves like any other.
     let again = api.finish(&generation_of(api, &coarse()).await).await;
     assert_eq!(again["model"], model);
     assert_eq!(files_in(&app.data().join("models")), [format!("{model}.zip")]);
@@ -132,7 +132,7 @@ async fn bad_parameters_are_refused_at_once() {
             "/units/length",
         ),
     ] {
-        // What a plan accepts can be made.
+        // A model whose plan is accepted can be made.
         for path in ["/v1/models", "/v1/models/plan"] {
             let answer = api.post(path, &parameters).await;
             assert_eq!(answer.pointers(422, kind), [pointer], "{path}: {}", answer.body);
@@ -169,7 +169,7 @@ async fn a_repeated_generation_gets_its_first_answer_again() {
 async fn a_cancelled_generation_leaves_nothing() {
     let app = TestApp::start().await;
     let api = &app.api;
-    // The default mesh: long enough to be caught in the middle.
+    // The default mesh takes long enough to be caught in the middle.
     let id = generation_of(api, &json!({})).await;
     api.follow(&id, |job| job["status"] == "running").await;
     assert_eq!(api.delete(&format!("/v1/jobs/{id}")).await.text("/status"), "dismissed");
@@ -185,7 +185,7 @@ async fn a_cancelled_generation_leaves_nothing() {
 async fn parameters_that_only_the_mesh_shows_to_be_impossible_are_refused() {
     let app = TestApp::start().await;
     let mut parameters = coarse();
-    // Blades thicker than the passage between them.
+    // The blades are thicker than the passage between them.
     parameters["root_thickness"] = json!(200.0);
     parameters["tip_thickness"] = json!(200.0);
     for path in ["/v1/models/plan", "/v1/models"] {

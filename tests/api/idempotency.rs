@@ -1,4 +1,4 @@
-//! A POST repeated with its key does nothing twice.
+//! Idempotency keys: a POST repeated with its key does nothing twice.
 
 use serde_json::Value;
 
@@ -18,7 +18,7 @@ async fn a_repeated_post_gets_its_first_answer_again() {
     let request = sweep_of(&model);
     let first = post(api, "one", &request).await;
     assert_eq!(first.status, 202, "{}", first.body);
-    // At once, and after the job has ended.
+    // The request is repeated at once, and after the job has ended.
     for _ in 0..2 {
         let again = post(api, "one", &request).await;
         assert_eq!(
@@ -34,7 +34,7 @@ async fn a_repeated_post_gets_its_first_answer_again() {
     assert_eq!(api.get("/v1/jobs").await.body["jobs"].as_array().unwrap().len(), 2);
     post(api, "", &request).await.problem(400, "invalid-parameter");
 
-    // Of a job that is deleted nobody is told again that it is accepted.
+    // A repeated request does not report a deleted job as accepted.
     assert_eq!(api.delete(&format!("/v1/jobs/{}", first.text("/id"))).await.status, 204);
     let anew = post(api, "one", &request).await;
     assert_eq!(anew.status, 202, "{}", anew.body);

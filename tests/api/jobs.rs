@@ -23,7 +23,7 @@ async fn a_cancelled_job_stops_and_keeps_its_finished_speeds() {
 
     let cancelled = api.delete(&format!("/v1/jobs/{id}")).await;
     assert_eq!((cancelled.status.as_u16(), cancelled.text("/status")), (200, "dismissed".to_owned()));
-    // As often as an answer is lost.
+    // A client cancels again whenever an answer is lost.
     let cancel = format!("/v1/jobs/{id}?cancel_only=true");
     for _ in 0..2 {
         assert_eq!(api.delete(&cancel).await.text("/status"), "dismissed");
@@ -38,7 +38,7 @@ async fn a_cancelled_job_stops_and_keeps_its_finished_speeds() {
     assert_eq!(api.get(&format!("/v1/jobs/{id}/spectra/0")).await.status, 200);
     api.get(&format!("/v1/jobs/{id}/spectra/199")).await.problem(404, "speed-not-found");
 
-    // Cancelled, it has ended, and is deleted as other jobs are that have.
+    // The cancelled job has ended, and is deleted as other jobs are that have.
     assert!(job["stored_bytes"].as_u64() > Some(0), "{job}");
     for id in [&id, &other] {
         assert_eq!(api.delete(&format!("/v1/jobs/{id}")).await.status, 204);

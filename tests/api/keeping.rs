@@ -42,13 +42,13 @@ async fn a_backup_of_a_running_service_is_whole() {
     let before = points(&program.api, &done).await;
     program.kill();
 
-    // Restored: what was finished is there, what was not goes on.
+    // The restored service has what was finished, and goes on with what was not.
     let program = Program::serve(&copy);
     assert_eq!(points(&program.api, &done).await, before);
     assert_eq!(program.api.job(&running).await.text("/status"), "running");
     program.terminate();
 
-    // Damage is found: a package with another content, and a result that does not read.
+    // The check finds damage: a package with another content, and a result that does not read.
     std::fs::copy(
         folder.path().join("data/models").join(format!("{model}.zip")),
         folder.path().join("whole"),
@@ -82,7 +82,7 @@ async fn a_backup_of_a_running_service_is_whole() {
     assert!(package.exists() && !copy.join("rubmap.sqlite").exists());
 }
 
-/// A sweep that records as much as it may.
+/// Request for a sweep that records as much as it may.
 pub(crate) fn wide_sweep_of(model: &str) -> Value {
     let mut request = sweep_of(model);
     request["speeds"] = json!({"values": [400.0, 500.0, 600.0, 700.0], "unit": "rad_s"});
@@ -106,12 +106,12 @@ async fn speeds_take_no_more_memory_than_there_is() {
     assert_eq!(job["status"], "failed", "{job}");
     assert_eq!(job["error"]["type"], "urn:rubmap:problem:out-of-memory", "{job}");
     assert_eq!(job["speeds"]["finished"], 0, "{job}");
-    // Others are not kept from theirs.
+    // Other jobs are not kept from their memory.
     assert_eq!(api.finish(&api.sweep(&sweep_of(&model)).await).await["status"], "successful");
     app.stop().await;
 }
 
-/// Bytes that the process ever held, from the kernel.
+/// Largest number of bytes that the process ever held, from the kernel.
 fn peak_bytes(program: &Program) -> u64 {
     let status = std::fs::read_to_string(format!("/proc/{}/status", program.id())).unwrap();
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:")).unwrap();
@@ -155,7 +155,7 @@ async fn large_speeds_and_downloads_stay_within_the_budget() {
     assert!(peak < BUDGET + (256 << 20), "{peak} bytes");
 }
 
-/// Browsers, and most clients in scripts, ask for compressed answers.
+/// Downloads compressed answers, which browsers and most clients in scripts ask for.
 #[tokio::test]
 async fn compressed_downloads_are_whole() {
     let app = TestApp::start().await;

@@ -1,4 +1,4 @@
-//! The real program, killed in the middle of its work.
+//! Kills of the real program in the middle of its work.
 
 use std::collections::BTreeMap;
 use std::io::Cursor;
@@ -73,7 +73,7 @@ async fn a_killed_chain_goes_on_where_it_was() {
     }
     program.kill();
 
-    // The same as undisturbed, but for the times.
+    // The results are the same as undisturbed, but for the times.
     let undisturbed = tempfile::tempdir().unwrap();
     let program = Program::serve(undisturbed.path());
     assert_eq!(program.api.model(model::package(1.0)).await, model);
@@ -89,17 +89,17 @@ async fn a_killed_chain_goes_on_where_it_was() {
     assert_eq!(timeless(points(&program.api, &id).await), timeless(after));
 }
 
-/// Accuracy of the reductions below: high enough that one can be caught in the middle.
+/// Modes per speed of the reductions below: so many that one can be caught in the middle.
 const MODES: u32 = 40;
 
-/// A modal analysis that needs a reduction of some seconds.
+/// Request for a modal analysis that needs a reduction of some seconds.
 fn analysis_of(model: &str) -> Value {
     let mut request = modal_analysis_of(model);
     request["modes_per_speed"] = MODES.into();
     request
 }
 
-/// The stored reduction, to the bit, without the time it took.
+/// Reads the stored reduction, to the bit, without the time it took.
 async fn reduction(data: &Path, model: &str) -> Vec<u8> {
     let store = Store::open(data).await.unwrap();
     let reduced = store.reduction(model, MODES).await.unwrap().unwrap();
@@ -133,7 +133,7 @@ async fn a_killed_reduction_continues_from_its_checkpoints() {
     let mut looks = 0;
     while !finished_parts().iter().any(|name| name.ends_with("-speed-0")) {
         looks += 1;
-        // Seldom: an answer may take longer than what is left of the reduction.
+        // It looks seldom: an answer may take longer than what is left of the reduction.
         if looks % 500 == 0 {
             let status = program.api.job(&id).await.text("/status");
             assert!(
@@ -151,7 +151,7 @@ async fn a_killed_reduction_continues_from_its_checkpoints() {
     let job = program.api.finish(&id).await;
     assert_eq!(job["status"], "successful", "{job}");
     for file in &before {
-        // <version>-<layout>-<part>
+        // The name is <version>-<layout>-<part>.
         let part = file.splitn(3, '-').nth(2).unwrap();
         assert!(program.said("continuing from a checkpoint", part), "{part} was not used");
         assert!(!program.said("kept a checkpoint", part), "{part} was computed again");

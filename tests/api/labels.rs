@@ -40,7 +40,7 @@ async fn a_job_is_called_what_its_owner_likes_and_computes_the_same() {
     assert_eq!(labels(&job), json!(["Clearance 0.3, “tight”", ["series B", "tight"], "two\nlines"]));
     assert_eq!(labels(&other), json!([null, [], null]));
 
-    // What was asked for, as it can be asked for again; the labels are no part of it, nor of what was computed.
+    // The request is as it was asked for and can be asked for again; the labels are no part of it, nor of what was computed.
     assert_eq!(job["request"], other["request"]);
     assert!(job["request"].get("name").is_none());
     let mut again = job["request"].clone();
@@ -174,7 +174,7 @@ async fn a_model_is_called_what_its_owner_likes() {
     assert!(changed.body["reductions"].is_array());
     assert_eq!(labels(&api.get("/v1/models?limit=1").await.body["models"][0]), labels(&changed.body));
 
-    // What is generated is called as its job is when it is made.
+    // A generated model has the labels that its job has when it is made.
     let mut request = coarse();
     request["name"] = json!("Generated");
     assert_eq!(api.post("/v1/models/plan", &request).await.status, 200);
@@ -251,7 +251,7 @@ async fn nobody_labels_what_is_not_theirs() {
             .unwrap()
             .is_empty()
     );
-    // The same content, called by each as he likes.
+    // Each owner gives the same content a name of their own.
     assert_ne!(send(&bob, Method::GET, &model, Value::Null).await.body["name"], "hers");
     send(&bob, Method::PATCH, &model, json!({"name": "his"})).await;
     assert_eq!(send(&alice, Method::GET, &model, Value::Null).await.body["name"], "hers");

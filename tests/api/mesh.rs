@@ -1,4 +1,4 @@
-//! The mesh of a model, before anything is computed of it.
+//! Mesh of a model, before anything is computed of it.
 
 use std::collections::HashMap;
 

@@ -1,4 +1,4 @@
-//! What operators see: numbers, readiness, versions.
+//! Metrics for operators: numbers, readiness, versions.
 
 use std::process::Command;
 
@@ -9,7 +9,7 @@ use sqlx::{ConnectOptions, Connection};
 use super::app::{Api, PATIENCE, TestApp, sweep_of};
 use super::model;
 
-/// All numbers, as Prometheus gets them.
+/// Reads all numbers, as Prometheus gets them.
 async fn scrape(api: &Api) -> String {
     let answer = api.request("GET", "/metrics").send().await.unwrap();
     assert_eq!(answer.status(), 200);
@@ -17,7 +17,7 @@ async fn scrape(api: &Api) -> String {
     answer.text().await.unwrap()
 }
 
-/// The number called `name`, labels included.
+/// Reads the number called `name`, labels included.
 pub(crate) async fn number(api: &Api, name: &str) -> f64 {
     find(&scrape(api).await, name)
 }

@@ -1,4 +1,4 @@
-//! A small wheel as a package: springs and masses, quick to reduce and to integrate.
+//! Small wheel as a package: springs and masses, quick to reduce and to integrate.
 
 use std::fmt::Write as _;
 use std::io::Write as _;
@@ -6,10 +6,10 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
-/// Sectors of the wheel.
+/// Number of sectors of the wheel.
 pub(crate) const SECTORS: u32 = 4;
 
-/// Nodes of a sector: low face, inner, two contact nodes, high face.
+/// Number of nodes of a sector: low face, inner, two contact nodes, high face.
 const NODES: usize = 5;
 const LOW: usize = 0;
 const INNER: usize = 1;
@@ -17,19 +17,18 @@ const LEADING: usize = 2;
 const TRAILING: usize = 3;
 const HIGH: usize = 4;
 
-/// The package. Every sector hangs on the ground by its inner node and on its neighbours by the faces; the springs
-/// pull alike in r, θ and z. `scale` multiplies the stiffness: another scale, another model.
+/// Package of the wheel. Every sector hangs on the ground by its inner node and on its neighbours by the faces; the
+/// springs pull alike in r, θ and z. `scale` multiplies the stiffness: another scale, another model.
 pub(crate) fn package(scale: f64) -> Vec<u8> {
     zip(&files(scale), 6)
 }
 
-/// The same content, zipped otherwise.
+/// Package of the wheel with the same content, zipped otherwise.
 pub(crate) fn package_stored(scale: f64) -> Vec<u8> {
     zip(&files(scale), 0)
 }
 
-/// The package with stiffness at three speeds through which no sound K(Ω) leads: a hundredth of that at rest at 500 rad/s, all of it
-/// at 1000.
+/// Package with stiffness at three speeds through which no sound K(Ω) leads: a hundredth of that at rest at 500 rad/s, all of it at 1000.
 pub(crate) fn deformed_package() -> Vec<u8> {
     let mut files = files(1.0);
     let mut manifest: Value = serde_json::from_str(&files[0].1).unwrap();
@@ -42,7 +41,7 @@ pub(crate) fn deformed_package() -> Vec<u8> {
     zip(&files, 6)
 }
 
-/// The package with `spoil` applied to its `sector.json`.
+/// Package with `spoil` applied to its `sector.json`.
 pub(crate) fn spoilt_package(spoil: impl FnOnce(&mut Value)) -> Vec<u8> {
     let mut files = files(1.0);
     let mut manifest = serde_json::from_str(&files[0].1).unwrap();
@@ -51,7 +50,7 @@ pub(crate) fn spoilt_package(spoil: impl FnOnce(&mut Value)) -> Vec<u8> {
     zip(&files, 6)
 }
 
-/// The package with a node 6 that has no DOF.
+/// Package with a node 6 that has no DOF.
 pub(crate) fn package_with_a_clamped_node() -> Vec<u8> {
     let mut files = files(1.0);
     files[1].1.push_str("6,41,38,0\n");
@@ -120,7 +119,7 @@ fn files(scale: f64) -> Vec<(&'static str, String)> {
     ]
 }
 
-/// One 3×3 multiple of the identity per pair of nodes, lower triangle.
+/// Matrix Market text of one 3×3 multiple of the identity per pair of nodes, lower triangle.
 fn matrix_market(by_node: &[[f64; NODES]; NODES]) -> String {
     let mut entries = Vec::new();
     for (row, values) in by_node.iter().enumerate() {

@@ -105,7 +105,7 @@ async fn bad_packages_name_file_and_field() {
     assert_eq!(items[0]["file"], "sector.json");
     assert!(items[0]["pointer"].as_str().unwrap().starts_with("/speeds_rad_s"), "{items:?}");
 
-    // Nothing of all that is kept.
+    // No file is left.
     assert_eq!(files_in(&app.data().join("models")), [""; 0]);
     app.stop().await;
 }
@@ -114,9 +114,9 @@ async fn bad_packages_name_file_and_field() {
 async fn uploads_over_the_limit_are_refused() {
     let app = TestApp::start_with(|config| config.upload_bytes = 1000).await;
     let api = &app.api;
-    // Declared beforehand.
+    // The length is declared beforehand.
     api.upload(vec![0; 1001]).await.problem(413, "payload-too-large");
-    // Found out on the way: a stream has no length.
+    // The length is found out on the way: a stream has none.
     let pieces = futures::stream::iter((0..20).map(|_| Ok::<_, std::io::Error>(vec![0_u8; 100])));
     let request = api
         .request("POST", "/v1/models")

@@ -1,12 +1,12 @@
-//! Reads numpy's files by what its documentation says of them, not by our own reader.
+//! Reader of numpy's files, written from its documentation and not from our own reader.
 
 use std::collections::BTreeMap;
 use std::io::{Cursor, Read};
 
-/// Arrays by their names.
+/// Arrays of a file by their names.
 pub(crate) struct Npz(BTreeMap<String, Array>);
 
-/// An array.
+/// Array of a file.
 #[derive(Debug)]
 pub(crate) struct Array {
     pub(crate) shape: Vec<usize>,

@@ -1,4 +1,4 @@
-//! The contract is a file, and the file is what the service does.
+//! Contract of the service: it is a file, and the service does what the file says.
 
 use super::app::TestApp;
 

@@ -1,4 +1,4 @@
-//! Who may do what: tokens, owners and their limits.
+//! Access of owners: tokens, scopes and limits.
 
 use reqwest::Method;
 use rubmap::app::{App, StartError};
@@ -10,7 +10,7 @@ use super::app::{Answer, Api, PATIENCE, TestApp, config, long_sweep_of, modal_an
 use super::generation::coarse;
 use super::model;
 
-/// A client with a token.
+/// Client with a token.
 struct Holder<'a> {
     api: &'a Api,
     token: String,
@@ -119,7 +119,7 @@ async fn what_belongs_to_one_owner_is_not_there_for_another() {
     reader.delete(&format!("/v1/jobs/{id}")).await.problem(403, "forbidden");
     assert_eq!(admin.get("/v1/jobs").await.body["jobs"].as_array().unwrap().len(), 1);
 
-    // The same content, uploaded by both, is there until both have deleted it.
+    // Content that both uploaded is there until both have deleted it.
     let theirs = bob.upload(model::package(1.0)).await;
     assert_eq!((theirs.status.as_u16(), theirs.text("/id")), (201, model.clone()));
     assert!(theirs.text("/created_at") > uploaded, "not when alice uploaded it");
@@ -227,7 +227,7 @@ async fn nobody_serves_the_world_by_accident() {
     drop(App::build(config).await.unwrap());
 }
 
-/// Who follows a job by a token that is taken out of the file hears no more of it.
+/// Streams end when their token is taken out of the file: a follower hears no more of the job.
 #[tokio::test]
 async fn a_withdrawn_token_ends_its_streams() {
     let folder = tempfile::tempdir().unwrap();

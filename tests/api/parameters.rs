@@ -1,4 +1,4 @@
-//! Parameters in query and path: what a route does not know is refused, and what is no text is not found.
+//! Parameters in query and path: a route refuses those it does not know, and answers "not found" where one is no text.
 
 use super::app::{Answer, TestApp};
 

@@ -11,7 +11,7 @@ use super::model;
 use super::run_ups::run_ups_of;
 use super::studies::study_of;
 
-/// Names of the effects that are on.
+/// Names of the effects of a plan that are on.
 fn effects_on(plan: &Value) -> Vec<&str> {
     let effects = plan["effects"].as_array().unwrap().iter();
     let on = effects.filter(|effect| effect["on"] == true);
@@ -64,7 +64,7 @@ async fn a_plan_starts_nothing_and_foretells_the_sweep() {
         assert!(time["free"].as_f64() > Some(0.0) && time["contact"].as_f64() >= time["free"].as_f64());
         assert!(point["memory_bytes"].as_u64() > Some(1000));
     }
-    // The results have what was planned beside what was spent.
+    // The results have the planned cost beside the cost that was spent.
     let critical = api.get(&format!("/v1/jobs/{id}/critical-speeds")).await.body;
     assert_eq!(map["plan"], critical["plan"]);
     assert_eq!(map["plan"]["steps"], plan["estimate"]["steps"]);
@@ -99,7 +99,7 @@ async fn what_cannot_be_is_refused_or_said() {
     assert_eq!((&plan["nodal_diameters"], effects_on(&plan)), (&json!(3), Vec::new()));
     assert!(plan["computing_time_s"].as_f64() > Some(0.0));
 
-    // What one speed only shows is said of that speed.
+    // A property of one speed only is reported for that speed.
     let mut request = sweep_of(&model);
     request["scene"]["initial"] = json!({"nodal_diameter": 0, "family": 1, "amplitude": 2.0});
     let plan = api.post("/v1/sweeps/plan", &request).await.body;
@@ -107,7 +107,7 @@ async fn what_cannot_be_is_refused_or_said() {
     app.stop().await;
 }
 
-/// `change` made to a sweep is refused at `pointer`, by the plan and by the job in the same words.
+/// Asserts that `change` made to a sweep is refused at `pointer`, by the plan and by the job in the same words.
 async fn refused_alike(api: &Api, model: &str, pointer: &str, change: impl Fn(&mut Value)) {
     let mut request = sweep_of(model);
     change(&mut request);
@@ -148,7 +148,7 @@ async fn a_plan_refuses_what_a_job_does() {
     refused_alike(api, &model, "/peak_prominence", |request| request["peak_prominence"] = 1.5.into()).await;
     assert_eq!(api.get("/v1/jobs").await.body["jobs"], json!([]), "nothing was queued");
 
-    // What only the reduction tells, at once when it is stored.
+    // The reduction alone tells this, at once when it is stored.
     let id = api.post("/v1/modal-analyses", &modal_analysis_of(&model)).await.text("/id");
     assert_eq!(api.finish(&id).await["status"], "successful");
     refused_alike(api, &model, "/integration/steps_per_revolution", |request| {
@@ -206,7 +206,7 @@ async fn every_kind_bounds_the_work_of_its_plan() {
     app.stop().await;
 }
 
-/// K(Ω) of a deformed geometry: whoever sees a number that rests on it sees what it is worth.
+/// Results that rest on K(Ω) of a deformed geometry report how far they can be trusted, wherever their numbers are shown.
 #[tokio::test]
 async fn unsound_stiffening_is_said_wherever_its_numbers_are() {
     let app = TestApp::start().await;

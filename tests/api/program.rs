@@ -1,4 +1,4 @@
-//! The real program as a child process.
+//! Real program as a child process.
 
 use std::io::{BufRead, BufReader};
 use std::path::Path;
@@ -12,7 +12,7 @@ use super::app::{Api, PATIENCE};
 pub(crate) struct Program {
     child: Child,
     pub(crate) api: Api,
-    /// What it has logged since it listens.
+    /// Lines that the process has logged since it listens.
     log: Arc<Mutex<Vec<String>>>,
 }
 
@@ -21,7 +21,7 @@ impl Program {
         Self::run(Command::new(env!("CARGO_BIN_EXE_rubmap")), data)
     }
 
-    /// By a command that runs the program with the arguments it gets.
+    /// Starts a service by a command that runs the program with the arguments it gets.
     pub(crate) fn run(mut command: Command, data: &Path) -> Self {
         command.args(["serve", "--workers", "2", "--data"]).arg(data);
         #[cfg(feature = "cluster")]
@@ -29,7 +29,7 @@ impl Program {
         Self::start(command)
     }
 
-    /// A command that says all but the address.
+    /// Starts a service by a command that has all arguments but the address.
     pub(crate) fn start(mut command: Command) -> Self {
         let mut child = command
             .args(["--addr", "127.0.0.1:0"])
@@ -60,7 +60,7 @@ impl Program {
         Self { child, api: Api::new(&base), log: lines }
     }
 
-    /// Whether it logged `message` about `part` of a reduction.
+    /// Whether the process logged `message` about `part` of a reduction.
     pub(crate) fn said(&self, message: &str, part: &str) -> bool {
         let part = format!("part=\"{part}\"");
         self.log.lock().unwrap().iter().any(|line| line.contains(message) && line.contains(&part))
@@ -77,7 +77,7 @@ impl Program {
         assert!(sent.success());
     }
 
-    /// SIGTERM: it ends well, and before anybody loses patience.
+    /// Ends the process by SIGTERM; asserts that it ends well, and before anybody loses patience.
     pub(crate) fn terminate(mut self) {
         self.signal("TERM");
         let begin = Instant::now();
@@ -91,7 +91,7 @@ impl Program {
         }
     }
 
-    /// SIGKILL: no handler runs, nothing is flushed.
+    /// Kills the process by SIGKILL: no handler runs, nothing is flushed.
     pub(crate) fn kill(mut self) {
         self.child.kill().unwrap();
         self.child.wait().unwrap();

@@ -7,10 +7,10 @@ use super::kill::points;
 use super::model;
 use super::program::Program;
 
-/// Speeds of the coarse sweep.
+/// Number of speeds of the coarse sweep.
 const COARSE: usize = 9;
 
-/// A sweep whose grid is too coarse for its peaks.
+/// Request for a sweep whose grid is too coarse for its peaks.
 fn coarse_sweep_of(model: &str) -> Value {
     let mut request = sweep_of(model);
     request["speeds"]["count"] = COARSE.into();
@@ -28,7 +28,7 @@ async fn table(api: &Api, id: &str, sensor: usize) -> Value {
     answer.body
 }
 
-/// Amplitudes and points, without the times.
+/// Amplitudes and points of a map, without the times.
 fn timeless(mut map: Value) -> (Value, Value) {
     for point in map["points"].as_array_mut().unwrap() {
         point["wall_time_s"] = Value::Null;
@@ -92,11 +92,11 @@ async fn every_peak_inside_the_range_ends_up_resolved() {
                 assert!(error >= closest && (error < 600.0 / 8.0 || peak["at_edge"] == true), "{peak}");
             }
         }
-        // Complete is what leaves no peak unresolved.
+        // A refinement is complete if it leaves no peak unresolved.
         assert_eq!(refinement["complete"], unresolved.is_empty());
         assert_eq!(refinement.get("unresolved").cloned().unwrap_or(json!([])), Value::from(unresolved));
 
-        // The same as asked for by name.
+        // The same speeds are asked for by name.
         let mut explicit = request.clone();
         explicit["speeds"] = json!({"values": speeds, "unit": "rad_s"});
         explicit["refine"] = false.into();
@@ -111,7 +111,7 @@ async fn every_peak_inside_the_range_ends_up_resolved() {
     assert_eq!(maps[0], maps[1], "the number of workers");
 }
 
-/// Where the responses about a peak are solved for it is a maximum on their branch, also by marches beside it.
+/// Peaks of responses that are solved for are maxima on their branch, also by marches beside it.
 #[tokio::test]
 async fn peaks_of_solved_responses_are_maxima_on_a_branch() {
     let app = TestApp::start().await;

@@ -1,4 +1,4 @@
-//! A job as one page.
+//! Report of a job as one page.
 
 use std::process::Command;
 
@@ -44,7 +44,7 @@ async fn a_report_has_what_was_asked_and_found() {
     let both = page(api, &format!("/v1/jobs/{sweep}/report?sensor=1")).await;
     assert_eq!(both.matches("<svg").count(), 4);
     assert!(both.contains(&format!("of modal analysis {modal}")));
-    // What the table of critical speeds says, it says.
+    // The report has what the table of critical speeds has.
     for sensor in 0..2 {
         let table = api.get(&format!("/v1/jobs/{sweep}/critical-speeds?sensor={sensor}")).await.body;
         for peak in table["critical_speeds"].as_array().unwrap() {
@@ -68,7 +68,7 @@ async fn a_report_has_what_was_asked_and_found() {
     app.stop().await;
 }
 
-/// In a thread of its own: the service runs in this one.
+/// Runs the program in a thread of its own: the service runs in this one.
 async fn program(arguments: Vec<String>, token: Option<String>) -> (bool, String) {
     tokio::task::spawn_blocking(move || {
         let mut command = Command::new(env!("CARGO_BIN_EXE_rubmap"));

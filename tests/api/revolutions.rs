@@ -1,11 +1,11 @@
-//! How long a march is where nothing is said of it: until its motion repeats.
+//! Length of a march where the request does not give it: until its motion repeats.
 
 use serde_json::{Value, json};
 
 use super::app::{Api, TestApp, sweep_of};
 use super::model;
 
-/// A sweep that says nothing of its revolutions, but for `integration`.
+/// Request for a sweep that says nothing of its revolutions, but for `integration`.
 fn sweep(model: &str, integration: Value) -> Value {
     let mut sweep = sweep_of(model);
     sweep["integration"] = integration;
@@ -54,7 +54,7 @@ async fn a_sweep_that_says_nothing_marches_until_it_repeats() {
         json!({"revolutions": "auto", "most_revolutions": 100, "settled_to": 1e-3, "window_revolutions": 20});
     assert_eq!(map(api, &sweep(&model, said)).await["amplitude"], found["amplitude"]);
 
-    // A number is what it was.
+    // A given number has its usual meaning.
     let numbered = map(api, &sweep(&model, json!({"revolutions": 50}))).await;
     for point in numbered["points"].as_array().unwrap() {
         let steps = 50 * point["steps_per_revolution"].as_u64().unwrap();
@@ -70,7 +70,7 @@ async fn a_march_is_as_long_as_what_is_recorded_of_it() {
     let model = api.model(model::package(1.0)).await;
     let usual = taken(&histories(api, &case(&model, json!({}))).await["point"]);
     assert!(usual < 50, "{usual}: a march that ends before what is recorded below");
-    // The first revolutions are there however early it ends, and later ones make it longer.
+    // The first revolutions are recorded however early the march ends, and later ones make it longer.
     for (record, least, most) in
         [([0, 10], usual, usual), ([0, 50], 50, 60), ([40, 50], 50, 60), ([90, 100], 100, 100)]
     {
@@ -123,7 +123,7 @@ async fn what_is_too_long_is_refused_where_the_length_is_said() {
     assert_eq!(items[0]["pointer"], "/record/revolutions");
     assert!(items[0]["detail"].as_str().unwrap().contains("integration.most_revolutions"), "{}", items[0]);
 
-    // Where the axis would be at the end of a march is not known unless its length is.
+    // The place of the axis at the end of a march is not known unless the length of the march is.
     let mut chain = sweep(&model, json!({}));
     chain["sweep"] = json!("up");
     chain["scene"]["orbit"] = json!({"radius": 0.02, "whirl_ratio": 0.5});
@@ -199,7 +199,7 @@ async fn what_nothing_damps_takes_all_revolutions_and_says_why() {
         let reason = point["march"]["reason"].as_str().unwrap_or_default();
         assert!(taken(point) == 30 && reason.contains("without damping"), "{point}");
     }
-    // What stands still repeats, whatever damps it.
+    // A wheel at rest repeats, whatever damps it.
     undamped["scene"]["casing"]["clearance"] = json!({"leading": 2.0, "trailing": 2.0});
     undamped["integration"] = json!({});
     for point in map(api, &undamped).await["points"].as_array().unwrap() {

@@ -1,4 +1,4 @@
-//! Run-ups: taken leg by leg, told as they come, found again after a kill; what is planned is what is spent.
+//! Run-ups: taken leg by leg, reported as they come, found again after a kill; they cost what was planned.
 
 use rubmap::impeller::ImpellerParameters;
 use serde_json::{Value, json};
@@ -9,7 +9,7 @@ use super::model;
 use super::program::Program;
 use super::stress::{impeller, package};
 
-/// The scene of [`sweep_of`], run up at two rates.
+/// Request for the scene of [`sweep_of`], run up at two rates.
 pub(super) fn run_ups_of(model: &str) -> Value {
     let sweep = sweep_of(model);
     json!({
@@ -31,7 +31,7 @@ async fn run_up(api: &Api, request: &Value) -> Value {
     found.body
 }
 
-/// Without what no second computation would repeat.
+/// Results without times, which no second computation would repeat.
 fn timeless(mut found: Value) -> Value {
     for run in found["runs"].as_array_mut().unwrap() {
         run["end"].as_object_mut().unwrap().remove("wall_time_s");
@@ -74,7 +74,7 @@ async fn run_ups_take_what_was_planned_and_are_told_in_all_forms() {
         }
         assert_eq!(end["scheme"]["name"], planned["scheme"]["name"]);
         steps += end["steps"].as_u64().unwrap();
-        // 300 rad/s for 0.05 s, then up to 500.
+        // The speed is 300 rad/s for 0.05 s, then rises to 500.
         let (rate, duration) =
             (run["rate_rad_s2"].as_f64().unwrap(), planned["duration_s"].as_f64().unwrap());
         assert!((duration - 0.05 - 200.0 / rate).abs() < 1e-12);
@@ -134,7 +134,7 @@ async fn run_ups_take_what_was_planned_and_are_told_in_all_forms() {
     app.stop().await;
 }
 
-/// Down through the same points as at a constant rate, one run: the same numbers.
+/// Run down through the same points as at a constant rate, in one run, it has the same numbers.
 #[tokio::test]
 async fn points_are_another_way_to_say_a_rate() {
     let app = TestApp::start().await;
@@ -207,7 +207,7 @@ async fn what_cannot_be_run_up_is_refused_at_its_field() {
     ] {
         refused(&|request| request[field] = value.clone(), &format!("/{field}")).await;
     }
-    // Hundreds of thousands of pieces.
+    // These runs have hundreds of thousands of pieces.
     refused(
         &|request| {
             request["speed"] = json!({"unit": "rad_s", "from": 1000.0, "to": 60_000.0, "rates": [2000.0]});
@@ -246,8 +246,8 @@ async fn what_cannot_be_run_up_is_refused_at_its_field() {
     app.stop().await;
 }
 
-/// What is found beside the reduction is not there when a plan is asked for: the growth of tips, and the Euler force. It alone
-/// moves an impeller that touches nothing; what is planned is what is spent.
+/// Run-ups have the Euler force of their elements, which alone moves an impeller that touches nothing. What lies beside the
+/// reduction (the growth of tips, the Euler force) is not there when a plan is asked for, and yet the cost is the planned one.
 #[tokio::test]
 async fn run_ups_have_the_euler_force_of_their_elements() {
     let app = TestApp::start().await;
@@ -295,7 +295,7 @@ async fn run_ups_have_the_euler_force_of_their_elements() {
     app.stop().await;
 }
 
-/// Killed between two legs, run-ups go on to the same bits.
+/// Run-ups that are killed between two legs go on to the same bits.
 #[tokio::test]
 async fn killed_run_ups_go_on_where_they_were() {
     let data = tempfile::tempdir().unwrap();

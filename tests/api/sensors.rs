@@ -1,4 +1,4 @@
-//! Sensors at any node: how they are named, what is refused, and the files that their rows are read from.
+//! Sensors at any node: their names, refusals, and the files that their rows are read from.
 
 use std::path::Path;
 
@@ -11,7 +11,7 @@ use super::model::{self, files_in};
 /// Bytes before the rows of a basis.
 const HEADER: usize = 88;
 
-/// A short sweep with `sensors`.
+/// Request for a short sweep with `sensors`.
 fn sweep_with(model: &str, sensors: Value) -> Value {
     let mut request = sweep_of(model);
     request["speeds"]["count"] = 2.into();
@@ -19,7 +19,7 @@ fn sweep_with(model: &str, sensors: Value) -> Value {
     request
 }
 
-/// Levels of all sensors at all speeds of a sweep, once it is finished.
+/// Runs a sweep; returns the levels of all sensors at all its speeds.
 async fn levels(api: &Api, request: &Value) -> Vec<Vec<f64>> {
     let id = api.sweep(request).await;
     let job = api.finish(&id).await;
@@ -33,7 +33,7 @@ async fn levels(api: &Api, request: &Value) -> Vec<Vec<f64>> {
     points.map(levels).collect()
 }
 
-/// The files of the only basis.
+/// Files of the only basis.
 fn basis(data: &Path) -> Vec<std::path::PathBuf> {
     let root = data.join("bases");
     let [folder] = &files_in(&root)[..] else { panic!("{:?}", files_in(&root)) };
@@ -109,7 +109,7 @@ async fn nodes_points_and_directions_are_sensors() {
         &model,
         json!([
             {"contact_node": 1, "sector": 2, "component": "radial"},
-            // The same by its number.
+            // This names the same sensor by its number.
             {"node": 4, "sector": 2, "component": "radial"},
             {"nearest": [40.0, 38.0, 0.0], "component": "tangential"},
             {"node": 5, "sector": 3, "direction": [3.0, 0.0, 4.0]},
@@ -129,7 +129,7 @@ async fn nodes_points_and_directions_are_sensors() {
     let settled = &plan["settings"]["sensors"];
     assert_eq!(settled[0], request["sensors"][0], "a contact node is written as ever");
     assert_eq!(settled[2], json!({"node": 2, "sector": 0, "component": "tangential"}));
-    // Four nodes with three DOF; two contact nodes and three modes; nodal diameters 0 to 2.
+    // Each of the four nodes has three DOF; there are two contact nodes and three modes, and nodal diameters 0 to 2.
     assert_eq!(plan["basis_bytes_at_most"], 12 * 9 * 16 * 3);
 
     let id = api.sweep(&request).await;
@@ -212,7 +212,7 @@ async fn a_basis_that_is_lost_is_computed_again() {
     let data = tempfile::tempdir().unwrap();
     let mut request = Value::Null;
     let (mut first, mut written) = (None, None);
-    // As it is left; lost; damaged in a row, in the header; cut short; another's.
+    // The file stays as it is; is lost; is damaged in a row, in the header; is cut short; is another's.
     for spoil in 0..6 {
         let app = TestApp::start_on(data.path()).await;
         let api = &app.api;
@@ -244,7 +244,7 @@ async fn a_basis_that_is_lost_is_computed_again() {
             std::fs::write(&files[1], bytes).unwrap();
         }
     }
-    // A place where none can be kept.
+    // No basis can be stored in this place.
     std::fs::remove_dir_all(data.path().join("bases")).unwrap();
     std::fs::write(data.path().join("bases"), "").unwrap();
     for _ in 0..2 {

@@ -1,12 +1,12 @@
-//! The same tests with tables and files on servers: `RUBMAP_TEST_DATABASE` is the address of PostgreSQL databases with `NAME` for their
-//! name, `RUBMAP_TEST_OBJECTS` that of object storage. Every data folder has a database and a prefix of its own there.
+//! Servers for the tests, which then have tables and files there: `RUBMAP_TEST_DATABASE` is the address of PostgreSQL databases with
+//! `NAME` for their name, `RUBMAP_TEST_OBJECTS` that of object storage. Every data folder has a database and a prefix of its own there.
 
 use std::path::Path;
 
 use rubmap::config::Config;
 use sqlx::{ConnectOptions, Executor};
 
-/// Names and values for the environment of a service with this data folder; none unless tests are to be made on servers.
+/// Names and values for the environment of a service with this data folder; `None` unless tests are to be made on servers.
 pub(crate) fn of(data: &Path) -> Option<[(&'static str, String); 2]> {
     let address = std::env::var("RUBMAP_TEST_DATABASE").ok()?;
     let objects = std::env::var("RUBMAP_TEST_OBJECTS").unwrap();
@@ -20,7 +20,7 @@ pub(crate) fn of(data: &Path) -> Option<[(&'static str, String); 2]> {
     ])
 }
 
-/// Sets the same.
+/// Sets the database and objects of a service to those of the servers.
 pub(crate) fn share(config: &mut Config) {
     if let Some([(_, database), (_, objects)]) = of(&config.data) {
         config.database = Some(database.parse().unwrap());
@@ -36,7 +36,7 @@ fn create(address: &str, name: &str) {
         let mut connection = options.connect().await?;
         connection.execute(sqlx::AssertSqlSafe(create)).await
     };
-    // Tests that run are none that may block.
+    // Asynchronous tests may not block, so it runs on a thread of its own.
     let created = std::thread::scope(|scope| {
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().unwrap();
         scope.spawn(move || runtime.block_on(created)).join().unwrap()

@@ -1,16 +1,16 @@
-//! A disk that can be filled.
+//! Disk that can be filled.
 
 use std::fs::File;
 use std::io::Write;
 use std::process::Command;
 
-/// A file system of its own in memory, gone with this.
+/// File system of its own in memory, unmounted when this is dropped.
 pub(crate) struct SmallDisk {
     folder: tempfile::TempDir,
 }
 
 impl SmallDisk {
-    /// `None` where nobody may mount one.
+    /// Mounts a disk; `None` where nobody may mount one.
     pub(crate) fn mount(mebibytes: u32) -> Option<Self> {
         let folder = tempfile::tempdir().unwrap();
         let size = format!("size={mebibytes}m");
@@ -23,12 +23,12 @@ impl SmallDisk {
         None
     }
 
-    /// Fills it to the last byte.
+    /// Fills the disk to the last byte.
     pub(crate) fn fill(&self) {
         self.fill_but(0);
     }
 
-    /// Fills it but for so much.
+    /// Fills the disk except for so many mebibytes.
     pub(crate) fn fill_but(&self, mebibytes: u64) {
         let mut ballast = File::create(self.ballast()).unwrap();
         while ballast.write_all(&[1; 4096]).is_ok() {}

@@ -13,7 +13,7 @@ fn steady_sweep(model: &str, how: &str) -> Value {
     sweep
 }
 
-/// What a march comes to.
+/// Points of a sweep that marches for so long that its responses settle.
 async fn settled(api: &Api, model: &str) -> Vec<Value> {
     let mut long = steady_sweep(model, "march");
     long["integration"]["revolutions"] = json!(400);
@@ -79,7 +79,7 @@ async fn errors_of_what_is_solved_for_have_no_settling_in_them() {
         [found("auto", 40).await, found("march", 600).await, found("march", 12).await];
     let (mut compared, mut settling) = (0, 0.0_f64);
     for (((point, solved), (marched, settled)), (_, short)) in solved.iter().zip(&settled).zip(&short) {
-        // What is not taken is marched, for no longer than the others.
+        // A response that is not taken is marched to, for no longer than the others.
         if [point, solved].iter().any(|run| run["steady"]["taken"] == false) {
             continue;
         }
@@ -232,7 +232,7 @@ async fn marches_end_once_they_repeat() {
     }
     assert!(repeating > 0, "{map}");
 
-    // What never touches is at rest, whatever shows that symmetries last.
+    // A wheel that never touches is at rest, whatever shows that symmetries last.
     let mut apart = sweep.clone();
     apart["scene"]["casing"]["clearance"] = json!({"leading": 2.0, "trailing": 2.0});
     for point in points(api, &apart).await {

@@ -15,7 +15,7 @@ pub(super) fn package(parameters: &ImpellerParameters) -> Vec<u8> {
     bytes.into_inner()
 }
 
-/// The generator's impeller with a coarse mesh.
+/// Parameters of the generator's impeller with a coarse mesh.
 pub(super) fn impeller() -> ImpellerParameters {
     let mut given = serde_json::to_value(ImpellerParameters::default()).unwrap();
     let wanted = coarse();
@@ -25,7 +25,7 @@ pub(super) fn impeller() -> ImpellerParameters {
     serde_json::from_value(given).unwrap()
 }
 
-/// A generated impeller rubs at two speeds.
+/// Request for a sweep in which a generated impeller rubs at two speeds.
 fn rubbing(model: &str, stress: Option<Value>) -> Value {
     let mut request = sweep_of(model);
     request["speeds"] = json!({"from": 1200.0, "to": 1500.0, "count": 2, "unit": "rad_s"});
@@ -79,7 +79,7 @@ async fn a_sweep_tells_stress_margin_and_validity() {
         {
             assert!(names.contains(&name), "{validity}");
         }
-        // The tip of the generator's blade is so thick, and thicker just below it.
+        // The tip of the generator's blade has this thickness, and more just below it.
         let of = |name: &str| {
             checks.iter().find(|check| check["what"] == name).unwrap()["value"].as_f64().unwrap()
         };
@@ -88,16 +88,16 @@ async fn a_sweep_tells_stress_margin_and_validity() {
     let thickness = api.get(&format!("/v1/models/{model}")).await.body["mesh"]["tip_thickness"].clone();
     let thickness = thickness.as_f64().unwrap();
     let [tip, root] = [parameters.tip_thickness, parameters.root_thickness];
-    // To the facets of a coarse mesh.
+    // The thickness is found to the facets of a coarse mesh.
     assert!(thickness > 0.8 * tip && thickness < 0.5 * (tip + root), "{thickness} {tip} {root}");
 
-    // Nothing else of the sweep knows of it, and validity needs none of it.
+    // No other number of the sweep depends on stress, and validity needs none of it.
     let without = points(api, &rubbing(&model, None)).await;
     for (with, without) in found.iter().zip(&without) {
         assert_eq!(with["responses"], without["responses"]);
         assert!(without.get("stress").is_none() && without["validity"]["verdict"].is_string());
     }
-    // The same numbers from the files, from another radius fewer places.
+    // The files give the same numbers, and from another radius fewer places.
     let bases = folder.path().join("bases");
     let names = files_in(&bases.join(&files_in(&bases)[0]));
     assert!(names.iter().any(|name| name.contains("stress-")), "{names:?}");
@@ -183,7 +183,7 @@ async fn stress_has_errors_of_its_own_in_targets_and_studies() {
     app.stop().await;
 }
 
-/// Critical speeds by utilisation, and the column of a map's csv.
+/// Ranks critical speeds by utilisation on request; a map's csv has it as a column.
 #[tokio::test]
 async fn critical_speeds_are_ranked_by_utilisation_on_request() {
     let app = TestApp::start().await;

@@ -54,7 +54,7 @@ async fn a_study_tells_errors_and_times_of_every_setting() {
         assert_eq!(runs.len(), 2 * 2 * 3);
         let reference = &speed["reference"];
         assert_eq!((&reference["scheme"], &reference["modes_per_speed"]), (&json!("exact_modal"), &json!(4)));
-        // Samples: at least 512, a multiple of four sectors and two lobes.
+        // There are at least 512 samples, a multiple of four sectors and two lobes.
         assert_eq!(reference["steps_per_revolution"], 5120);
         assert!(speed["sensitivity"]["growth"].is_string() && speed["message"].is_string());
         for run in runs {

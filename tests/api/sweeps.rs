@@ -1,4 +1,4 @@
-//! The main job: upload, sweep, poll, results.
+//! Sweeps, the main job: upload, sweep, poll, results.
 
 use serde_json::{Value, json};
 
@@ -102,7 +102,7 @@ async fn the_number_of_workers_changes_no_bit() {
     assert_eq!(all[0], all[1]);
 }
 
-/// Spectra of all speeds. JSON carries every number exactly.
+/// Spectra of all speeds of a sweep. JSON carries every number exactly.
 async fn spectra(api: &Api, id: &str, speeds: u32) -> Vec<Value> {
     let mut all = Vec::new();
     for speed in 0..speeds {
@@ -127,7 +127,7 @@ async fn what_only_the_reduced_model_can_tell_fails_the_job_with_a_pointer() {
     assert_eq!(job["error"]["type"], "urn:rubmap:problem:invalid-request");
     assert_eq!(job["error"]["errors"][0]["pointer"], "/integration/steps_per_revolution");
     assert_eq!(job["speeds"]["finished"], 0, "nothing runs before the check");
-    // Now that the reduction is stored, the same is said at once.
+    // Now that the reduction is stored, the same refusal comes at once.
     let again = api.post("/v1/sweeps", &request).await.problem(422, "invalid-request");
     assert_eq!(Value::from(again), job["error"]["errors"]);
     api.get(&format!("/v1/jobs/{id}/critical-speeds")).await.problem(409, "result-unavailable");
@@ -135,7 +135,7 @@ async fn what_only_the_reduced_model_can_tell_fails_the_job_with_a_pointer() {
     app.stop().await;
 }
 
-/// Speeds that all fail by themselves are no result.
+/// A sweep whose speeds all fail by themselves has failed: they are no result.
 #[tokio::test]
 async fn a_sweep_without_a_completed_speed_has_failed() {
     let app = TestApp::start().await;
@@ -150,7 +150,7 @@ async fn a_sweep_without_a_completed_speed_has_failed() {
     let detail = job["error"]["detail"].as_str().unwrap();
     assert!(detail.starts_with("none of the 6 speeds was completed: 0 diverged, 6 could not"), "{detail}");
     assert!(detail.contains("at 300.000000 rad/s nodal diameter 0 of the reduced wheel has"), "{detail}");
-    // What is finished stays readable; what is said of all speeds together is not there, and says where to look.
+    // Finished speeds stay readable; results of all speeds together are not there, and the answer says where to look.
     let map = api.get(&format!("/v1/jobs/{id}/interaction-map")).await;
     assert_eq!((map.status.as_u16(), map.body["points"].as_array().unwrap().len()), (200, 6));
     let critical = api.get(&format!("/v1/jobs/{id}/critical-speeds")).await;
@@ -164,7 +164,7 @@ async fn the_reduction_is_computed_once() {
     let data = tempfile::tempdir().unwrap();
     let app = TestApp::start_on(data.path()).await;
     let model = app.api.model(model::package(1.0)).await;
-    // Two jobs at once share it, and so does a third after a restart.
+    // Two jobs at once share a reduction, and so does a third after a restart.
     let first = app.api.post("/v1/modal-analyses", &modal_analysis_of(&model)).await.text("/id");
     let second = app.api.post("/v1/modal-analyses", &modal_analysis_of(&model)).await.text("/id");
     let mut reductions = Vec::new();
@@ -181,7 +181,7 @@ async fn the_reduction_is_computed_once() {
     assert!(reductions[0]["wall_time_s"].as_f64().unwrap() > 0.0);
     assert_eq!(reductions[0], reductions[1]);
     assert_eq!(reductions[0], reductions[2]);
-    // The model and the job say what was found about the stiffness, in words.
+    // The model and the job say in words what was found about the stiffness.
     let job = app.api.job(&third).await;
     assert_eq!(job.body["reduction"], reductions[0]);
     let detail = app.api.get(&format!("/v1/models/{model}")).await;

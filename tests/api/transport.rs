@@ -13,10 +13,10 @@ use super::app::{Answer, PATIENCE, TestApp, sweep_of};
 use super::model;
 use super::program::Program;
 
-/// Longer than any test: what happens all the same does not happen because of this limit.
+/// Limit in seconds that no test reaches: what happens all the same does not happen because of it.
 const NEVER: u64 = 3600;
 
-/// A request of which the end never comes.
+/// Request of which the end never comes.
 const HALF_A_HEAD: &str = "GET /healthz HTTP/1.1\r\nHost: local";
 const TOO_LONG_A_BODY: &str = "POST /v1/sweeps HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: 3000000\r\nConnection: close\r\n\r\n{";
 const HALF_A_BODY: &str = "POST /v1/sweeps HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: 100\r\n\r\n{";
@@ -35,7 +35,7 @@ async fn app(change: impl FnOnce(&mut TransportConfig)) -> TestApp {
     .await
 }
 
-/// A client that says `text` and leaves its connection open.
+/// Opens a connection, sends `text` and leaves the connection open.
 async fn say(base: &str, text: &str) -> TcpStream {
     let address = base.strip_prefix("http://").unwrap();
     let mut stream = TcpStream::connect(address).await.unwrap();
@@ -43,7 +43,7 @@ async fn say(base: &str, text: &str) -> TcpStream {
     stream
 }
 
-/// What comes until the service closes the connection.
+/// Reads until the service closes the connection.
 async fn hear(mut stream: TcpStream) -> String {
     let mut heard = Vec::new();
     // A reset is an end as well.
@@ -51,14 +51,14 @@ async fn hear(mut stream: TcpStream) -> String {
     String::from_utf8_lossy(&heard).into_owned()
 }
 
-/// The status and the problem in an answer.
+/// Status and problem of an answer.
 fn problem(answer: &str) -> (u16, Value) {
     let status = answer.split(' ').nth(1).unwrap_or_else(|| panic!("{answer:?}")).parse().unwrap();
     let body = answer.split_once("\r\n\r\n").unwrap().1;
     (status, serde_json::from_str(body).unwrap())
 }
 
-/// One of the numbers at `/metrics`.
+/// Reads one of the numbers at `/metrics`.
 async fn number(app: &TestApp, name: &str) -> f64 {
     super::metrics::number(&app.api, name).await
 }
@@ -79,7 +79,7 @@ async fn clients_that_send_half_a_request_shut_nobody_out() {
     app.stop().await;
 }
 
-/// With 300 open files and 400 lazy clients, uploads and jobs once found no file to open.
+/// Lazy clients (400, with 300 open files) leave files to uploads and jobs, which once found none to open.
 #[tokio::test]
 async fn lazy_clients_leave_files_to_jobs() {
     let data = tempfile::tempdir().unwrap();
@@ -118,7 +118,7 @@ async fn heads_rests_and_bodies_have_their_limits() {
     limited.stop().await;
 }
 
-/// It was waited for, to be refused all the same.
+/// Bodies that declare too great a length are refused at once; once they were waited for, and refused all the same.
 #[tokio::test]
 async fn a_body_that_says_it_is_too_long_is_not_waited_for() {
     let app = app(|_| {}).await;
@@ -150,7 +150,7 @@ async fn a_trickle_is_no_progress() {
 async fn a_client_that_does_not_take_its_answers_is_left() {
     let limited = app(|transport| transport.stall_seconds = 1).await;
     let request = "GET /openapi.json HTTP/1.1\r\nHost: localhost\r\n\r\n";
-    // More than the buffers between the two hold.
+    // The requests are more than the buffers between the two hold.
     let deaf = say(limited.api.base(), &request.repeat(500)).await;
     let left = async {
         while number(&limited, "rubmap_connections_overdue_answers_total").await == 0.0 {
@@ -255,7 +255,7 @@ async fn by_default_no_page_of_others_reads_an_answer() {
     let request = app.api.request("GET", "/healthz").header("origin", "https://tools.example");
     let answer = request.send().await.unwrap();
     assert!(answer.headers().keys().all(|name| !name.as_str().starts_with("access-control-allow")));
-    // Not even whether it may ask: OPTIONS is no method here.
+    // OPTIONS is no method here: a page does not even learn whether it may ask.
     let preflight = app
         .api
         .request("OPTIONS", "/v1/sweeps")
@@ -265,7 +265,7 @@ async fn by_default_no_page_of_others_reads_an_answer() {
     app.stop().await;
 }
 
-/// A page of another site may not pause, continue or delete jobs of a service without tokens, by requests that need no preflight.
+/// Requests from a page of another site, which need no preflight, may not pause, continue or delete jobs of a service without tokens.
 #[tokio::test]
 async fn pages_of_other_sites_change_nothing() {
     let app = app(|transport| transport.cors_origins = vec!["https://tools.example".parse().unwrap()]).await;

@@ -1,4 +1,4 @@
-//! VTK's files, read strictly.
+//! Strict reader of VTK's files.
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -6,7 +6,7 @@ use reqwest::StatusCode;
 
 use super::app::Api;
 
-/// The body of an answer.
+/// Downloads the body of an answer.
 pub(super) async fn raw(api: &Api, path: &str) -> Vec<u8> {
     let answer = api.request("GET", path).send().await.unwrap();
     let status = answer.status();
@@ -15,7 +15,7 @@ pub(super) async fn raw(api: &Api, path: &str) -> Vec<u8> {
     body
 }
 
-/// A VTK file, by what its documentation says of the format.
+/// VTK file, read by what the documentation of the format says.
 pub(super) struct Vtk {
     pub(super) text: String,
 }
@@ -74,7 +74,7 @@ impl Vtk {
         self.reals(name).as_chunks::<3>().0.to_vec()
     }
 
-    /// Points of every cell.
+    /// Indices of the points of every cell.
     pub(super) fn cells(&self) -> Vec<Vec<usize>> {
         let connectivity = self.whole("connectivity");
         let mut begin = 0;

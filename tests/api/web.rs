@@ -1,4 +1,4 @@
-//! The page in the browser, as it is served.
+//! Page in the browser, as it is served.
 
 use std::collections::BTreeMap;
 use std::io::Read;
@@ -9,7 +9,7 @@ use rubmap::tokens::{Scope, new_token};
 
 use super::app::{Api, TestApp};
 
-/// Address and content of our own files.
+/// Addresses of our own files with their content.
 fn own_files() -> BTreeMap<String, Vec<u8>> {
     fn add(folder: &Path, address: &str, files: &mut BTreeMap<String, Vec<u8>>) {
         for entry in std::fs::read_dir(folder).unwrap().map(Result::unwrap) {
@@ -26,7 +26,7 @@ fn own_files() -> BTreeMap<String, Vec<u8>> {
     files
 }
 
-/// An answer whole.
+/// Whole answer: status, headers and bytes.
 struct Whole {
     status: u16,
     headers: reqwest::header::HeaderMap,
@@ -45,7 +45,7 @@ impl Whole {
     }
 }
 
-/// Where the page says that Plotly's script is.
+/// Path at which the page says that Plotly's script is.
 async fn script_of(api: &Api) -> String {
     let index = Whole::of(api, "GET", "/", ("accept", "*/*")).await;
     let index = String::from_utf8(index.body).unwrap();
@@ -100,7 +100,7 @@ async fn plotly_s_script_is_sent_once_and_compressed() {
     assert!(gzipped.body.len() < 1_600_000, "{} bytes", gzipped.body.len());
     let plain = Whole::of(api, "GET", &address, ("accept-encoding", "identity")).await;
     assert!(plain.body.starts_with(b"/**\n* plotly.js v"));
-    // Of one script, not of the one behind it.
+    // It holds one script, not the one behind it.
     assert!(!plain.body.windows(8).any(|part| part == b"</script"));
     let mut unpacked = Vec::new();
     GzDecoder::new(&gzipped.body[..]).read_to_end(&mut unpacked).unwrap();

@@ -1,4 +1,4 @@
-//! What is asked of the service: a job of every kind, long enough to be disturbed.
+//! Catalogue of requests to the service: a job of every kind, long enough to be disturbed.
 
 use std::time::Duration;
 
@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use super::app::{Api, long_sweep_of, modal_analysis_of, sweep_of};
 use super::model;
 
-/// A kind of job.
+/// Kind of a job.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Kind {
     Sweep,
@@ -21,14 +21,14 @@ pub(crate) enum Kind {
 pub(crate) const KINDS: [Kind; 6] =
     [Kind::Sweep, Kind::Chain, Kind::Refined, Kind::ModalAnalysis, Kind::Study, Kind::Generation];
 
-/// Attempts at a request before it is left: the service may be down, full, locked.
+/// Number of attempts at a request before it is given up: the service may be down, full, locked.
 const ATTEMPTS: u32 = 3;
 
 /// Longest wait for an answer: the service may be stopped in the middle of it.
 const PATIENCE: Duration = Duration::from_secs(10);
 
 impl Kind {
-    /// Posts a job of this kind, with what it needs; its id, if it was accepted. The same key is used for every attempt.
+    /// Posts a job of this kind, with what it needs; returns its id, if it was accepted. The same key is used for every attempt.
     pub(crate) async fn post(self, api: &Api, key: &str) -> Option<String> {
         if self == Self::Generation {
             return id_of(api, "/v1/models", &json!({"sectors": 7}), key).await;
@@ -77,7 +77,7 @@ async fn id_of(api: &Api, path: &str, body: &Value, key: &str) -> Option<String>
     Some(answer["id"].as_str().unwrap().to_owned())
 }
 
-/// The model that all jobs but generations compute from.
+/// Uploads the model that all jobs but generations compute from.
 async fn upload(api: &Api) -> Option<String> {
     let package = model::package(1.0);
     let request =
@@ -86,7 +86,7 @@ async fn upload(api: &Api) -> Option<String> {
     Some(answer["id"].as_str().unwrap().to_owned())
 }
 
-/// Status and body of the first answer that is no refusal for the moment.
+/// Sends a request until an answer is no temporary refusal; returns its status and body.
 async fn attempt(request: impl Fn() -> reqwest::RequestBuilder) -> Option<(u16, Value)> {
     for _ in 0..ATTEMPTS {
         if let Ok(response) = request().timeout(PATIENCE).send().await {
@@ -109,7 +109,7 @@ async fn attempt(request: impl Fn() -> reqwest::RequestBuilder) -> Option<(u16, 
     None
 }
 
-/// What a successful job found, without times.
+/// Result of a successful job, without times.
 pub(crate) async fn result_of(api: &Api, kind: Kind, job: &Value) -> Value {
     let id = job["id"].as_str().unwrap();
     let get = async |path: &str| {
@@ -130,7 +130,7 @@ pub(crate) async fn result_of(api: &Api, kind: Kind, job: &Value) -> Value {
     }
 }
 
-/// Makes null what another run of the same would not repeat.
+/// Sets to null the fields that another run of the same job would not repeat.
 fn forget_times(value: &mut Value) {
     match value {
         Value::Object(fields) => {

@@ -1,4 +1,4 @@
-//! What happens to a service: each of it at a random moment, for a random time.
+//! Disturbances of a service: each of them at a random moment, for a random time.
 
 use std::io::Write;
 use std::net::TcpStream;
@@ -13,7 +13,7 @@ use super::program::Program;
 use super::random::Random;
 use super::small_disk::SmallDisk;
 
-/// How often each was done.
+/// Number of times that each disturbance was made.
 #[derive(Debug, Default)]
 pub(crate) struct Tally {
     pub(crate) kills: u32,
@@ -29,7 +29,7 @@ pub(crate) struct Tally {
 pub(crate) struct Disturbances<'a> {
     disk: Option<&'a SmallDisk>,
     data: PathBuf,
-    /// Connections that were begun and say nothing more.
+    /// Connections that were begun and send nothing more.
     slow: Vec<TcpStream>,
     pub(crate) tally: Tally,
 }
@@ -39,7 +39,7 @@ impl<'a> Disturbances<'a> {
         Self { disk, data: data.to_owned(), slow: Vec::new(), tally: Tally::default() }
     }
 
-    /// Does something to the service, or leaves it alone for a while; returns the one that runs afterwards.
+    /// Disturbs the service in one way, or leaves it alone for a while; returns the program that runs afterwards.
     pub(crate) async fn draw(&mut self, program: Program, random: &mut Random) -> Program {
         let milliseconds = async |random: &mut Random, most| {
             tokio::time::sleep(Duration::from_millis(random.below(most))).await;
@@ -66,7 +66,7 @@ impl<'a> Disturbances<'a> {
                 if let Some(disk) = self.disk {
                     disk.fill();
                     milliseconds(random, 4000).await;
-                    // As often as not it is killed on the full disk.
+                    // In half of the cases it is killed on the full disk.
                     let program = if random.below(2) == 0 {
                         program.kill();
                         self.tally.kills += 1;
@@ -109,7 +109,7 @@ impl<'a> Disturbances<'a> {
         program
     }
 
-    /// Leaves the service alone.
+    /// Ends the disturbances.
     pub(crate) fn end(&mut self) {
         self.slow.clear();
     }
@@ -118,7 +118,7 @@ impl<'a> Disturbances<'a> {
         Program::serve(&self.data)
     }
 
-    /// Another program keeps the database to itself.
+    /// Locks the database, as another program that keeps it to itself.
     async fn lock(&mut self, random: &mut Random) {
         let options = SqliteConnectOptions::new().filename(self.data.join("rubmap.sqlite"));
         let Ok(mut other) = options.busy_timeout(Duration::from_secs(2)).connect().await else { return };

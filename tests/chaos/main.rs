@@ -1,7 +1,7 @@
-//! Disturbances at random moments, against the real program: whatever it accepted ends, and ends as if nothing had happened.
+//! Chaos: disturbances at random moments, against the real program: every job that it accepted ends, and ends as if nothing had happened.
 //!
-//! `RUBMAP_CHAOS_SECONDS` (30) says how long it disturbs, `RUBMAP_CHAOS_SEED` (1) repeats what was drawn; what it meets then is
-//! a matter of time all the same.
+//! `RUBMAP_CHAOS_SECONDS` (30) is the time for which it disturbs, `RUBMAP_CHAOS_SEED` (1) repeats what was drawn; what it meets
+//! then is a matter of time all the same.
 
 #[path = "../api/app.rs"]
 #[expect(dead_code, reason = "shared with tests that need more of it")]
@@ -32,7 +32,7 @@ use self::program::Program;
 use self::random::Random;
 use self::small_disk::SmallDisk;
 
-/// Room for the data folder, where a file system of its own can be had: enough for all, if nobody fills it.
+/// Room for the data folder, in MiB, where a file system of its own can be had: enough for all, if nobody fills it.
 const DISK_MIB: u32 = 256;
 
 /// Longest wait for the last job once nothing disturbs any more.
@@ -77,7 +77,7 @@ async fn whatever_was_accepted_ends_as_if_nothing_had_happened() {
         assert_eq!(job["status"], "successful", "{kind:?}: {job}");
         assert_eq!(result_of(api, *kind, &job).await, undisturbed[kind], "{kind:?} {id}");
     }
-    // Those whose 202 the client never got have been accepted as well.
+    // Jobs whose 202 the client never got have been accepted as well.
     let mut path = Some("/v1/jobs?limit=500".to_owned());
     while let Some(page) = path {
         let page = api.get(&page).await.body;
@@ -103,7 +103,7 @@ async fn whatever_was_accepted_ends_as_if_nothing_had_happened() {
     assert!(accepted.len() > 1 && kills > 0);
 }
 
-/// The result of every kind of job, each run alone.
+/// Results of every kind of job, each run alone.
 async fn undisturbed_results() -> BTreeMap<Kind, Value> {
     let folder = tempfile::tempdir().unwrap();
     let program = Program::serve(folder.path());
@@ -129,7 +129,7 @@ async fn wait_for(api: &Api, id: &str, since: Instant) -> Value {
     }
 }
 
-/// Files that nobody will use.
+/// Paths of files that nobody will use.
 fn leftovers(data: &Path) -> Vec<PathBuf> {
     let mut found = Vec::new();
     for folder in ["computing", "checkpoints", "models"] {

@@ -1,6 +1,6 @@
 //! Random numbers that can be drawn again.
 
-/// SplitMix64 (Steele, Lea and Flood, 2014).
+/// Generator SplitMix64 (Steele, Lea and Flood, 2014).
 pub(crate) struct Random(u64);
 
 impl Random {
@@ -15,7 +15,7 @@ impl Random {
         z ^ (z >> 31)
     }
 
-    /// One of 0 … `bound` − 1.
+    /// Draws one of 0 … `bound` − 1.
     pub(crate) fn below(&mut self, bound: u64) -> u64 {
         self.next() % bound
     }

@@ -1,4 +1,4 @@
-//! `rubmap copy`: what a service found on one machine, a cluster has to the byte.
+//! `rubmap copy`: the results of a service on one machine are, to the byte, those of the cluster they are copied to.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::process::{Child, Command, Stdio};
@@ -27,7 +27,7 @@ async fn ended(api: &Api, path: &str, request: &Value) -> Value {
     api.finish(&answer.text("/id")).await
 }
 
-/// A job of every kind and end on one machine. The ids of those that have ended, and of one that has not.
+/// Computes a job of every kind and end on one machine. Returns the ids of those that have ended, and of one that has not.
 async fn compute(api: &Api) -> (Vec<String>, String) {
     let model = api.model(model::package(1.0)).await;
     let made = ended(api, "/v1/models", &coarse()).await;
@@ -69,13 +69,13 @@ async fn compute(api: &Api) -> (Vec<String>, String) {
     (jobs.iter().map(|job| job["id"].as_str().unwrap().to_owned()).collect(), unfinished)
 }
 
-/// Status and body of an answer.
+/// Reads an answer: its status and body.
 async fn bytes(api: &Api, path: &str) -> (u16, Vec<u8>) {
     let answer = api.request("GET", path).send().await.unwrap();
     (answer.status().as_u16(), answer.bytes().await.unwrap().to_vec())
 }
 
-/// All that can be read of models and of these jobs.
+/// Reads all that can be read of models and of these jobs.
 async fn read(api: &Api, jobs: &[String]) -> BTreeMap<String, (u16, Vec<u8>)> {
     let mut paths: BTreeSet<String> = BTreeSet::from(["/v1/models".to_owned()]);
     for model in api.get("/v1/models").await.body["models"].as_array().unwrap() {
@@ -97,7 +97,7 @@ async fn read(api: &Api, jobs: &[String]) -> BTreeMap<String, (u16, Vec<u8>)> {
     found
 }
 
-/// A cluster to be, and the folder that is copied there.
+/// Move of a folder to a cluster that is made of it.
 struct Move {
     folder: tempfile::TempDir,
     database: Postgres,
@@ -120,7 +120,7 @@ impl Move {
         command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap()
     }
 
-    /// What a copy says that ends well.
+    /// Copies the folder; returns the output of the copy, which must end well.
     fn copied(&self) -> String {
         let output = self.copy().wait_with_output().unwrap();
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
@@ -196,7 +196,7 @@ async fn a_copied_folder_is_read_to_the_byte_and_gone_on_with() {
     service.terminate();
 }
 
-/// Points of a sweep by index; each carries its wall time, which no second computation would repeat.
+/// Reads the points of a sweep by index; each carries its wall time, which no second computation would repeat.
 async fn points(api: &Api, id: &str) -> BTreeMap<u64, Value> {
     let map = api.get(&format!("/v1/jobs/{id}/interaction-map")).await.body;
     let points = map["points"].as_array().unwrap();

@@ -1,7 +1,7 @@
-//! One service and three workers, with clocks a minute apart, over one PostgreSQL and one S3 server: what they find is what one process finds, bit by bit,
-//! whatever happens to them on the way.
+//! Cluster of one service and three workers, with clocks a minute apart, over one PostgreSQL and one S3 server: its results are those of one process,
+//! bit by bit, whatever happens to them on the way.
 //!
-//! `RUBMAP_CHAOS_SECONDS` (30) says how long it disturbs, `RUBMAP_CHAOS_SEED` (1) repeats what was drawn.
+//! `RUBMAP_CHAOS_SECONDS` (30) is the time for which it disturbs, `RUBMAP_CHAOS_SEED` (1) repeats what was drawn.
 
 #[path = "../api/app.rs"]
 #[expect(dead_code, reason = "shared with tests that need more of it")]
@@ -37,7 +37,7 @@ use self::proxy::Proxy;
 use self::random::Random;
 use self::s3::S3;
 
-/// Workers beside the service.
+/// Number of workers beside the service.
 const WORKERS: usize = 3;
 
 /// Longest wait for the last job once nothing disturbs any more: that of a worker which hangs is taken from it after half a minute.
@@ -46,27 +46,27 @@ const LAST: Duration = Duration::from_secs(300);
 /// Time after which a worker that hangs goes on: by then others have its tasks.
 const HANGS: Duration = Duration::from_secs(45);
 
-/// Where Debian has what tells a program another time.
+/// Path of the library that tells a program another time, where Debian has it.
 const FAKETIME: &str = "/usr/lib/x86_64-linux-gnu/faketime/libfaketime.so.1";
 
-/// What the clocks of the workers are wrong by, in seconds.
+/// Errors of the clocks of the workers, in seconds.
 const CLOCKS: [&str; WORKERS] = ["+60", "-60", "+0"];
 
-/// The processes of a cluster, each with a folder of its own.
+/// Processes of a cluster, each with a folder of its own.
 struct Cluster {
     folder: tempfile::TempDir,
     database: Postgres,
     to_database: Proxy,
-    /// None where the objects are in a folder.
+    /// Object storage and the way to it; `None` where the objects are in a folder.
     storage: Option<(S3, Proxy)>,
     service: Option<Program>,
     workers: Vec<Option<Program>>,
-    /// The worker that hangs, and since when.
+    /// Worker that hangs, and since when.
     hangs: Option<(usize, Instant)>,
 }
 
 impl Cluster {
-    /// None where there is no PostgreSQL.
+    /// Starts a cluster; `None` where there is no PostgreSQL.
     fn start() -> Option<Self> {
         let database = Postgres::new()?;
         let to_database = Proxy::to(database.port);
@@ -126,7 +126,7 @@ impl Cluster {
         self.service.as_ref().unwrap().api.clone()
     }
 
-    /// Something that happens to one of them.
+    /// Disturbs one of the processes; returns what was done.
     fn disturb(&mut self, random: &mut Random) -> &'static str {
         self.wake();
         let k = match random.below(WORKERS as u64) as usize {
@@ -195,7 +195,7 @@ impl Cluster {
     }
 }
 
-/// The environment of who finds the bucket of the test by way of a port.
+/// Environment of a process that finds the bucket of the test by way of a port.
 fn storage_at(port: u16) -> [(&'static str, String); 6] {
     [
         ("RUBMAP_OBJECTS", format!("s3://{}/rubmap", S3::BUCKET)),
@@ -211,7 +211,7 @@ fn variable(name: &str, default: u64) -> u64 {
     std::env::var(name).ok().map_or(default, |value| value.parse().unwrap())
 }
 
-/// What one process finds that nobody disturbs.
+/// Results of one process that nobody disturbs.
 async fn found_by_one(folder: &Path) -> BTreeMap<Kind, Value> {
     let one = Program::serve(folder);
     let mut found = BTreeMap::new();

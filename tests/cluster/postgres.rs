@@ -1,4 +1,4 @@
-//! A PostgreSQL server of the test's own, which can be stopped and started again.
+//! PostgreSQL server of the test's own, which can be stopped and started again.
 
 use std::net::TcpListener;
 use std::os::unix::fs::{MetadataExt, chown};
@@ -6,23 +6,23 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
-/// Longest time until it takes connections.
+/// Longest time until the server takes connections.
 const START: Duration = Duration::from_secs(60);
 
-/// Who it runs as where the test is root's, which it refuses to be: nobody.
+/// Id of the user nobody, as whom the server runs where the test is root's: it refuses to be root.
 const NOBODY: u32 = 65_534;
 
-/// The server.
+/// PostgreSQL server of the test.
 pub(crate) struct Postgres {
     binaries: PathBuf,
     folder: tempfile::TempDir,
-    /// The port of this machine at which it listens.
+    /// Port of this machine at which the server listens.
     pub(crate) port: u16,
     process: Option<Child>,
 }
 
 impl Postgres {
-    /// A new server with an empty database; none, saying why, where PostgreSQL is not installed.
+    /// Makes a server with an empty database; `None`, after printing why, where PostgreSQL is not installed.
     pub(crate) fn new() -> Option<Self> {
         let Some(binaries) = binaries() else {
             eprintln!("skipped: PostgreSQL is not installed");
@@ -45,17 +45,17 @@ impl Postgres {
         Some(server)
     }
 
-    /// The address of its database, by way of a port.
+    /// Address of the server's database, by way of a port.
     pub(crate) fn url_by(&self, port: u16) -> String {
         format!("postgres://rubmap@127.0.0.1:{port}/postgres")
     }
 
-    /// The address of its database.
+    /// Address of the server's database.
     pub(crate) fn url(&self) -> String {
         self.url_by(self.port)
     }
 
-    /// Starts it, and waits until it takes connections.
+    /// Starts the server, and waits until it takes connections.
     pub(crate) fn start(&mut self) {
         let process = self
             .command("postgres")
@@ -89,7 +89,7 @@ impl Postgres {
         }
     }
 
-    /// Ends it as a crash would: what it has promised is in its log, and nobody is told.
+    /// Ends the server as a crash would: what it has promised is in its log, and nobody is told.
     pub(crate) fn crash(&mut self) {
         let Some(mut process) = self.process.take() else { return };
         let _ = Command::new("kill").args(["-QUIT", &process.id().to_string()]).status();
@@ -119,7 +119,7 @@ impl Drop for Postgres {
     }
 }
 
-/// Where its programs are: where Debian puts them, or on the path.
+/// Folder of PostgreSQL's programs: where Debian puts them, or on the path.
 fn binaries() -> Option<PathBuf> {
     let debian = std::fs::read_dir("/usr/lib/postgresql").into_iter().flatten().flatten();
     let mut folders: Vec<PathBuf> = debian.map(|version| version.path().join("bin")).collect();
@@ -131,7 +131,7 @@ fn has_server(folder: &Path) -> bool {
     folder.join("initdb").exists() && folder.join("postgres").exists()
 }
 
-/// A port of this machine that nobody listens at.
+/// Port of this machine that nobody listens at.
 pub(crate) fn free_port() -> u16 {
     TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap().port()
 }

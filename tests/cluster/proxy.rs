@@ -1,21 +1,21 @@
-//! A network that fails: it carries what two sides say, or keeps it, or cuts them off.
+//! Network that fails: it carries what two sides say, or keeps it, or cuts them off.
 
 use std::io::{Read, Write};
 use std::net::{Shutdown, SocketAddr, TcpListener, TcpStream};
 use std::sync::{Arc, Condvar, Mutex};
 use std::time::Duration;
 
-/// What it does with what it is given.
+/// Treatment of the bytes that the network is given.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Mood {
     Carries,
-    /// Nothing arrives, and nobody is told.
+    /// Keeps all bytes: nothing arrives, and nobody is told.
     Frozen,
-    /// All connections are closed, and new ones at once.
+    /// Closes all connections, and new ones at once.
     Cut,
 }
 
-/// A way to one server.
+/// Way to one server.
 pub(crate) struct Proxy {
     address: SocketAddr,
     state: Arc<State>,
@@ -28,7 +28,7 @@ struct State {
 }
 
 impl Proxy {
-    /// To the server on this port of this machine.
+    /// Makes a way to the server on this port of this machine.
     pub(crate) fn to(port: u16) -> Self {
         let listener = TcpListener::bind("127.0.0.1:0").unwrap();
         let address = listener.local_addr().unwrap();
@@ -59,14 +59,14 @@ impl Proxy {
         self.address.port()
     }
 
-    /// Nothing arrives for this long, and then all of it.
+    /// Keeps all bytes for this long, and then lets all of them arrive.
     pub(crate) fn freeze(&self, time: Duration) {
         self.state.set(Mood::Frozen);
         std::thread::sleep(time);
         self.state.set(Mood::Carries);
     }
 
-    /// For this long there is no way.
+    /// Cuts the way for this long.
     pub(crate) fn cut(&self, time: Duration) {
         self.state.set(Mood::Cut);
         for stream in self.state.open.lock().unwrap().drain(..) {

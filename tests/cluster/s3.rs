@@ -1,18 +1,18 @@
-//! An S3 of the test's own, by `moto_server`, which can be stopped and started again. It forgets all then.
+//! S3 server of the test's own, by `moto_server`, which can be stopped and started again. A start forgets all objects.
 
 use std::io::{Read, Write};
 use std::net::{TcpListener, TcpStream};
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
-/// Longest time until it takes connections.
+/// Longest time until the server takes connections.
 const START: Duration = Duration::from_secs(60);
 
-/// The server, with one bucket.
+/// S3 server with one bucket.
 pub(crate) struct S3 {
-    /// The port of this machine at which it listens.
+    /// Port of this machine at which the server listens.
     pub(crate) port: u16,
-    /// Whether it looks at keys, of which it knows none.
+    /// Whether the server looks at keys, of which it knows none.
     is_strict: bool,
     process: Option<Child>,
 }
@@ -21,12 +21,12 @@ impl S3 {
     /// Name of the bucket.
     pub(crate) const BUCKET: &str = "wheels";
 
-    /// A server that lets everybody in; none, saying why, where moto is not installed.
+    /// Makes a server that lets everybody in; `None`, after printing why, where moto is not installed.
     pub(crate) fn new() -> Option<Self> {
         Self::of(false)
     }
 
-    /// One that lets nobody in.
+    /// Makes a server that lets nobody in.
     pub(crate) fn strict() -> Option<Self> {
         Self::of(true)
     }
@@ -48,12 +48,12 @@ impl S3 {
         format!("http://127.0.0.1:{}", self.port)
     }
 
-    /// Starts it with an empty bucket, and waits until it answers.
+    /// Starts the server with an empty bucket, and waits until it answers.
     pub(crate) fn start(&mut self) {
         let mut command = Command::new("moto_server");
         command.args(["-H", "127.0.0.1", "-p", &self.port.to_string()]);
         if self.is_strict {
-            // All but the first request, which makes the bucket.
+            // This applies to all but the first request, which makes the bucket.
             command.env("INITIAL_NO_AUTH_ACTION_COUNT", "1");
         }
         self.process = Some(command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap());
@@ -72,14 +72,14 @@ impl S3 {
         assert!(answer.starts_with("HTTP/1.1 200"), "{answer}");
     }
 
-    /// Ends it as a crash would.
+    /// Ends the server as a crash would.
     pub(crate) fn crash(&mut self) {
         let Some(mut process) = self.process.take() else { return };
         let _ = process.kill();
         process.wait().unwrap();
     }
 
-    /// Lets it take no more, without a word to those who wait for it.
+    /// Stops the process, without a word to those who wait for it.
     pub(crate) fn freeze(&self) {
         let id = self.process.as_ref().unwrap().id().to_string();
         assert!(Command::new("kill").args(["-STOP", &id]).status().unwrap().success());

@@ -1,4 +1,4 @@
-//! The production code against the literal model: every effect alone, every pair, all together, by every scheme.
+//! Agreement of the production code with the literal model: every effect alone, every pair, all together, by every scheme.
 
 use rubmap::dynamics::contact::friction::sliding_directions;
 use rubmap::dynamics::schemes::Scheme;
@@ -6,10 +6,11 @@ use rubmap::dynamics::schemes::Scheme;
 use crate::literal::{Literal, Record};
 use crate::scene::{EFFECTS, Effect, Scene, Start, contact_nodes, difference, history, sliding};
 
-/// Over two revolutions of lightly damped contact round-off grows to some 1e-12 of the largest displacement.
+/// Largest relative difference that is accepted: over two revolutions of lightly damped contact round-off grows to some
+/// 1e-12 of the largest displacement.
 const AGREE: f64 = 1e-9;
 
-/// Runs both, compares everything that both know, and returns the difference of the histories.
+/// Runs both models, compares everything that both know, and returns the difference of the histories.
 pub(crate) fn agrees(scene: &Scene, name: &str) -> f64 {
     let run = scene.run();
     let found = history(&run);
@@ -45,7 +46,7 @@ pub(crate) fn agrees(scene: &Scene, name: &str) -> f64 {
     apart
 }
 
-/// Whether the record shows that an effect was at work.
+/// Asserts that the record shows that an effect was at work.
 fn assert_seen(effect: Effect, scene: &Scene) {
     let record = Literal::new(scene).run();
     assert!(record.impulse > 0.0, "no contact");
@@ -135,14 +136,14 @@ fn all_effects_together_agree() {
     }
 }
 
-/// Of so many sectors only those near a lobe are transformed.
+/// Wheels of many sectors agree, of which only the sectors near a lobe are transformed.
 #[test]
 fn wheels_of_many_sectors_agree() {
     let laws = [vec![], vec![Effect::Friction], vec![Effect::Coating], vec![Effect::Orbit], EFFECTS.to_vec()];
     for scheme in [Scheme::CentralDifferences, Scheme::ExactModal] {
         for effects in &laws {
             for (sectors, start) in [(17, Start::Rest), (20, Start::Travelling)] {
-                // What so many blades wear shows round-off that a second revolution has grown.
+                // Round-off in the wear by so many blades would grow in a second revolution.
                 let scene = Scene { scheme, revolutions: 1, ..Scene::rubbing(sectors, start).with(effects) };
                 let apart = agrees(&scene, &format!("{scheme:?} {effects:?} {sectors}"));
                 println!("{scheme:?} {effects:?}, {sectors} sectors: {apart:.1e}");
@@ -151,7 +152,7 @@ fn wheels_of_many_sectors_agree() {
     }
 }
 
-/// Without a casing there is another loop.
+/// Effects agree without a casing, where there is another loop.
 #[test]
 fn effects_without_a_casing_agree() {
     let free = [Effect::Mistuning, Effect::Excitation, Effect::Coriolis];
@@ -167,7 +168,7 @@ fn effects_without_a_casing_agree() {
     }
 }
 
-/// The exact propagator, the elastic casing included.
+/// Effects agree by the exact propagator, the elastic casing included.
 #[test]
 fn exact_modal_agrees() {
     let pairs = EFFECTS.iter().flat_map(|&a| EFFECTS.iter().map(move |&b| vec![a, b]));
@@ -179,7 +180,7 @@ fn exact_modal_agrees() {
     }
 }
 
-/// A boundary without mass; the casing is rigid there.
+/// Effects agree with a boundary without mass; the casing is rigid there.
 #[test]
 fn massless_boundary_agrees() {
     let rigid: Vec<_> = EFFECTS.into_iter().filter(|&e| e != Effect::FlexibleCasing).collect();
@@ -198,7 +199,7 @@ fn massless_boundary_agrees() {
     }
 }
 
-/// The directions that the scenes here are given are those that a request gets.
+/// Directions of sliding that the scenes here are given are those that a request gets.
 #[test]
 fn directions_of_sliding_agree() {
     let nodes = contact_nodes(4);
@@ -211,7 +212,7 @@ fn directions_of_sliding_agree() {
     }
 }
 
-/// Steps so long that some families stay tuned and some follow statically.
+/// Effects agree at steps so long that some families stay tuned and some follow statically.
 #[test]
 fn steps_that_hardly_resolve_the_modes_agree() {
     let effects = [Effect::Mistuning, Effect::Coriolis, Effect::Excitation, Effect::FlexibleCasing];
@@ -231,7 +232,7 @@ fn steps_that_hardly_resolve_the_modes_agree() {
     }
 }
 
-/// The same run twice gives the same bits.
+/// Runs repeat to the last bit.
 #[test]
 fn runs_repeat_to_the_last_bit() {
     let scene = Scene::rubbing(5, Start::Travelling).with(&EFFECTS);

@@ -1,4 +1,4 @@
-//! The literal model, and the production code beside it, against solutions that are known.
+//! Closed forms: the literal model, and the production code beside it, against solutions that are known.
 
 use std::f64::consts::TAU;
 
@@ -21,7 +21,7 @@ fn both(scene: &Scene) -> [Vec<Vec<f64>>; 2] {
     [history(&scene.run()).displacement.clone(), Literal::new(scene).run().displacement]
 }
 
-/// Errors of both against `solution(sensor, t)` fall fourfold when the step is halved.
+/// Asserts that errors of both models against `solution(sensor, t)` fall fourfold when the step is halved.
 fn second_order(scene: &Scene, solution: impl Fn(usize, f64) -> f64) {
     for scheme in SCHEMES {
         let error = |steps: usize| {
@@ -35,7 +35,7 @@ fn second_order(scene: &Scene, solution: impl Fn(usize, f64) -> f64) {
         let (coarse, fine) = (error(900), error(1800));
         for (coarse, fine) in coarse.into_iter().zip(fine) {
             assert!(coarse < 1e-2, "{scheme:?}: {coarse:e}");
-            // Round-off where the scheme is exact.
+            // The error is round-off where the scheme is exact.
             assert!(coarse < 1e-10 || (coarse / fine - 4.0).abs() < 0.1, "{scheme:?}: {coarse:e} {fine:e}");
         }
     }
@@ -49,7 +49,7 @@ fn mode(harmonic: usize, displacement: c64, velocity: c64) -> InitialMode {
     InitialMode { harmonic, family: 0, displacement, velocity }
 }
 
-/// m(ẍ − 2Ωẏ − Ω²x) + kx = 0, and y alike: ω = |ω0 ∓ Ω|, released at rest in the rotating frame.
+/// Rotating mass m(ẍ − 2Ωẏ − Ω²x) + kx = 0, and y alike: ω = |ω0 ∓ Ω|, released at rest in the rotating frame.
 #[test]
 fn a_rotating_mass_swings_as_seen_from_outside() {
     let omega0 = 3.3 * SPEED;
@@ -71,7 +71,7 @@ fn a_rotating_mass_swings_as_seen_from_outside() {
     });
 }
 
-/// g = jγ: forward and backward waves at −Ωγ/2 ± √((Ωγ/2)² + ω²), eigenvalues of [[0, ω], [−ω, −Ωg]].
+/// Coriolis forces with g = jγ: forward and backward waves at −Ωγ/2 ± √((Ωγ/2)² + ω²), eigenvalues of [[0, ω], [−ω, −Ωg]].
 #[test]
 fn coriolis_forces_split_travelling_waves() {
     let (omega, gamma) = (2.7 * SPEED, 0.8);
@@ -94,7 +94,7 @@ fn coriolis_forces_split_travelling_waves() {
         let alpha = TAU / sectors as f64;
         let weight = (2.0 / sectors as f64).sqrt();
         let moves = |z: c64, s: usize| weight * (z * c64::cis(alpha * s as f64)).re;
-        // Released at rest both waves swing, with the eigenvector's velocity one alone.
+        // Both waves swing if released at rest, one alone with the velocity of its eigenvector.
         let start = c64::new(0.3, 0.1);
         let standing = Scene::free(wheel.clone(), vec![mode(1, start, c64::ZERO)]);
         second_order(&standing, |s, t| {
@@ -107,7 +107,7 @@ fn coriolis_forces_split_travelling_waves() {
     }
 }
 
-/// Two sectors, δ and −δ: λ = (ω0² + ω1²)/2 ± √((ω1² − ω0²)²/4 + (ω0 ω1 δ)²).
+/// Mistuned pair of sectors with deviations δ and −δ: λ = (ω0² + ω1²)/2 ± √((ω1² − ω0²)²/4 + (ω0 ω1 δ)²).
 #[test]
 fn a_mistuned_pair_of_sectors_beats() {
     let (omega, delta) = ([2.9 * SPEED, 3.1 * SPEED], 0.12);
@@ -126,7 +126,7 @@ fn a_mistuned_pair_of_sectors_beats() {
     let spread = half.hypot(coupling);
     second_order(&scene, |s, t| {
         let (high, low) = ((mean + spread).sqrt(), (mean - spread).sqrt());
-        // e^{…} of the symmetric 2 × 2 matrix on (1, 0).
+        // This is e^{…} of the symmetric 2 × 2 matrix on (1, 0).
         let (a, b) = ((high * t).cos(), (low * t).cos());
         let z0 = 0.5 * (a + b) - 0.5 * half / spread * (a - b);
         let z1 = 0.5 * coupling / spread * (a - b);
@@ -134,7 +134,7 @@ fn a_mistuned_pair_of_sectors_beats() {
     });
 }
 
-/// The same deviation everywhere: every frequency times √(1 + δ).
+/// Common deviation δ of all sectors: every frequency times √(1 + δ).
 #[test]
 fn a_common_deviation_scales_all_frequencies() {
     let (omega, delta) = (2.9 * SPEED, 0.2);
@@ -157,7 +157,7 @@ fn a_common_deviation_scales_all_frequencies() {
     }
 }
 
-/// z = F/(ω² − w² + 2jζωw) e^{jwt} once the transient is gone.
+/// Driven oscillator: z = F/(ω² − w² + 2jζωw) e^{jwt} once the transient is gone.
 #[test]
 fn a_driven_oscillator_has_its_amplitude_and_phase() {
     let (omega, zeta, order, amplitude, phase) = (2.3 * SPEED, 0.3, 3, 4e5, 0.7);

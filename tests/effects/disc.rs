@@ -9,11 +9,11 @@ use crate::scene::{Effect, Scene, Start, difference, history};
 
 const SCHEMES: [Scheme; 2] = [Scheme::CentralDifferences, Scheme::ExactModal];
 
-/// All that a disc may be together with.
+/// Effects that a disc may be together with.
 const OTHERS: [Effect; 5] =
     [Effect::FlexibleCasing, Effect::Orbit, Effect::Mistuning, Effect::Excitation, Effect::Coriolis];
 
-/// Rubs by a disc, with tips that run at `share` of their speed: their radius is in nothing else.
+/// Scene that rubs by a disc, with tips that run at `share` of their speed: their radius is in nothing else.
 fn rubbing(sectors: usize, start: Start, share: f64) -> Scene {
     let mut scene = Scene { disc: true, revolutions: 1, ..Scene::rubbing(sectors, start) };
     // Three directions of two nodes, which have to be told apart where they stick.
@@ -38,7 +38,7 @@ fn a_disc_agrees_alone_and_with_every_effect() {
     }
 }
 
-/// Of so many sectors only those near a lobe are transformed.
+/// Discs on many sectors agree, of which only the sectors near a lobe are transformed.
 #[test]
 fn a_disc_on_many_sectors_agrees() {
     for scheme in SCHEMES {
@@ -50,7 +50,7 @@ fn a_disc_on_many_sectors_agrees() {
     }
 }
 
-/// Tips that run hardly faster than they vibrate, and one that hardly runs: they slide in all directions, turn, and stick.
+/// Slow tips, which run hardly faster than they vibrate, and one that hardly runs: they slide in all directions, turn, and stick.
 #[test]
 fn slow_tips_stick_and_slide_as_literally() {
     for scheme in SCHEMES {
@@ -63,7 +63,7 @@ fn slow_tips_stick_and_slide_as_literally() {
             scene.nodes[1].position[0] *= 0.01;
             if pressed {
                 let casing = scene.casing.as_mut().unwrap();
-                // A lobe as wide as the casing, which comes slowly.
+                // The lobe is as wide as the casing and comes slowly.
                 casing.restriction =
                     Some(Lobes { count: 1, amplitude: 0.4, width_rad: 4.0, phase_rad: 0.1 }.into());
                 casing.ramp_revolutions = 1.0;
@@ -73,15 +73,15 @@ fn slow_tips_stick_and_slide_as_literally() {
             let counted = scene.run().statistics.sticking;
             println!("{scheme:?} {sectors}: {apart:.1e}, stuck {} {counted}", record.sticking);
             stuck += record.sticking;
-            // Steps at whose friction one calls all, the other all but 1e-9.
+            // The counts may differ by steps where one model takes friction for all of its limit, the other for all but 1e-9.
             assert!(record.sticking.abs_diff(counted as usize) <= 2);
         }
         assert!(stuck > 300, "{scheme:?}: {stuck}");
     }
 }
 
-/// A wheel that turns backwards is, seen in a mirror, one that turns forwards: θ and z change sign, sectors are numbered backwards, and a
-/// wave e^{jisα} is its conjugate.
+/// Wheel that turns backwards: seen in a mirror, it turns forwards. θ and z change sign, sectors are numbered backwards, and a wave
+/// e^{jisα} is its conjugate.
 #[test]
 fn reversed_rotation_mirrors_the_response() {
     let sign = [1.0, -1.0, -1.0];
@@ -121,7 +121,7 @@ fn reversed_rotation_mirrors_the_response() {
     }
 }
 
-/// What the sliding law leaves out is seen where the tips are slow.
+/// Slow tips show what the sliding law leaves out.
 #[test]
 fn a_disc_is_not_sliding() {
     for share in [1.0, 0.1] {

@@ -1,4 +1,4 @@
-//! Scenes with effects through the door: what runs with what, what is refused by name, and what must agree.
+//! Scenes with effects through the door: which run together, which are refused by name, and which must agree.
 
 use rubmap::analysis::error::AnalysisError;
 use rubmap::analysis::monitor::Unwatched;
@@ -59,7 +59,7 @@ fn effects() -> Vec<(&'static str, Value)> {
     ]
 }
 
-/// A sweep over `speeds` with two lobes beyond the clearance and the fields of `scene`.
+/// Request for a sweep over `speeds` with two lobes beyond the clearance and the fields of `scene`.
 fn request(speeds: &[f64], scene: &[&Value], integration: Value) -> SweepRequest {
     let mut request = json!({
         "model": "test wheel", "modes_per_speed": 6, "max_engine_order": 8,
@@ -94,7 +94,7 @@ fn every_pair_of_effects_runs_or_is_refused_by_name() {
     for (i, (a, fields)) in effects.iter().enumerate() {
         for (b, others) in &effects[i..] {
             if (*a, *b) == ("exact", "probe") {
-                // One field.
+                // This pair shares one field.
                 continue;
             }
             match resolve_sweep(request(&[SPEED], &[fields, others], json!({})), &facts) {
@@ -125,7 +125,7 @@ fn every_pair_of_effects_runs_or_is_refused_by_name() {
     assert_eq!(refused, expected);
 }
 
-/// No effect is left behind on its way from the request to the simulation.
+/// Every effect changes the response: none is lost on its way from the request to the simulation.
 #[test]
 fn every_effect_changes_the_response() {
     let sector = sector();
@@ -134,14 +134,14 @@ fn every_effect_changes_the_response() {
         |scene: &[&Value]| run(&reduced, &sector, request(&[SPEED], scene, json!({}))).spectra.unwrap();
     let plain = spectra(&[]);
     for (name, fields) in effects() {
-        // One part of the wheel says what the whole says.
+        // One part of the wheel gives the results of the whole.
         if name != "exact" {
             assert!(spectra(&[&fields]) != plain, "{name}");
         }
     }
 }
 
-/// What repeats around the wheel is said by one part of it: the sub-wheel's spectra and credentials are the wheel's.
+/// Exact symmetry: one part of the wheel gives what repeats around it, so that the sub-wheel's spectra and credentials are the wheel's.
 #[test]
 fn exact_symmetry_says_what_the_whole_wheel_says() {
     let sector = sector();
@@ -187,7 +187,7 @@ fn exact_symmetry_says_what_the_whole_wheel_says() {
     }
 }
 
-/// A run cut in two at a whole revolution, the second half from the end of the first, is the run in one piece.
+/// Chain of speeds: a run cut in two at a whole revolution, the second half from the end of the first, is the run in one piece.
 #[test]
 fn a_chain_goes_on_where_its_neighbour_ended() {
     let sector = sector();
@@ -206,13 +206,13 @@ fn a_chain_goes_on_where_its_neighbour_ended() {
         let second = run_speed(&reduced, &chained, 1, Some(&state), &Unwatched).unwrap();
         assert_sound(&second, 0.8);
         let whole = run(&reduced, &sector, request(&[SPEED], &[&damping], integration(6)));
-        // Only what closes within the first step differs: a state says nothing of the contact that it is in.
+        // Only contact that closes within the first step differs: a state does not have the contact that it is in.
         let difference = spectral_difference(&whole, &second);
         assert!(difference < 1e-5, "{scheme}: {difference:e}");
     }
 }
 
-/// What begins anew at every speed cannot go on where the neighbour ended.
+/// Effects that begin anew at every speed cannot go on where the neighbour ended, so a chain with them is refused.
 #[test]
 fn a_chain_refuses_what_would_jump() {
     let sector = sector();
@@ -246,7 +246,7 @@ fn what_would_mean_something_else_is_refused_at_its_place() {
     }
 }
 
-/// A mode that would begin inside the casing is refused with the amplitude that fits.
+/// Initial mode that would begin inside the casing: refused with the amplitude that fits.
 #[test]
 fn an_initial_mode_stays_within_the_clearance() {
     let sector = sector();
@@ -261,8 +261,8 @@ fn an_initial_mode_stays_within_the_clearance() {
     assert!(start(0.999 * largest).message.is_none() && start(1.001 * largest).message.is_some());
 }
 
-/// Light damping lets a tiny asymmetry grow by the same rate whatever its size, heavy damping lets it decay (docs/method.md,
-/// Symmetry).
+/// Probe of symmetry: light damping lets a tiny asymmetry grow by the same rate whatever its size, heavy damping lets it
+/// decay (docs/method.md, Symmetry).
 #[test]
 fn a_probe_finds_whether_symmetry_breaks() {
     let sector = wheel(WheelRecipe::default());
@@ -282,8 +282,8 @@ fn a_probe_finds_whether_symmetry_breaks() {
     }
 }
 
-/// Too much friction for the geometry is refused before the job runs, with the coefficient that would pass: tips that a stiff
-/// strut lets move along one direction only, 60° backwards from outwards, dig in from tan 30° on.
+/// Wheel that jams: too much friction for the geometry is refused before the job runs, with the coefficient that would pass.
+/// Tips that a stiff strut lets move along one direction only, 60° backwards from outwards, dig in from tan 30° on.
 #[test]
 fn a_wheel_that_jams_is_refused_before_it_runs() {
     let recipe = WheelRecipe { sectors: 4, contact_nodes: 1, stiffening: false, ..WheelRecipe::default() };
@@ -314,12 +314,12 @@ fn a_wheel_that_jams_is_refused_before_it_runs() {
     }
 }
 
-/// A disc has no tangent and needs mass at its tips: `auto` keeps the mass, a periodic response that is asked for is marched to, and
-/// the result says so. How much sticks is told of a disc only.
+/// Disc of friction: it has no tangent and needs mass at its tips, so `auto` keeps the mass, a periodic response that is asked for
+/// is marched to, and the result says so. The share of sticking is reported for a disc only.
 #[test]
 fn a_disc_is_marched_with_mass_and_says_so() {
     let mut parts = sector().into_parts();
-    // A strut so stiff that no step resolves its mode.
+    // The strut is so stiff that no step resolves its mode.
     for stiffness in &mut parts.stiffness {
         let dof = parts.contact[0].dofs[2];
         *stiffness.own.get_mut(dof, dof).unwrap() += 1e11;

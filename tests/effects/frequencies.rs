@@ -24,7 +24,7 @@ fn free(sectors: usize, start: Start, effects: &[Effect]) -> Scene {
     scene
 }
 
-/// Sensors of u(t) = B x(t).
+/// Sensor values of u(t) = B x(t).
 fn read(scene: &Scene, b: &DMatrix<f64>, x: &DVector<f64>) -> Vec<f64> {
     let moved = b * x;
     let of = |sensor: &rubmap::dynamics::integrate::SensorRow| {
@@ -34,7 +34,7 @@ fn read(scene: &Scene, b: &DMatrix<f64>, x: &DVector<f64>) -> Vec<f64> {
     scene.sensors.iter().map(of).collect()
 }
 
-/// (x, ẋ) = exp([[0, 1], [−K, −C]] t) (x, ẋ)(0).
+/// Free vibration: (x, ẋ) = exp([[0, 1], [−K, −C]] t) (x, ẋ)(0).
 #[test]
 fn free_vibration_follows_the_matrix_exponential() {
     let effects = [Effect::Coriolis, Effect::Mistuning];
@@ -72,7 +72,7 @@ fn free_vibration_follows_the_matrix_exponential() {
     }
 }
 
-/// Σ over the engine orders of Re (K − w² + jwC)⁻¹ Bᵀ F e^{jwt}, the transient gone.
+/// Steady response: Σ over the engine orders of Re (K − w² + jwC)⁻¹ Bᵀ F e^{jwt}, the transient gone.
 #[test]
 fn the_steady_response_is_the_frequency_response() {
     const REVOLUTIONS: usize = 12;
@@ -125,7 +125,7 @@ fn the_steady_response_is_the_frequency_response() {
     }
 }
 
-/// An engine order k drives nodal diameter |k − N round(k/N)| and no other.
+/// Engine order k drives nodal diameter |k − N round(k/N)| and no other.
 #[test]
 fn an_engine_order_drives_its_alias_only() {
     for sectors in [5usize, 6] {
@@ -151,7 +151,7 @@ fn an_engine_order_drives_its_alias_only() {
     }
 }
 
-/// u_s(t) = a cos(isα ∓ ωt + …): forward towards +θ, with the amplitude that was asked for.
+/// Initial waves u_s(t) = a cos(isα ∓ ωt + …): forward towards +θ, with the amplitude that was asked for.
 #[test]
 fn initial_waves_travel_as_they_are_called() {
     let (sectors, harmonic, amplitude) = (5, 2, 0.3);
@@ -162,7 +162,7 @@ fn initial_waves_travel_as_they_are_called() {
         let start = InitialMode::of_amplitude(&wheel, harmonic, 0, amplitude, phase, wave);
         let mut scene = Scene { scheme: Scheme::ExactModal, ..Scene::free(wheel.clone(), vec![start]) };
         let shape = &wheel.harmonics[harmonic].contact;
-        // The component that moves most.
+        // This is the component that moves most.
         let norm = |d: usize| shape[(d, 0)].norm();
         let most = (0..3).max_by(|&a, &b| norm(a).total_cmp(&norm(b))).unwrap();
         for sensor in &mut scene.sensors {
@@ -181,7 +181,7 @@ fn initial_waves_travel_as_they_are_called() {
     }
 }
 
-/// A run that starts from the end of another goes on as that would have.
+/// Run that starts from the end of another: it goes on as that one would have.
 #[test]
 fn a_run_goes_on_from_its_end() {
     let effects = [Effect::Mistuning, Effect::Coriolis, Effect::Excitation];

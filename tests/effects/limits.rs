@@ -15,7 +15,7 @@ use crate::scene::{Effect, SPEED, Scene, Start, difference, history, set_gyrosco
 const SCHEMES: [Scheme; 3] =
     [Scheme::CentralDifferences, Scheme::ExactModal, Scheme::MasslessBoundary { kept_modes: 2 }];
 
-/// Rubs by `scheme`, with modes to leave out.
+/// Scene that rubs by `scheme`, with modes to leave out.
 fn rubbing(sectors: usize, scheme: Scheme) -> Scene {
     let mut scene = Scene::rubbing(sectors, Start::Travelling);
     scene.wheel = crate::scene::wheel(sectors, 2, 5);
@@ -29,7 +29,7 @@ fn apart(a: &Scene, b: &Scene) -> f64 {
     difference(&history(&a).displacement, &history(&b).displacement)
 }
 
-/// An effect of size zero runs in another loop than none, and differs by round-off.
+/// Effects of size zero: they run in another loop than the plain scene, and differ from it by round-off.
 #[test]
 fn effects_of_no_size_leave_the_plain_scene() {
     for scheme in SCHEMES {
@@ -60,7 +60,7 @@ fn effects_of_no_size_leave_the_plain_scene() {
     }
 }
 
-/// Of first order: half a revolution, in which differences do not grow by themselves.
+/// Asserts that the difference from `limit` is of first order in 1/size, over half a revolution, in which differences do not grow by themselves.
 fn first_order(limit: &Scene, scene: impl Fn(f64) -> Scene) {
     let error = |size: f64| apart(&scene(size), limit);
     let (coarse, fine) = (error(1e3), error(1e4));
@@ -84,7 +84,7 @@ fn a_heavy_casing_is_rigid() {
     }
 }
 
-/// At the surface of the coating, and all its work is elastic.
+/// Stiff coating: the casing is rigid at its surface, and all its work is elastic.
 #[test]
 fn a_stiff_coating_is_rigid() {
     for scheme in SCHEMES {
@@ -102,7 +102,7 @@ fn a_stiff_coating_is_rigid() {
     }
 }
 
-/// A synchronous whirl turns with the wheel: every node has the clearance that is left to it, for ever.
+/// Synchronous whirl: it turns with the wheel, so that every node has the clearance that is left to it, for ever.
 #[test]
 fn a_synchronous_whirl_is_another_clearance() {
     for scheme in SCHEMES {
@@ -120,7 +120,7 @@ fn a_synchronous_whirl_is_another_clearance() {
     }
 }
 
-/// Lobes, lobes one by one, a wave along the chord and a measured curve, which all repeat so often.
+/// Casing of lobes, lobes one by one, a wave along the chord and a measured curve, which all repeat so often.
 fn parts(repeats: u32) -> Vec<Part> {
     let turn = |l: u32| TAU * f64::from(l) / f64::from(repeats);
     let part = |profile| Part { profile, along_chord: None };
@@ -139,7 +139,7 @@ fn parts(repeats: u32) -> Vec<Part> {
     ]
 }
 
-/// What repeats around the wheel needs to be simulated but once, casings of all shapes, elastic ones and engine orders included.
+/// Part of a wheel that repeats: simulated once, it gives the whole wheel, with casings of all shapes, elastic ones and engine orders included.
 #[test]
 fn a_part_does_what_the_whole_wheel_does() {
     for scheme in SCHEMES {
@@ -176,7 +176,7 @@ fn a_part_does_what_the_whole_wheel_does() {
     }
 }
 
-/// Nodal diameters with different numbers of modes: what pads them to whole vectors must not move.
+/// Nodal diameters with different numbers of modes: the padding to whole vectors must not move.
 #[test]
 fn nodal_diameters_of_different_sizes_keep_to_themselves() {
     for scheme in [Scheme::CentralDifferences, Scheme::ExactModal] {

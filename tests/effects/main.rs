@@ -1,4 +1,4 @@
-//! The effects of a scene in time: held against a literal model of the same equations, alone, in pairs and all together,
+//! Effects of a scene in time: held against a literal model of the same equations, alone, in pairs and all together,
 //! against closed forms, and in the limits in which they vanish.
 
 mod agreement;

@@ -1,4 +1,4 @@
-//! A response that doubles its period within the symmetry of its scene (docs/method.md, Symmetry; the paper's area E): odd engine orders under
+//! Response that doubles its period within the symmetry of its scene (docs/method.md, Symmetry; the paper's area E): odd engine orders under
 //! two lobes, carried by even nodal diameters only, on the default impeller.
 //!
 //! Ten sectors see two lobes as five pairs of opposite blades. Where every second passage of a lobe is the stronger one, a
@@ -19,7 +19,7 @@ use crate::support::{assert_sound, reduced};
 const SECTORS: usize = 10;
 const WINDOW: usize = 20;
 
-/// `[nodal diameter][engine order]`, whole orders up to 12.
+/// Amplitudes as `[nodal diameter][engine order]`, whole orders up to 12.
 fn amplitudes(result: &SpeedResult) -> Vec<Vec<f64>> {
     let sensor = &result.spectra.as_ref().unwrap().sensors[0];
     let whole = |line: &Vec<f64>| line.iter().step_by(WINDOW).copied().collect();
@@ -59,7 +59,7 @@ fn odd_engine_orders_on_even_nodal_diameters() {
         assert_eq!(settling.verdict, Verdict::Periodic, "{rpm} rpm: {settling:?}");
         (settling.lobe_passages, amplitudes(&result))
     };
-    // Slower, the response repeats with every lobe.
+    // At the slower speed the response repeats with every lobe.
     let (passages, forced) = run(22_700.0, "exact");
     let largest = forced.iter().flatten().copied().fold(0.0, f64::max);
     assert_eq!(passages, Some(1));

@@ -1,4 +1,4 @@
-//! The production code against the literal model on scenes that nobody chose.
+//! Random scenes, which nobody chose: the production code against the literal model.
 
 use std::f64::consts::TAU;
 
@@ -39,8 +39,9 @@ impl Dice {
     }
 }
 
-/// One to five sectors of one to three contact nodes and two to three times as many modes, frequencies from 2 to 16 Ω;
-/// lengths of tenths of a millimetre, friction below what could jam so few modes, every effect in half of the scenes.
+/// Random scene: one to five sectors of one to three contact nodes and two to three times as many modes, frequencies
+/// from 2 to 16 Ω; lengths of tenths of a millimetre, friction below what could jam so few modes, every effect in half
+/// of the scenes.
 fn scene(seed: u64) -> Scene {
     let mut dice = Dice(Numbers::new(seed));
     let (sectors, nodes) = (1 + dice.below(5), 1 + dice.below(3));
@@ -122,7 +123,7 @@ fn scene(seed: u64) -> Scene {
         .collect();
     let mut seen = |sector| SensorRow { direction: dice.direction(nodes), sector };
     scene.sensors = vec![seen(0), seen(sectors - 1)];
-    // A second one would let some grow round-off to what they disagree by.
+    // A second revolution would let some scenes grow round-off to a disagreement.
     (scene.steps, scene.samples, scene.revolutions) = (960, 240, 1);
     scene.scheme = match dice.below(3) {
         0 => Scheme::CentralDifferences,
@@ -157,7 +158,7 @@ fn scene(seed: u64) -> Scene {
     scene
 }
 
-/// Single lobes, waves and a measured curve for every node, each in half of the scenes.
+/// Shapes of a casing: single lobes, waves and a measured curve for every node, each in half of the scenes.
 fn shapes(dice: &mut Dice, nodes: usize) -> Vec<Part> {
     let along =
         |dice: &mut Dice| dice.maybe(0.5, |dice| (0..nodes).map(|_| dice.between(-1.0, 1.0)).collect());

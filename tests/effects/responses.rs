@@ -1,4 +1,4 @@
-//! Contact with what moves or gives way, where it has a closed form.
+//! Contact with a casing that moves or gives way, where it has a closed form.
 
 use std::f64::consts::{PI, TAU};
 
@@ -14,7 +14,7 @@ use rubmap::dynamics::sector::ContactNode;
 
 use crate::scene::{SPEED, Scene, Start, history};
 
-/// One blade that moves radially, at (100, 0.3, 0), with one sensor there, undamped, from rest.
+/// Scene of one blade that moves radially, at (100, 0.3, 0), with one sensor there, undamped, from rest.
 fn blade(omega: Vec<f64>, shape: &[f64]) -> Scene {
     let contact = Mat::from_fn(3, omega.len(), |d, m| c64::new(if d == 0 { shape[m] } else { 0.0 }, 0.0));
     let modes = ModalHarmonic { harmonic: 0, single: true, omega, contact, gyroscopic: None };
@@ -95,7 +95,7 @@ fn a_blade_and_a_breathing_ring_vibrate_as_one() {
     assert!((-slope / expected - 1.0).abs() < 1e-8, "{} {expected}", -slope);
 }
 
-/// A blade pushed for good against waves cos 2φ and sin 2φ that it runs past. Seen from the blade, the deflection p at its
+/// Blade pushed for good against waves cos 2φ and sin 2φ that it runs past. Seen from the blade, the deflection p at its
 /// place and q a quarter wave off obey
 ///
 /// ```text

@@ -22,13 +22,13 @@ use rubmap::numerics::sector_fourier::is_single;
 
 use crate::fixtures::Numbers;
 
-/// Ω of all wheels, rad/s.
+/// Speed Ω of all wheels, rad/s.
 pub(crate) const SPEED: f64 = 1000.0;
 
-/// A modal mass, t: shapes are about 1/√m.
+/// Modal mass, t: shapes are about 1/√m.
 pub(crate) const MASS: f64 = 1e-5;
 
-/// Every effect of the time loop that can be combined.
+/// Effect of the time loop; all can be combined.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Effect {
     Friction,
@@ -52,7 +52,7 @@ pub(crate) const EFFECTS: [Effect; 8] = [
     Effect::Coriolis,
 ];
 
-/// An abradable coating.
+/// Abradable coating: its material, its thickness and its rods.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Abradable {
     pub(crate) material: CoatingMaterial,
@@ -60,7 +60,7 @@ pub(crate) struct Abradable {
     pub(crate) rods_around: usize,
 }
 
-/// How the wheel starts.
+/// Start of the wheel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Start {
     Rest,
@@ -68,14 +68,14 @@ pub(crate) enum Start {
     Travelling,
 }
 
-/// A wheel, what surrounds it, and how it is integrated.
+/// Scene: a wheel, what surrounds it, and how it is integrated.
 #[derive(Debug, Clone)]
 pub(crate) struct Scene {
     pub(crate) wheel: ModalWheel,
     pub(crate) nodes: Vec<ContactNode>,
     pub(crate) damping: Option<ModalDamping>,
     pub(crate) casing: Option<Casing>,
-    /// μ
+    /// Coefficient of friction μ.
     pub(crate) friction: Option<f64>,
     /// Whether tips may stick, and slide in any direction, instead of forwards.
     pub(crate) disc: bool,
@@ -93,7 +93,7 @@ pub(crate) struct Scene {
     pub(crate) revolutions: usize,
 }
 
-/// A wheel whose family m has the same real shape in every nodal diameter, of modal mass [`MASS`] at its largest, but for a
+/// Wheel whose family m has the same real shape in every nodal diameter, of modal mass [`MASS`] at its largest, but for a
 /// phase in every pair and a sign in every single one.
 pub(crate) fn wheel(sectors: usize, nodes: usize, families: usize) -> ModalWheel {
     let mut numbers = Numbers::new(17 + sectors as u64);
@@ -117,7 +117,7 @@ pub(crate) fn wheel(sectors: usize, nodes: usize, families: usize) -> ModalWheel
     ModalWheel { speed_rad_s: SPEED, sectors, repeats: 1, harmonics }
 }
 
-/// Random skew-Hermitian g, of about `size`.
+/// Sets a random skew-Hermitian g, of about `size`.
 pub(crate) fn set_gyroscopic(wheel: &mut ModalWheel, size: f64) {
     let mut numbers = Numbers::new(5);
     let mut centred = move || 2.0 * numbers.next() - 1.0;
@@ -151,7 +151,7 @@ pub(crate) fn contact_nodes(count: usize) -> Vec<ContactNode> {
     (0..count).map(node).collect()
 }
 
-/// t = (e_θ − n_θ n)/|…|, and n + μt.
+/// Direction n + μt of the force on a sliding node, with the tangent t = (e_θ − n_θ n)/|…|.
 pub(crate) fn sliding(node: &ContactNode, mu: f64) -> [f64; 3] {
     let n = node.normal;
     let t = [-n[1] * n[0], 1.0 - n[1] * n[1], -n[1] * n[2]];
@@ -160,7 +160,7 @@ pub(crate) fn sliding(node: &ContactNode, mu: f64) -> [f64; 3] {
 }
 
 impl Scene {
-    /// Two contact nodes and three modal families in two lobes that reach beyond the clearance, damped.
+    /// Scene of two contact nodes and three modal families in two lobes that reach beyond the clearance, damped.
     pub(crate) fn rubbing(sectors: usize, start: Start) -> Self {
         let wheel = wheel(sectors, 2, 3);
         let nodes = contact_nodes(2);
@@ -205,7 +205,7 @@ impl Scene {
         }
     }
 
-    /// One free motion without contact, recorded at every step.
+    /// Scene of one free motion without contact, recorded at every step.
     pub(crate) fn free(wheel: ModalWheel, initial: Vec<InitialMode>) -> Self {
         let sectors = wheel.sectors;
         let mut scene = Self::rubbing(sectors, Start::Rest);
@@ -284,7 +284,7 @@ impl Scene {
         TAU / (SPEED * self.steps as f64)
     }
 
-    /// What the production code makes of it.
+    /// Runs the scene by the production code.
     pub(crate) fn run(&self) -> Run {
         let direction = |(node, contact): (usize, &ContactNode)| Direction {
             node,
@@ -334,7 +334,7 @@ impl Scene {
     }
 }
 
-/// The history of a run that went to its end with balanced energy.
+/// History of a run that went to its end with balanced energy.
 pub(crate) fn history(run: &Run) -> &History {
     let residual = run.energy.residual();
     assert!(residual < 1e-9, "energy residual {residual:e}");

@@ -1,10 +1,10 @@
-//! Sweep requests as text: sound ones of every feature, with up to three of their parts replaced, doubled or taken out.
+//! Grammar of sweep requests as text: sound ones of every feature, with up to three of their parts replaced, doubled or taken out.
 
 use proptest::prelude::*;
 use proptest::sample::{Index, select};
 use serde_json::{Value, json};
 
-/// What stands for a part that is replaced: wrong types, numbers at and beyond every limit, text that is no JSON.
+/// Texts that stand for a part that is replaced: wrong types, numbers at and beyond every limit, text that is no JSON.
 const NASTY: [&str; 50] = [
     "null",
     "true",
@@ -58,18 +58,18 @@ const NASTY: [&str; 50] = [
     "1e999",
 ];
 
-/// What is done to a part.
+/// Change of a part of a request.
 #[derive(Debug, Clone)]
 enum Change {
     Replace(&'static str),
-    /// A field given twice, an element repeated.
+    /// Repeats a part: a field given twice, an element repeated.
     Double,
     Remove,
-    /// A further field or element, deeply nested.
+    /// Adds a further field or element, deeply nested.
     Add,
 }
 
-/// Bodies.
+/// Bodies of requests, sound and changed.
 pub(crate) fn request() -> impl Strategy<Value = String> {
     let change = prop_oneof![
         8 => select(&NASTY[..]).prop_map(Change::Replace),
@@ -81,8 +81,8 @@ pub(crate) fn request() -> impl Strategy<Value = String> {
         .prop_map(|(request, changes)| changed(request, &changes))
 }
 
-/// Requests that are mostly accepted and quickly run. Lengths are some tenths of a millimetre and speeds those of the
-/// model, where contact is frequent; each also has extremes that are legal.
+/// Sound requests that are mostly accepted and quickly run. Lengths are some tenths of a millimetre and speeds those of
+/// the model, where contact is frequent; each also has extremes that are legal.
 fn sound() -> impl Strategy<Value = Value> {
     let scene = (any::<bool>(), option(damping()), option(casing()), any::<bool>(), effects()).prop_map(
         |(stiffening, damping, casing, contact, effects)| {
@@ -112,7 +112,7 @@ fn sound() -> impl Strategy<Value = Value> {
     )
 }
 
-/// Present three times in four.
+/// Values that are present three times in four.
 fn option(of: impl Strategy<Value = Value>) -> impl Strategy<Value = Option<Value>> {
     prop::option::weighted(0.75, of)
 }
@@ -134,7 +134,7 @@ fn damping() -> impl Strategy<Value = Value> {
         .prop_map(|(modal, family)| json!({"modal_ratio": modal, "family_ratios": family}))
 }
 
-/// None for half of the scenes, up to four for the others.
+/// Effects of a scene: none for half of the scenes, up to four for the others.
 fn effects() -> impl Strategy<Value = Vec<(&'static str, Value)>> {
     let small = || select(vec![0.0, 1e-12, 1e-3, 0.05, 0.3, 1.0]);
     let stiff = || select(vec![1e-3, 20.0, 2e3, 2e5, 1e12]);
@@ -203,7 +203,7 @@ fn casing() -> impl Strategy<Value = Value> {
     })
 }
 
-/// At most one shape beside the lobes.
+/// Shapes of a casing: at most one beside the lobes.
 fn shapes() -> impl Strategy<Value = serde_json::Map<String, Value>> {
     let height = || prop_oneof![4 => -0.3..0.4, 1 => select(vec![0.0, 1e-40, 1e6])];
     let along = || option(prop::collection::vec(-1.0..1.0, 3).prop_map(|shares| json!(shares)));
@@ -256,7 +256,7 @@ fn integration() -> impl Strategy<Value = Value> {
     )
 }
 
-/// What of the integration is said of a march that ends by itself, for half of them.
+/// Settings of the integration for a march that ends by itself, for half of the requests.
 fn by_itself() -> impl Strategy<Value = Vec<(&'static str, Value)>> {
     let most = prop_oneof![4 => 12..40u32, 1 => select(vec![1, 5, 100])];
     let settled_to = select(vec![1e-12, 1e-6, 1e-3, 1e-2]);
@@ -274,7 +274,7 @@ fn sensor() -> impl Strategy<Value = Value> {
     )
 }
 
-/// `request` as text with `changes` made to parts drawn from all of it.
+/// Text of `request` with `changes` made to parts drawn from all of it.
 fn changed(mut request: Value, changes: &[(Index, Change)]) -> String {
     // Text that a `Value` cannot hold stands behind a mark until the end.
     let mut marked = Vec::new();
@@ -319,7 +319,7 @@ fn changed(mut request: Value, changes: &[(Index, Change)]) -> String {
     text
 }
 
-/// Pointers to all parts below the root.
+/// Collects pointers to all parts below the root.
 fn collect(value: &Value, at: String, pointers: &mut Vec<String>) {
     let children: Vec<(String, &Value)> = match value {
         Value::Object(fields) => fields.iter().map(|(key, child)| (key.clone(), child)).collect(),

@@ -1,4 +1,4 @@
-//! The fuzz target `sweep` (see `fuzz/`) without a fuzzer: over its stored corpus, and over requests drawn from a grammar.
+//! Fuzz target `sweep` (see `fuzz/`) without a fuzzer: over its stored corpus, and over requests drawn from a grammar.
 
 #[path = "../properties/campaign.rs"]
 mod campaign;
@@ -30,7 +30,7 @@ fn corpus() -> Vec<(String, Vec<u8>)> {
     bodies
 }
 
-/// The corpus reaches every end, so that what is mutated from it starts everywhere; a file's name says which.
+/// Corpus of the fuzzer: it reaches every end, so that what is mutated from it starts everywhere; a file's name says which.
 #[test]
 fn the_corpus_ends_as_its_names_say() {
     let corpus = corpus();
@@ -51,7 +51,7 @@ fn the_corpus_ends_as_its_names_say() {
     }
 }
 
-/// Bytes that are mostly text, and shown as such.
+/// Body of a request: bytes that are mostly text, and shown as such.
 struct Body(Vec<u8>);
 
 impl std::fmt::Debug for Body {
@@ -60,7 +60,7 @@ impl std::fmt::Debug for Body {
     }
 }
 
-/// Stored bodies with a few bytes changed.
+/// Stored bodies of the corpus with a few bytes changed.
 fn damaged() -> impl Strategy<Value = Body> {
     let changes = prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..4);
     (prop::sample::select(corpus()), changes).prop_map(|((_, mut body), changes)| {
@@ -89,7 +89,7 @@ proptest! {
     }
 }
 
-/// Both without an end: `cargo test --release campaign -- --ignored --nocapture`.
+/// Campaign of both properties without an end: `cargo test --release campaign -- --ignored --nocapture`.
 #[test]
 #[ignore = "a campaign: runs for as long as one likes"]
 fn campaign_of_requests() {

@@ -1,4 +1,4 @@
-//! Any bytes as the body of a sweep request: parsed, resolved, checked, integrated and summarised on a small wheel.
+//! Runs any bytes as the body of a sweep request: parsed, resolved, checked, integrated and summarised on a small wheel.
 //!
 //! A refusal is a fine end. A panic, a violation that points nowhere, a completed speed whose numbers are not sound and a
 //! failed one that shows numbers are not.
@@ -30,18 +30,18 @@ use serde_json::Value;
 
 use crate::fixtures::{WheelRecipe, gyroscopic, wheel};
 
-/// How far a body got.
+/// End of a body: how far it got.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum End {
-    /// It is no sweep request.
+    /// Body that is no sweep request.
     NotParsed,
-    /// The request was refused, every violation at a pointer into it.
+    /// Request that was refused, every violation at a pointer into it.
     Refused,
-    /// More work than a quick run does.
+    /// Request for more work than a quick run does.
     TooLong,
-    /// Every speed was integrated or failed by name.
+    /// Request whose every speed was integrated or failed by name.
     Ran {
-        /// Speeds that were integrated to the end.
+        /// Number of speeds that were integrated to the end.
         completed: usize,
     },
 }
@@ -52,7 +52,7 @@ const MULTIPLIERS: f64 = 200.0;
 /// Steps × sensors over all speeds of a request that is still run: some ten milliseconds.
 const BUDGET: f64 = 60_000.0;
 
-/// The wheel: enough for pairs and both single nodal diameters, stiffening, and several nodes in contact.
+/// Model of the wheel: enough for pairs and both single nodal diameters, stiffening, and several nodes in contact.
 struct Model {
     facts: ModelFacts,
     reduced: ReducedSector,
@@ -109,7 +109,7 @@ pub(crate) fn run(body: &[u8]) -> End {
     End::Ran { completed }
 }
 
-/// Every violation says something about a place that is in the request.
+/// Asserts that every violation says something about a place that is in the request.
 fn refused(violations: &[Violation], request: &Value) -> End {
     assert!(!violations.is_empty());
     for Violation { pointer, message } in violations {
@@ -170,7 +170,7 @@ fn auto_steps(reduced: &ReducedSector, request: &SweepRequest, speed: f64) -> f6
     if steps > 3e7 { 0.0 } else { steps }
 }
 
-/// Ends what takes longer than [`work`] foresaw.
+/// Watch that ends runs which take longer than [`work`] foresaw.
 #[derive(Default)]
 struct Patience(AtomicUsize);
 
@@ -182,7 +182,7 @@ impl Monitor for Patience {
     }
 }
 
-/// What a speed may claim: all its credentials if it was integrated to the end, no amplitudes and a reason if not.
+/// Asserts what a speed may claim: all its credentials if it was integrated to the end, no amplitudes and a reason if not.
 fn sound(result: &SpeedResult, request: &SweepRequest) {
     survives_json(result);
     let point = &result.point;
@@ -213,7 +213,7 @@ fn sound(result: &SpeedResult, request: &SweepRequest) {
     // there was at once.
     let through = point.energy.as_ref().unwrap().damping_loss.abs() / point.largest_energy.unwrap();
     assert!(point.energy_residual.unwrap() <= f64::max(1e-9, 1e-12 * through), "{point:?}");
-    // Work was done if there was contact, and without other causes only then.
+    // There is work if there was contact, and without other causes only then.
     let (touched, moved) = (point.contact_impulse > Some(0.0), point.largest_energy > Some(0.0));
     let scene = &request.scene;
     let caused = scene.initial.is_some()
@@ -227,7 +227,7 @@ fn sound(result: &SpeedResult, request: &SweepRequest) {
     assert_eq!(result.spectra.as_ref().map(|spectra| spectra.sensors.len()), Some(request.sensors.len()));
 }
 
-/// Revolutions that a completed speed took, with those of a search; bounded as was asked.
+/// Number of revolutions that a completed speed took, with those of a search; bounded as was asked.
 fn revolutions(point: &Point, request: &SweepRequest) -> f64 {
     let integration = &request.integration;
     let searched = point.steady.as_ref().map_or(0.0, |steady| steady.revolutions);
@@ -251,10 +251,10 @@ fn revolutions(point: &Point, request: &SweepRequest) -> f64 {
     searched + f64::from(march.revolutions)
 }
 
-/// Squares of less are no normal numbers; the program takes modal displacements below 1e-100 for nothing.
+/// Displacement below which numbers vanish: squares of less are no normal numbers; the program takes modal displacements below 1e-100 for nothing.
 const VANISHED: f64 = 1e-150;
 
-/// The measures of one history fit to each other, and stay below the tenth of the radius at which a run ends as diverged.
+/// Asserts that the measures of one history fit to each other, and stay below the tenth of the radius at which a run ends as diverged.
 fn plausible(point: &Point, request: &SweepRequest) {
     assert_eq!(point.responses.len(), request.sensors.len());
     for response in &point.responses {
@@ -321,8 +321,9 @@ fn displacement(point: &Point) -> f64 {
     (2.0 * flexibility * point.largest_energy.unwrap()).sqrt() + point.casing_amplitude.unwrap_or(0.0)
 }
 
-/// How far the forces of one step would move an elastic casing if they did not cancel. A light one gives way to the
-/// difference of forces by which stiff blades press it from all sides, and its gaps are as accurate as that.
+/// Displacement by which the forces of one step would move an elastic casing if they did not cancel. A light casing
+/// gives way to the difference of forces by which stiff blades press it from all sides, and its gaps are as accurate as
+/// that.
 fn pressed(request: &SweepRequest, point: &Point) -> f64 {
     let modes = request.scene.flexible_casing.iter().flat_map(|casing| casing.modes.iter().flatten());
     let give: f64 = modes.map(|mode| 1.0 / mode.modal_mass).sum();
@@ -331,7 +332,7 @@ fn pressed(request: &SweepRequest, point: &Point) -> f64 {
     give * step_s * point.contact_impulse.unwrap()
 }
 
-/// Maps and critical speeds of whatever ran.
+/// Asserts that maps and critical speeds can be made of whatever ran.
 fn summaries_survive(request: &ResolvedSweep, results: &[SpeedResult]) {
     let reduced = &model().reduced;
     for sensor in 0..request.sensors().len() {
@@ -360,7 +361,7 @@ fn summaries_survive(request: &ResolvedSweep, results: &[SpeedResult]) {
     survives_json(&settings);
 }
 
-/// What is written as JSON is read back unchanged; numbers that are none would come back as null.
+/// Asserts that a value is read back unchanged from its JSON; numbers that are none would come back as null.
 fn survives_json<T: Serialize + DeserializeOwned + PartialEq + std::fmt::Debug>(value: &T) {
     let text = serde_json::to_string(value).unwrap();
     let read: T = serde_json::from_str(&text).unwrap_or_else(|error| panic!("{error} in {text}"));

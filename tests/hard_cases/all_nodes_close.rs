@@ -16,7 +16,7 @@ use crate::support::LIBRARY_SCHEMES;
 const CLEARANCE: f64 = 0.3;
 const RESTRICTION: f64 = 0.35;
 
-/// One lobe so wide that it is a ring, growing over a revolution.
+/// Scene of one lobe so wide that it is a ring, growing over a revolution.
 fn ring(recipe: WheelRecipe) -> Scene {
     let mut scene = Scene::new(recipe);
     let casing = scene.casing.as_mut().unwrap();
@@ -59,7 +59,7 @@ fn all_close_in_one_step_and_come_to_rest_on_the_static_solution() {
             let context = format!("{sectors} sectors, {scheme:?}");
             let mut scene = scene.clone();
             let steps = scene.steps(scheme, 1.3);
-            // Gaps are looked at after every step.
+            // Gaps are checked after every step.
             scene.samples = steps;
             let run = scene.run(scheme, steps);
             assert_sound(&run, PENETRATION, &context);

@@ -1,8 +1,8 @@
 //! Clearances that close while the wheel turns: by its own growth, by heat, and from before the start.
 //!
-//! A wall that is moved into the tips between two steps hits them with a force of the step. Guaranteed: what closes does so over a
-//! twentieth of a revolution at least, or is refused at its place; then every scheme runs, pressed tips come to rest where the casing is,
-//! and what is opened again leaves the wheel as it was.
+//! A wall that is moved into the tips between two steps hits them with a force of the step. Guaranteed: clearances close over a twentieth
+//! of a revolution at least, or are refused at their place; then every scheme runs, pressed tips come to rest where the casing is, and
+//! what is opened again leaves the wheel as it was.
 
 use rubmap::analysis::error::Violation;
 use rubmap::analysis::request::SweepRequest;
@@ -38,13 +38,13 @@ fn asked(sector: &SectorModel, scheme: &str, changes: Value) -> SweepRequest {
     serde_json::from_value(request).unwrap()
 }
 
-/// As of a model with elements.
+/// Resolves a request as for a model with elements.
 fn resolved(sector: &SectorModel, scheme: &str, changes: Value) -> Result<ResolvedSweep, Vec<Violation>> {
     let mesh = Some(MeshFacts { elements: 1, sets: Vec::new(), tip_thickness: None });
     resolve_sweep(asked(sector, scheme, changes), &ModelFacts { mesh, ..ModelFacts::of(sector) })
 }
 
-/// The wheel, with tips that grow by up to 0.5 mm at the higher speed: their nodes are pulled outwards.
+/// Reduces the wheel with tips that grow by up to 0.5 mm at the higher speed: their nodes are pulled outwards.
 pub(crate) fn growing(sector: &SectorModel) -> (ReducedSector, Vec<Vec<f64>>) {
     let mut load = vec![0.0; sector.own_dofs()];
     for (k, node) in sector.contact.iter().enumerate() {
@@ -90,7 +90,8 @@ fn cold_clearances_are_running_ones_that_are_larger() {
     }
 }
 
-/// Tips that grow into a circular casing, or are pressed into it from the start, lean on it at rest, displaced by as much as they would be in it.
+/// Pressed tips, which grow into a circular casing or are pressed into it from the start, lean on it at rest, displaced by as much as they would
+/// be in it.
 #[test]
 fn pressed_tips_come_to_rest_on_the_casing() {
     let sector = wheel(WheelRecipe { stiffening: true, ..WheelRecipe::default() });
@@ -116,7 +117,7 @@ fn pressed_tips_come_to_rest_on_the_casing() {
     }
 }
 
-/// A casing that closes, and opens again.
+/// Casing that closes, and opens again.
 #[test]
 fn what_closes_presses_and_what_opens_lets_go() {
     let sector = wheel(WheelRecipe::default());
@@ -168,7 +169,7 @@ fn what_would_close_in_one_step_is_refused_at_its_place() {
     let mut chain = json!({"sweep": "up"});
     merge(&mut chain, json!({"scene": {"casing": {"clearance": {"given": "cold"}}}}));
     assert_eq!(refused(chain), ["/sweep"]);
-    // The load is made of elements.
+    // Elements make the load.
     let cold = asked(&sector, "exact_modal", json!({"scene": {"casing": {"clearance": {"given": "cold"}}}}));
     let violations = resolve_sweep(cold, &ModelFacts::of(&sector)).unwrap_err();
     assert_eq!(violations[0].pointer, "/scene/casing/clearance/given");

@@ -1,4 +1,4 @@
-//! A strongly damped wheel long after its last touch.
+//! Strongly damped wheel long after its last touch.
 //!
 //! Decaying numbers end among the denormals, where every operation takes a hundred times as long and the state never becomes
 //! zero: a run that has nothing left to compute grows slow. Guaranteed: what has decayed below any meaning is brought to rest,
@@ -16,7 +16,7 @@ fn recorded(history: &History) -> impl Iterator<Item = &f64> {
     history.displacement.iter().flatten().chain(history.harmonics.iter().flatten().flatten())
 }
 
-/// A blow to two nodal diameters, damped by half: 1e-100 is reached within some forty revolutions.
+/// Scene of a blow to two nodal diameters, damped by half: 1e-100 is reached within some forty revolutions.
 fn struck() -> Scene {
     let mut scene = Scene::new(WheelRecipe::default());
     scene.damping_ratio = 0.5;
@@ -39,7 +39,7 @@ fn struck() -> Scene {
 #[test]
 fn a_struck_wheel_comes_to_exact_rest() {
     let free = Scene { casing: None, ..struck() };
-    // A casing out of reach, and one that the blades lean on while they come to rest: gaps and forces decay with them.
+    // One casing is out of reach, on another the blades lean while they come to rest: gaps and forces decay with them.
     let mut apart = struck();
     let casing = apart.casing.as_mut().unwrap();
     (casing.clearance, casing.restriction) = (vec![10.0; 3], None);

@@ -15,12 +15,12 @@ use serde_json::json;
 use crate::fixtures::{TOP_SPEED, WheelRecipe, wheel};
 use crate::support::{SCHEMES, assert_sound, reduced, run, spectral_difference, sweep};
 
-/// Masses of a chain, fixed at one end.
+/// Number of masses of a chain, fixed at one end.
 const LINKS: usize = 5;
 const MASS: f64 = 2e-6;
 const SPRING: f64 = 40.0;
 
-/// A contact node on springs of its own, and for each of `factors` a chain in r, θ and z whose springs are
+/// Sector with a contact node on springs of its own, and for each of `factors` a chain in r, θ and z whose springs are
 /// factor·SPRING. Nothing is coupled to anything else.
 fn chains(sectors: usize, factors: &[f64]) -> SectorModel {
     let size = 3 * (1 + LINKS * factors.len());
@@ -62,7 +62,7 @@ fn chains(sectors: usize, factors: &[f64]) -> SectorModel {
     SectorModel::new(parts).unwrap()
 }
 
-/// ω² of the chains, ascending, three of each: 4 k/m sin²((2j − 1)π/(2(2n + 1))), fixed at one end, free at the other.
+/// Closed form of ω² of the chains, ascending, three of each: 4 k/m sin²((2j − 1)π/(2(2n + 1))), fixed at one end, free at the other.
 fn closed_form(factors: &[f64]) -> Vec<f64> {
     let square = |factor: f64, j: usize| {
         let sine = ((2 * j - 1) as f64 * PI / (2 * (2 * LINKS + 1)) as f64).sin();
@@ -80,7 +80,7 @@ fn every_copy_of_a_multiple_eigenvalue_is_found() {
     every_mode_is_found(&[1.0; 12]);
 }
 
-/// The same, spread over a few parts in 1e9, and over a few per cent.
+/// Twelve nearly identical chains, whose eigenvalues spread over a few parts in 1e9, and over a few per cent.
 #[test]
 fn every_member_of_a_cluster_is_found() {
     for spread in [1e-13, 1e-9, 1e-5, 1e-2] {
@@ -93,7 +93,7 @@ fn every_mode_is_found(factors: &[f64]) {
     let expected = closed_form(factors);
     for sectors in [1, 4, 5] {
         let sector = chains(sectors, factors);
-        // One of a multiplet, one less than it, it, one more, and one and a half.
+        // The numbers of modes are one of a multiplet, one less than it, it, one more, and one and a half.
         for modes in [1, 35, 36, 37, 54] {
             let reduced = reduced(&sector, modes);
             assert_eq!(reduced.report.counted_modes, reduced.report.modes, "{sectors} {modes}");
@@ -109,7 +109,7 @@ fn every_mode_is_found(factors: &[f64]) {
     }
 }
 
-/// A sector of the `sector` twice, the second one turned on by half a sector of `sectors`.
+/// Sector with the `sector` twice, the second one turned on by half a sector of `sectors`.
 fn twins(blade: &SectorModel, sectors: usize) -> SectorModel {
     let size = blade.own_dofs();
     let twice = |matrix: &CyclicMatrix| {
@@ -187,8 +187,9 @@ fn blades_that_nothing_joins_do_what_one_does_alone() {
     }
 }
 
-/// `massless_boundary` with one mode of a pair of twins kept and the other left out treats equal blades differently, by
-/// 8 % of the response with 9 or 11 modes of these. Two of a pair need the same step, so `auto` takes both.
+/// Multiplets stay whole under `auto`: `massless_boundary` with one mode of a pair of twins kept and the other left out
+/// treats equal blades differently, by 8 % of the response with 9 or 11 modes of these. Two of a pair need the same
+/// step, so `auto` takes both.
 #[test]
 fn auto_keeps_whole_multiplets() {
     let alone =

@@ -42,7 +42,7 @@ fn the_response_vanishes_with_the_overlap() {
     }
 }
 
-/// Openings of the recorded nodes: samples without contact after one with it.
+/// Number of openings of the recorded nodes: samples without contact after one with it.
 fn openings(scene: &Scene, displacement: &[Vec<f64>], steps: usize) -> usize {
     let casing = scene.casing.as_ref().unwrap();
     let restriction = casing.restriction.as_ref().unwrap();

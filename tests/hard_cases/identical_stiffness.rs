@@ -1,4 +1,4 @@
-//! The same stiffness at all three speeds: the three sets of fixed-interface modes are one set three times over.
+//! Stiffness that is the same at all three speeds: the three sets of fixed-interface modes are one set three times over.
 //!
 //! Codes that orthogonalise without looking at the rank divide by round-off here and carry 2k directions of noise as
 //! the stiffest modes of the wheel. Guaranteed: rank k, no trace of K1 and K2, and the sweep that the package with
@@ -13,7 +13,7 @@ use crate::support::{SCHEMES, assert_sound, reduced, run, spectral_difference, s
 
 const MODES: u32 = 8;
 
-/// The wheel with its stiffness at rest given once, and given three times.
+/// Sectors of one wheel with its stiffness at rest given once, and given three times.
 fn once_and_thrice() -> (SectorModel, SectorModel) {
     let mut thrice = wheel(WheelRecipe { nodes: 40, ..Default::default() }).into_parts();
     let rest = thrice.stiffness[0].clone();

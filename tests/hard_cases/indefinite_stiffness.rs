@@ -1,4 +1,4 @@
-//! K(Ω) through three definite matrices that is indefinite between them, as stiffness on the deformed geometry can be.
+//! Indefinite K(Ω) between three definite matrices, as stiffness on the deformed geometry can be.
 //!
 //! Codes that take square roots of eigenvalues as they come give NaN or a frequency of zero there and integrate an
 //! exponentially growing wheel. Guaranteed: the model carries the verdict, that speed fails by name, the others run,
@@ -13,7 +13,7 @@ use serde_json::json;
 use crate::fixtures::{TOP_SPEED, WheelRecipe, wheel};
 use crate::support::{ENERGY_TOLERANCE, SCHEMES, assert_sound, assert_survives_json, reduced, scale, sweep};
 
-/// K(Ω) = f(Ω²) K(0) through the factors 1, `half` and 1 at rest, Ω1/2 and Ω1.
+/// Sector with K(Ω) = f(Ω²) K(0) through the factors 1, `half` and 1 at rest, Ω1/2 and Ω1.
 fn dips(half: f64) -> SectorModel {
     let mut sector = wheel(WheelRecipe::default()).into_parts();
     let rest = sector.stiffness[0].clone();

@@ -11,7 +11,7 @@ use crate::fixtures::WheelRecipe;
 use crate::scenes::{PENETRATION, Scene, assert_sound, difference, history, largest};
 use crate::support::LIBRARY_SCHEMES;
 
-/// What the ridge leaves of a gap of about one.
+/// Share of a gap of about one that the ridge may leave.
 const RIDGE: f64 = 1e-9;
 
 #[test]
@@ -52,7 +52,7 @@ fn the_farther_of_two_coincident_nodes_is_never_loaded() {
     }
 }
 
-/// One to three modes per nodal diameter for four nodes of a blade: W lacks that much rank.
+/// Basis that cannot tell nodes apart: one to three modes per nodal diameter for four nodes of a blade; W lacks that much rank.
 #[test]
 fn a_basis_that_cannot_tell_nodes_apart() {
     for modes in [1, 2, 3] {

@@ -1,5 +1,4 @@
-//! A speed chosen so that an engine order of the lobes meets a natural frequency of the nodal diameter it drives, to
-//! the last digits.
+//! Resonance: a speed chosen so that an engine order of the lobes meets a natural frequency of the nodal diameter it drives, to the last digits.
 //!
 //! A frequency-domain answer divides by zero here, and a time-domain one grows until contact or damping stops it; step
 //! and period of the vibration are commensurate, so that errors of the step add up instead of averaging out.
@@ -15,21 +14,21 @@ use serde_json::json;
 use crate::fixtures::{TOP_SPEED, WheelRecipe, wheel};
 use crate::support::{ENERGY_TOLERANCE, SCHEMES, assert_sound, assert_survives_json, reduced, run, sweep};
 
-/// Two lobes of height `amplitude` around a clearance of 0.3.
+/// Casing of two lobes of height `amplitude` around a clearance of 0.3.
 fn casing(amplitude: f64) -> serde_json::Value {
     json!({"clearance": {"leading": 0.3, "trailing": 0.3}, "lobes": {"amplitude": amplitude}})
 }
 
-/// The engine order, second harmonic of two lobes, and the nodal diameter it drives on ten sectors.
+/// Engine order that meets the mode: second harmonic of two lobes, which drives nodal diameter 4 on ten sectors.
 const ORDER: f64 = 4.0;
 const NODAL_DIAMETER: usize = 4;
 
-/// ω of the first family of the driven nodal diameter.
+/// Natural frequency ω of the first family of the driven nodal diameter, rad/s.
 fn natural(reduced: &ReducedSector, speed: f64) -> f64 {
     natural_frequencies(&reduced.wheel.harmonics[NODAL_DIAMETER], speed, true).unwrap()[0]
 }
 
-/// Ω with kΩ = ω(Ω): the fixed point of Ω = ω(Ω)/k, which contracts as long as stiffening is weak.
+/// Resonant speed Ω with kΩ = ω(Ω): the fixed point of Ω = ω(Ω)/k, which contracts as long as stiffening is weak.
 fn resonance(reduced: &ReducedSector) -> f64 {
     let speed = (0..200).fold(0.5 * TOP_SPEED, |speed, _| natural(reduced, speed) / ORDER);
     let mismatch = (ORDER * speed / natural(reduced, speed) - 1.0).abs();
@@ -68,7 +67,7 @@ fn without_damping_numbers_are_finite_or_withheld() {
     let reduced = reduced(&sector, 6);
     let speed = resonance(&reduced);
     for scheme in SCHEMES {
-        // Touching, pushing, and never letting go.
+        // The lobes touch, push, and never let go.
         for amplitude in [0.302, 0.425, 1.2] {
             let changes = json!({
                 "scene": {"damping": null, "casing": casing(amplitude)},

@@ -11,7 +11,7 @@ use serde_json::json;
 use crate::fixtures::{TOP_SPEED, WheelRecipe, wheel};
 use crate::support::{KEPT_MODES, SCHEMES, assert_sound, reduced, run, sweep};
 
-/// N, n, gcd(n, N)
+/// Wheels as N, n, gcd(n, N).
 const WHEELS: [(usize, u32, usize); 9] = [
     (10, 3, 1),
     (10, 4, 2),
@@ -24,15 +24,14 @@ const WHEELS: [(usize, u32, usize); 9] = [
     (6, 4, 2),
 ];
 
-/// A multiple of every N and n above: blades meet every lobe at the same fraction of a step, or steps would tell the
-/// lobes apart.
+/// Number of steps, a multiple of every N and n above: blades meet every lobe at the same fraction of a step, or steps would tell the lobes apart.
 const STEPS: u32 = 7560;
 
-/// High enough that every step is recorded: what aliases onto a line of the spectrum from higher orders comes on
-/// another nodal diameter.
+/// Number of recorded engine orders, so high that every step is recorded: what aliases onto a line of the spectrum from
+/// higher orders comes on another nodal diameter.
 const ORDERS: u32 = 480;
 
-/// |k − N·round(k/N)|
+/// Nodal diameter |k − N·round(k/N)| of an engine order k.
 fn alias(order: usize, sectors: usize) -> usize {
     (order as f64 - sectors as f64 * (order as f64 / sectors as f64).round()).abs() as usize
 }

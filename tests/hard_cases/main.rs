@@ -1,5 +1,4 @@
-//! Cases that break lesser codes. Each file says what it threatens and what is guaranteed here; docs/stability.md is
-//! the table of them.
+//! Hard cases, which break lesser codes. Each file says what it threatens and what is guaranteed here; docs/stability.md is the table of them.
 
 mod all_nodes_close;
 #[path = "../properties/campaign.rs"]

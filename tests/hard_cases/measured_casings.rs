@@ -1,4 +1,4 @@
-//! Casings that were measured: points instead of a formula.
+//! Measured casings: points instead of a formula.
 //!
 //! A curve through points has corners if it is laid carelessly, and every corner is a blow; where the points have a step it swings
 //! beyond them. Guaranteed: responses in a table of lobes converge to those of the lobes with the fourth power of the points'
@@ -45,7 +45,7 @@ fn tables_converge_to_lobes_in_fourth_order() {
         let of = |shape: Value| response(scheme, shape, steps.clone());
         let apart = |points: u32| spectral_difference(&of(measured(points, lobes)), &exact);
         let [coarse, fine, finest] = [120, 240, 480].map(apart);
-        // Sets of nodes that touch differ by a step here and there: over both together.
+        // Sets of nodes that touch differ by a step here and there: the order is taken over both halvings together.
         let order = (coarse / finest).log2() / 2.0;
         assert!((3.5..4.5).contains(&order), "{scheme}: {order} of {coarse:e} {fine:e} {finest:e}");
         // The curve of a table, in a table twice as fine, is the same curve as far as it is one of lobes.
@@ -58,7 +58,7 @@ fn tables_converge_to_lobes_in_fourth_order() {
     }
 }
 
-/// The gaps themselves as a table, over a clearance of zero: outward of it, the same casing.
+/// Table of the gaps themselves, over a clearance of zero: outward of it, the same casing.
 #[test]
 fn a_table_of_gaps_is_a_casing() {
     let lobes = Restriction::from(Lobes { count: 2, amplitude: 0.425, width_rad: 0.35, phase_rad: 0.0 });
@@ -99,7 +99,7 @@ fn a_table_of_gaps_is_a_casing() {
     }
 }
 
-/// Half of the casing stands nearer than the blade tips: within one degree they are inside, and outside again.
+/// Step in a casing, half of which stands nearer than the blade tips: within one degree they are inside, and outside again.
 #[test]
 fn a_step_is_passed_in_steps_that_see_it() {
     let step = |angle: f64| if (1.0..1.0 + TAU / 2.0).contains(&angle) { 0.32 } else { 0.1 };

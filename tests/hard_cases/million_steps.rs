@@ -1,4 +1,4 @@
-//! A million steps of free vibration.
+//! Free vibration over a million steps.
 //!
 //! A phase error of 1e-6 a step is a lost period after a million of them; differences of nearly equal displacements shed
 //! digits at small steps; a damping of 1e-9 a step drowns in round-off. Guaranteed: `exact_modal` (and the modes that
@@ -17,14 +17,14 @@ use crate::support::ENERGY_TOLERANCE;
 
 const STEPS: usize = 1_000_000;
 
-/// z(t) of z̈ + 2ζωż + ω²z = 0.
+/// Displacement z(t) of z̈ + 2ζωż + ω²z = 0.
 fn continuous(omega: f64, zeta: f64, t: f64, z: f64, v: f64) -> f64 {
     let damped = omega * (1.0 - zeta * zeta).sqrt();
     (-zeta * omega * t).exp()
         * (z * (damped * t).cos() + (v + zeta * omega * z) / damped * (damped * t).sin())
 }
 
-/// z_q of (z⁺ − 2z + z⁻)/h² + ζω (z⁺ − z⁻)/h + ω²z = 0, z⁺ − z⁻ = 2hv at q = 0: r^q (A cos qφ + B sin qφ).
+/// Displacement z_q of (z⁺ − 2z + z⁻)/h² + ζω (z⁺ − z⁻)/h + ω²z = 0, z⁺ − z⁻ = 2hv at q = 0: r^q (A cos qφ + B sin qφ).
 fn discrete(omega: f64, zeta: f64, h: f64, q: usize, z: f64, v: f64) -> f64 {
     let c = zeta * omega * h;
     let root = (1.0 - c * c).sqrt();
@@ -66,7 +66,7 @@ fn waves(scene: &Scene, families: [usize; 4]) -> Vec<InitialMode> {
     ]
 }
 
-/// `per_revolution` from a step that resolves the highest mode sixty times over to one in which it turns by more than π.
+/// Amplitude and phase with `per_revolution` from a step that resolves the highest mode sixty times over to one in which it turns by more than π.
 #[test]
 fn amplitude_and_phase_are_those_of_the_closed_form() {
     let scene = Scene::new(WheelRecipe::default());

@@ -38,8 +38,8 @@ fn energy_is_bounded_wherever_the_highest_mode_sits() {
     }
 }
 
-/// A blade of one soft mode and one stiff mode before a wall that oscillates; returns the largest energy of both, the
-/// stiff mode advanced exactly or following.
+/// Largest energy of both modes of a blade, one soft and one stiff, before a wall that oscillates; the stiff mode is
+/// advanced exactly or follows statically.
 fn blade(turn: f64, follows: bool) -> f64 {
     // Units: step 1, both modes move the tip by 1.
     let omegas = [0.02, turn * PI];
@@ -71,7 +71,8 @@ fn blade(turn: f64, follows: bool) -> f64 {
     largest
 }
 
-/// Why they follow: at the rhythm of the steps the energy is what the run lasts, a sixth below it what contact gives.
+/// Modes at the rhythm of the steps gain energy if they are advanced exactly, which is why they follow statically: at
+/// that rhythm the energy is what the run lasts, a sixth below it what contact gives.
 #[test]
 fn advanced_exactly_such_a_mode_gains_energy() {
     for turn in [0.99, 0.999, 1.001, 1.01] {

@@ -16,14 +16,14 @@ use serde_json::json;
 use crate::fixtures::{TOP_SPEED, WheelRecipe, wheel};
 use crate::support::{SCHEMES, assert_sound, assert_survives_json, reduced, run, spectral_difference, sweep};
 
-/// Campbell request over `speeds`.
+/// Request for a Campbell diagram over `speeds`.
 fn campbell(sector: &SectorModel, speeds: &[f64]) -> ResolvedModalAnalysis {
     let request =
         json!({"model": "test wheel", "modes_per_speed": 6, "speeds": {"values": speeds, "unit": "rad_s"}});
     resolve_modal_analysis(serde_json::from_value(request).unwrap(), &ModelFacts::of(sector)).unwrap()
 }
 
-/// A speed at which the linear criterion is met, from a coarse diagram.
+/// Speed at which the linear criterion is met, from a coarse diagram.
 fn crossing(sector: &SectorModel, reduced: &ReducedSector) -> f64 {
     let speeds: Vec<f64> = (1..=20).map(|i| 0.05 * f64::from(i) * TOP_SPEED).collect();
     let diagram = modal_analysis(reduced, &campbell(sector, &speeds), &Unwatched).unwrap();

@@ -27,12 +27,12 @@ fn masses_and_springs() -> SectorModel {
     wheel(WheelRecipe { nodes: 40, ..Default::default() })
 }
 
-/// Between the given speeds.
+/// Speed between the given speeds.
 fn speed_of(sector: &SectorModel) -> f64 {
     0.7 * sector.speeds_rad_s[2]
 }
 
-/// `sector` with K(Ω) − K(0) times `epsilon`.
+/// Sector with K(Ω) − K(0) of `sector` times `epsilon`.
 fn stiffening_by(epsilon: f64, sector: SectorModel) -> SectorModel {
     let mut sector = sector.into_parts();
     let rest = sector.stiffness[0].clone();
@@ -94,7 +94,7 @@ fn frequencies_are_no_worse_than_those_of_rank_k() {
     let rank_k = errors(0.0);
     for epsilon in [1e-2, 1e-4, 1e-6, 1e-10, 1e-14] {
         for (error, reference) in errors(epsilon).iter().zip(&rank_k) {
-            // From above (Rayleigh–Ritz), to round-off; the modes themselves move by ε.
+            // Errors are from above (Rayleigh–Ritz), to round-off; the modes themselves move by ε.
             assert!(*error > -1e-9, "{epsilon:e}: {error:e}");
             assert!(
                 *error < reference * (1.0 + 10.0 * epsilon) + 1e-9,

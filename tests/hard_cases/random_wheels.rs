@@ -1,4 +1,4 @@
-//! Random wheels against random casings, by every scheme: what no list of special cases thinks of.
+//! Random wheels against random casings, by every scheme: cases that no list of special cases thinks of.
 //!
 //! Lesser codes are tuned on wheels like the last one: modes within two decades, as many modes as contact nodes, normals
 //! that differ, a step well inside its limit. Guaranteed, whatever is drawn: finite numbers, no pulling, no tip inside the
@@ -19,7 +19,7 @@ use crate::campaign::campaign;
 use crate::fixed::fixed;
 use crate::support::ENERGY_TOLERANCE;
 
-/// How the cases of a property ended.
+/// Counts of how the cases of a property ended.
 #[derive(Debug, Default)]
 struct Tally {
     refused: Cell<u32>,
@@ -33,10 +33,10 @@ fn count(cell: &Cell<u32>) {
     cell.set(cell.get() + 1);
 }
 
-/// The scheme and the steps per revolution that a recipe is run by; none: it is refused.
+/// Function that gives the scheme and the steps per revolution by which a recipe is run; `None` if it is refused.
 type Choice = fn(&Recipe, &Case) -> Option<(Scheme, usize)>;
 
-/// Runs `cases` recipes, each as `choose` has it.
+/// Runs `cases` recipes, each by the scheme and steps of `choose`.
 fn hold(cases: u32, choose: Choice) -> Tally {
     let tally = Tally::default();
     let outcome = TestRunner::new(fixed(cases)).run(&recipes(), |recipe| {
@@ -85,9 +85,9 @@ fn withstands(
 }
 
 impl Recipe {
-    /// Gaps are differences of lengths below a millimetre: some thousand roundings of them. Where nodes may be
-    /// indistinguishable, the millionth from which on the code gives up: of the casing's lengths, and of the tenths of a
-    /// millimetre by which moving tips may stand in it at the start.
+    /// Penetration that round-off may leave. Gaps are differences of lengths below a millimetre: some thousand roundings
+    /// of them. Where nodes may be indistinguishable, the millionth from which on the code gives up: of the casing's
+    /// lengths, and of the tenths of a millimetre by which moving tips may stand in it at the start.
     fn penetration_tolerance(&self, case: &Case) -> f64 {
         let distinct =
             self.shapes == Shapes::Independent && self.modes >= 3 * self.nodes && self.decades < 5.0;
@@ -95,26 +95,26 @@ impl Recipe {
         if distinct { 1e-12 } else { 1e-6 * (case.casing.length_scale(0.1 * RADIUS) + start) }
     }
 
-    /// A mode whose ωh is 1e-10 has no energy beside the round-off of the work done on it.
+    /// Energy residual that round-off may leave: a mode whose ωh is 1e-10 has no energy beside the round-off of the work done on it.
     fn energy_tolerance(&self) -> f64 {
         if self.decades > 5.0 { 1e-5 } else { ENERGY_TOLERANCE }
     }
 }
 
-/// Steps per revolution as the recipe has them: between 1.0001 and 5 times the limit.
+/// Central differences with the steps per revolution of the recipe: between 1.0001 and 5 times the limit.
 fn central_differences(recipe: &Recipe, case: &Case) -> Option<(Scheme, usize)> {
     let smallest = Scheme::CentralDifferences.smallest_stable_steps(&case.wheel, &case.contact_nodes);
     assert!(smallest <= recipe.steps as u64);
     Some((Scheme::CentralDifferences, recipe.steps))
 }
 
-/// As many steps, and some three and thirty times fewer: most modes are then beyond what a step resolves.
+/// Exact propagator with as many steps, and some three and thirty times fewer: most modes are then beyond what a step resolves.
 fn exact_modal(recipe: &Recipe, _: &Case) -> Option<(Scheme, usize)> {
     let fewer = [1, 3, 30][recipe.seed as usize % 3];
     Some((Scheme::ExactModal, recipe.steps / fewer + 40))
 }
 
-/// Any number of kept modes whose step is bearable.
+/// Massless boundary with any number of kept modes whose step is bearable.
 fn massless_boundary(recipe: &Recipe, case: &Case) -> Option<(Scheme, usize)> {
     let scheme = Scheme::MasslessBoundary { kept_modes: 1 + recipe.seed as usize % recipe.modes };
     let smallest = scheme.smallest_stable_steps(&case.wheel, &case.contact_nodes);
@@ -140,12 +140,13 @@ fn massless_boundary_holds() {
     assert!(tally.touched.get() > 20 && tally.failed.get() < 30, "{tally:?}");
 }
 
-/// Contact that opens and closes from step to step costs nothing without mass at the boundary: at a step that is merely
-/// stable while contact lasts it pumps the modes, with perfect credentials. At half that step, the longest that is accepted,
-/// it does not: the blades go no further than by central differences, but for what those lose at closings.
+/// Asserts that a boundary without mass does not pump energy. Contact that opens and closes from step to step costs nothing
+/// without mass at the boundary: at a step that is merely stable while contact lasts it pumps the modes, with perfect
+/// credentials. At half that step, the longest that is accepted, it does not: the blades go no further than by central
+/// differences, but for what those lose at closings.
 fn does_not_pump(mut recipe: Recipe, compared: &Cell<u32>) -> TestCaseResult {
-    // From rest, no mode so soft that a push alone carries it away, enough modes to leave out.
-    // Lobes wide enough for the blades to follow: a blow tells the schemes apart by what a closing costs.
+    // The recipe starts from rest, with no mode so soft that a push alone carries it away, and enough modes to leave out.
+    // Its lobes are wide enough for the blades to follow: a blow tells the schemes apart by what a closing costs.
     recipe.width_rad = recipe.width_rad.max(0.5);
     recipe.ramp_revolutions = recipe.ramp_revolutions.max(0.5);
     recipe.moving = false;
@@ -176,7 +177,7 @@ fn massless_boundary_does_not_pump() {
     assert!(compared.get() > 30, "{compared:?}");
 }
 
-/// All of these on wheel after wheel.
+/// Campaign of all properties on wheel after wheel.
 #[test]
 #[ignore = "a campaign: runs for as long as one likes"]
 fn campaign_of_random_wheels() {

@@ -1,4 +1,4 @@
-//! A restriction that reaches into the blade before anything moves.
+//! Restriction that reaches into the blade before anything moves.
 //!
 //! The first step would find the blade inside the casing and throw it out at once: forces grow as 1/h and energies as 1/h²,
 //! a finer step makes it worse, and the result is a number of the step and not of the machine. Guaranteed: refused at its field,
@@ -45,7 +45,7 @@ fn refused_without_a_ramp_and_sound_with_one() {
     }
 }
 
-/// Why: without a ramp the energy is a matter of the step.
+/// Energy without a ramp is a matter of the step, which is why such a restriction is refused.
 #[test]
 fn without_a_ramp_the_energy_grows_with_the_number_of_steps() {
     let energies = |ramp: f64| {

@@ -1,4 +1,4 @@
-//! So many modes kept under `massless_boundary` that fewer are left out than there are contact nodes.
+//! Rigid boundary: so many modes kept under `massless_boundary` that fewer are left out than there are contact nodes.
 //!
 //! The residual flexibility is then singular: forces of any size close no gap, or, with a little added to its diagonal,
 //! leave the blade deep in the casing (measured on a soft wheel: half the lobe's height) under numbers that look

@@ -1,4 +1,4 @@
-//! The same wheel turning the other way.
+//! Rotation reversed: a wheel turning the other way.
 //!
 //! Signs of sines, the order of sectors and the side on which a Fourier pair lags are easily wrong twice, so that tests
 //! in one direction of rotation pass. Seen from the other end of the axis (θ → −θ, z → −z, sectors numbered
@@ -28,10 +28,10 @@ use crate::support::LIBRARY_SCHEMES;
 const SPEED: f64 = 0.6 * TOP_SPEED;
 const DAMPING: f64 = 0.02;
 
-/// θ and z change sign, r does not.
+/// Signs of the components: θ and z change sign, r does not.
 const SIGNS: [f64; 3] = [1.0, -1.0, -1.0];
 
-/// `sector` in the frame turned about its x axis by half a turn.
+/// Sector in the frame turned about its x axis by half a turn.
 fn seen_from_behind(sector: &SectorModel) -> SectorModel {
     let sign = |dof: usize| SIGNS[dof % 3];
     let turned = |matrix: &SparseColMat<usize, f64>, transposed: bool| {
@@ -70,7 +70,7 @@ fn casing(contact_nodes: usize, phase_rad: f64) -> Casing {
     }
 }
 
-/// `[sector][node][component][step]` of the literal dense scheme, the wheel turning by `direction` = ±1.
+/// Displacements by the literal dense scheme, `[sector][node][component][step]`, the wheel turning by `direction` = ±1.
 fn dense(
     scheme: Scheme,
     reduced: &ReducedWheel,

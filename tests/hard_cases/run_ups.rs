@@ -30,7 +30,7 @@ fn told(sector: &SectorModel, reduced: &ReducedSector, scheme: &str, changes: Va
     });
     merge(&mut request, changes);
     let request: RunUpRequest = serde_json::from_value(request).unwrap();
-    // As of a model with elements, of which growth is known.
+    // The model has elements, so that its growth is known.
     let mesh = Some(MeshFacts { elements: 1, sets: Vec::new(), tip_thickness: None });
     let facts = ModelFacts { mesh, ..ModelFacts::of(sector) };
     to_the_end(reduced, &resolve_run_ups(request, &facts).unwrap(), &facts)
@@ -47,7 +47,7 @@ fn sound(found: &RunUps) -> &RunUpEnd {
     end
 }
 
-/// Driven at an engine order through the resonance of its nodal diameter, or only into it.
+/// Run-up driven at an engine order through the resonance of its nodal diameter, or only into it.
 #[test]
 fn a_run_that_ends_within_a_critical_speed_says_so() {
     let sector = wheel(WheelRecipe::default());
@@ -70,7 +70,7 @@ fn a_run_that_ends_within_a_critical_speed_says_so() {
     }
 }
 
-/// Up and at once down again, in contact all the while, by every scheme, with angles that are coarse and fine: the same envelope.
+/// Run up and at once down again, in contact all the while, by every scheme, with angles that are coarse and fine: the same envelope.
 #[test]
 fn contact_is_handed_on_without_loss() {
     let sector = wheel(WheelRecipe::default());
@@ -94,7 +94,7 @@ fn contact_is_handed_on_without_loss() {
     }
 }
 
-/// A run-down whose cold clearances are closed at first, and open as the tips shrink: the casing comes with its ramp, whatever the step, and the
+/// Run-down whose cold clearances are closed at first, and open as the tips shrink: the casing comes with its ramp, whatever the step, and the
 /// wheel is let go.
 #[test]
 fn what_presses_at_first_lets_go() {

@@ -1,4 +1,4 @@
-//! What the hard cases of time integration share: scenes given to a simulation without the door.
+//! Scenes that the hard cases of time integration share, given to a simulation without the door.
 
 use faer::{Mat, c64};
 use rubmap::dynamics::casing::{Casing, Lobes, Profile};
@@ -15,7 +15,7 @@ use rubmap::dynamics::sector::ContactNode;
 use crate::fixtures::{TOP_SPEED, WheelRecipe, wheel};
 use crate::support::ENERGY_TOLERANCE;
 
-/// A wheel at one speed, its casing and how it starts; every sample of the run is recorded.
+/// Scene: a wheel at one speed, its casing and how it starts; every sample of the run is recorded.
 #[derive(Debug, Clone)]
 pub(crate) struct Scene {
     pub(crate) wheel: ModalWheel,
@@ -24,14 +24,14 @@ pub(crate) struct Scene {
     pub(crate) casing: Option<Casing>,
     pub(crate) initial: Vec<InitialMode>,
     pub(crate) sensors: Vec<SensorRow>,
-    /// Samples per revolution.
+    /// Number of samples per revolution.
     pub(crate) samples: usize,
     pub(crate) revolutions: usize,
 }
 
 impl Scene {
-    /// At six tenths of the top speed, well damped, two lobes that outgrow a clearance of 0.3 over half a revolution,
-    /// from rest; the normal displacement of node 0 of sector 0 is recorded.
+    /// Makes a scene at six tenths of the top speed, well damped, with two lobes that outgrow a clearance of 0.3 over
+    /// half a revolution, from rest; the normal displacement of node 0 of sector 0 is recorded.
     pub(crate) fn new(recipe: WheelRecipe) -> Self {
         let reduced =
             reduce(&wheel(recipe), &ReductionOptions::new(6), &NoCheckpoints, &|_, _| true).unwrap();
@@ -57,20 +57,20 @@ impl Scene {
         scene
     }
 
-    /// The normal displacement of a contact node.
+    /// Sensor of the normal displacement of a contact node.
     pub(crate) fn normal(&self, node: usize, sector: usize) -> SensorRow {
         SensorRow { direction: Direction { node, components: self.contact[node].normal }, sector }
     }
 
-    /// The lobes of the casing.
+    /// Lobes of the casing.
     pub(crate) fn lobes(&mut self) -> &mut Lobes {
         let parts = &mut self.casing.as_mut().unwrap().restriction.as_mut().unwrap().parts;
         let Profile::Lobes(lobes) = &mut parts[0].profile else { panic!("scenes begin with lobes") };
         lobes
     }
 
-    /// Steps per revolution, `factor` times the smallest stable number of the scheme (of central differences, where the
-    /// scheme has no limit), a multiple of the samples.
+    /// Number of steps per revolution, `factor` times the smallest stable number of the scheme (of central differences,
+    /// where the scheme has no limit), a multiple of the samples.
     pub(crate) fn steps(&self, scheme: Scheme, factor: f64) -> usize {
         let bound = match scheme {
             Scheme::ExactModal => Scheme::CentralDifferences,
@@ -102,7 +102,7 @@ impl Scene {
         .run(&|_| true)
     }
 
-    /// The same wheel with the contact nodes `nodes` of this one, which may repeat.
+    /// Scene of the same wheel with the contact nodes `nodes` of this one, which may repeat.
     pub(crate) fn with_nodes(&self, nodes: &[usize]) -> Self {
         let contact = |shapes: &Mat<c64>| {
             Mat::from_fn(3 * nodes.len(), shapes.ncols(), |row, mode| {
@@ -120,7 +120,7 @@ impl Scene {
         scene
     }
 
-    /// Only the `modes` lowest modes of every nodal diameter.
+    /// Scene with only the `modes` lowest modes of every nodal diameter.
     pub(crate) fn truncated(&self, modes: usize) -> Self {
         let mut scene = self.clone();
         for ModalHarmonic { omega, contact, .. } in &mut scene.wheel.harmonics {
@@ -131,7 +131,7 @@ impl Scene {
     }
 }
 
-/// All that a completed run recorded.
+/// History that a completed run recorded.
 pub(crate) fn history(run: &Run) -> &History {
     match &run.outcome {
         Outcome::Completed(history) => history,
@@ -151,7 +151,7 @@ pub(crate) fn difference(a: &[f64], b: &[f64]) -> f64 {
     worst / largest(a).max(largest(b))
 }
 
-/// Completed, with finite numbers, complementary contact that leaves at most `penetration`, and balanced energy.
+/// Asserts that a run is completed, with finite numbers, complementary contact that leaves at most `penetration`, and balanced energy.
 pub(crate) fn assert_sound(run: &Run, penetration: f64, context: &str) {
     let history = history(run);
     assert!(history.displacement.iter().flatten().all(|u| u.is_finite()), "{context}");
@@ -164,5 +164,5 @@ pub(crate) fn assert_sound(run: &Run, penetration: f64, context: &str) {
     assert!(run.energy.loss() >= 0.0, "{context}");
 }
 
-/// What a step's contact solution may leave of a gap: round-off of lengths of about one through W.
+/// Penetration that a step's contact solution may leave of a gap: round-off of lengths of about one through W.
 pub(crate) const PENETRATION: f64 = 1e-12;

@@ -24,8 +24,8 @@ use crate::support::{
     KEPT_MODES, LIBRARY_SCHEMES, SCHEMES, assert_sound, reduced, run, spectral_difference, sweep,
 };
 
-/// Three revolutions, the last of them recorded, at 1.3 times the smallest stable number of steps; a multiple of 512
-/// steps has 512 samples.
+/// Request for a sweep of three revolutions, the last of them recorded, at 1.3 times the smallest stable number of
+/// steps; a multiple of 512 steps has 512 samples.
 fn request(sector: &SectorModel, reduced: &ReducedSector, name: &str, scheme: Scheme) -> ResolvedSweep {
     let speeds = [0.4, 0.7, 1.0].map(|share| share * TOP_SPEED);
     let smallest = speeds.iter().map(|&speed| {
@@ -46,7 +46,7 @@ fn request(sector: &SectorModel, reduced: &ReducedSector, name: &str, scheme: Sc
     sweep(sector, name, &speeds, changes)
 }
 
-/// Samples of the last revolution at the sensors of [`request`], by the literal dense scheme; steps with contact.
+/// Samples of the last revolution at the sensors of [`request`], by the literal dense scheme, and the number of steps with contact.
 fn dense(
     scheme: Scheme,
     reduced: &ReducedSector,
@@ -116,7 +116,7 @@ fn one_two_and_three_sectors_against_the_dense_scheme() {
     }
 }
 
-/// Spectra and responses of `result` are those of `samples`, sensor by sensor.
+/// Asserts that spectra and responses of `result` are those of `samples`, sensor by sensor.
 fn same_numbers(result: &SpeedResult, samples: &[Vec<f64>], of: &str) {
     let spectra = &result.spectra.as_ref().unwrap().sensors;
     for ((samples, spectrum), response) in samples.iter().zip(spectra).zip(&result.point.responses) {
@@ -168,7 +168,7 @@ fn sixty_four_sectors_obey_parseval_and_symmetry() {
     }
 }
 
-/// In a casing of 64 lobes every sector of 1, 2 or 64 does the same at the same time: the wheel that closes on itself.
+/// Casing of 64 lobes: every sector of 1, 2 or 64 does the same at the same time, and the wheel closes on itself.
 #[test]
 fn the_same_in_every_sector_whatever_their_number() {
     let of = |sectors| wheel(WheelRecipe { sectors, nodes: 5, contact_nodes: 2, ..Default::default() });

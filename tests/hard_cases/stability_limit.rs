@@ -1,4 +1,4 @@
-//! A step at 0.99, 1.00 and 1.01 of the longest stable one.
+//! Steps at 0.99, 1.00 and 1.01 of the longest stable one.
 //!
 //! At the limit itself displacements still look right while energy grows; beyond it everything overflows, but only once
 //! something has touched. Guaranteed: a given step at or beyond the limit is refused at its field, with the smallest number that
@@ -33,7 +33,7 @@ const RECIPE: WheelRecipe = WheelRecipe {
     ground: 1.0,
 };
 
-/// Whether a fixed number of steps is accepted; if not, it must be refused at its field with `smallest`.
+/// Whether a fixed number of steps is accepted; if not, asserts that it is refused at its field with `smallest`.
 fn accepted(reduced: &ReducedSector, request: &ResolvedSweep, steps: u64, smallest: u64) -> bool {
     let request =
         changed(request, |asked| asked.integration.steps_per_revolution = AutoOr::Fixed(steps as u32));
@@ -49,7 +49,8 @@ fn accepted(reduced: &ReducedSector, request: &ResolvedSweep, steps: u64, smalle
     }
 }
 
-/// Speeds at which exactly S steps are the limit: S is refused at every one of them, whichever way it rounds.
+/// Limit itself, refused to the last digit: at speeds at which exactly S steps are the limit, S is refused at every one
+/// of them, whichever way it rounds.
 #[test]
 fn the_limit_itself_is_refused_to_the_last_digit() {
     let sector = wheel(RECIPE);
@@ -70,7 +71,7 @@ fn the_limit_itself_is_refused_to_the_last_digit() {
 fn only_the_shorter_step_runs() {
     let sector = wheel(RECIPE);
     let reduced = reduced(&sector, 6);
-    // Slow enough for one per cent of the step to be many steps.
+    // The speed is low enough for one per cent of the step to be many steps.
     let speed =
         ModalWheel::at(&reduced.wheel, 1.0, RotationEffects::stiffening(false)).unwrap().largest_frequency()
             * PI
@@ -105,8 +106,8 @@ fn only_the_shorter_step_runs() {
     }
 }
 
-/// The highest mode alone, set off at the speed v, in the loop without the door: bounded below the limit, growing by hv a
-/// step at it, and exponentially beyond.
+/// Free motion of the highest mode alone, set off at the speed v, in the loop without the door: bounded below the limit,
+/// growing by hv a step at it, and exponentially beyond.
 #[test]
 fn free_motion_grows_from_the_limit_on() {
     let mut scene = Scene::new(RECIPE);
@@ -128,7 +129,7 @@ fn free_motion_grows_from_the_limit_on() {
         scene.wheel.speed_rad_s = PI * omega / (1000.0 * share);
         let run = scene.run(Scheme::CentralDifferences, 1000);
         let unit = {
-            // What the sensor sees of a modal displacement of v/ω.
+            // The unit is what the sensor sees of a modal displacement of v/ω.
             let shape: c64 = (0..3)
                 .map(|d| scene.wheel.harmonics[stiffest].contact[(d, family)] * scene.contact[0].normal[d])
                 .sum();
@@ -137,24 +138,24 @@ fn free_motion_grows_from_the_limit_on() {
         };
         largest(&history(&run).displacement[0]) / unit
     };
-    // 1/√(1 − share²)
+    // Below the limit the reach is 1/√(1 − share²).
     assert!((reach(0.99) / 7.09 - 1.0).abs() < 0.01);
-    // A thousand steps of hv = 2v/ω.
+    // At the limit it is a thousand steps of hv = 2v/ω.
     assert!((reach(1.0) / 2000.0 - 1.0).abs() < 1e-3);
     assert!(reach(1.01) > 1e100);
 }
 
-/// Steps per revolution at which a wheel whose contact does not change is about to become unstable.
+/// Number of steps per revolution at which a wheel whose contact does not change is about to become unstable.
 fn linear_limit(scene: &Scene, scheme: Scheme) -> f64 {
     let unstable = scheme.smallest_stable_steps(&scene.wheel, &scene.contact) - 1;
     match scheme {
-        // Its rule is half of that.
+        // This scheme requires twice as many steps as that limit.
         Scheme::MasslessBoundary { .. } => (unstable / 2) as f64,
         _ => unstable as f64,
     }
 }
 
-/// With contact, steps beyond it end as diverged.
+/// Steps beyond the limit, with contact, end as diverged.
 #[test]
 fn contact_beyond_the_limit_diverges() {
     for scheme in [Scheme::CentralDifferences, Scheme::MasslessBoundary { kept_modes: 7 }] {
@@ -168,9 +169,10 @@ fn contact_beyond_the_limit_diverges() {
     }
 }
 
-/// Why `massless_boundary` accepts half of what keeps every fixed set of closed nodes stable: where nodes open and close, a
-/// long step passes energy from one set to the next. On a ring, which does no work once it has grown, an undamped wheel
-/// keeps its energy up to half of it and gains it without bound close to it.
+/// Rattling close to the limit gains energy, which is why `massless_boundary` accepts half of what keeps every fixed set of
+/// closed nodes stable: where nodes open and close, a long step passes energy from one set to the next. On a ring, which
+/// does no work once it has grown, an undamped wheel keeps its energy up to half of it and gains it without bound close to
+/// it.
 #[test]
 fn close_to_the_limit_rattling_gains_energy() {
     for kept_modes in [1, 3, 7, 12] {

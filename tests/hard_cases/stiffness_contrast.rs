@@ -23,10 +23,10 @@ const MASS: [f64; 2] = [3e-6, 1e-6];
 /// Softest spring in r, θ and z, and of the coupling to the next sector: few binary digits, so that sums are exact.
 const SOFT: [f64; 3] = [6.0, 8.0, 11.0];
 const COUPLING: f64 = 1.5;
-/// 1.7e10
+/// Ratio of the stiffest spring to the softest, 1.7e10.
 const CONTRAST: f64 = (1u64 << 34) as f64;
 
-/// Per direction: ground – `hub` – root mass – `tip` – contact mass, root masses of neighbours joined by COUPLING.
+/// Sector, in each direction: ground – `hub` – root mass – `tip` – contact mass, root masses of neighbours joined by COUPLING.
 fn sector(hub: [f64; 3], tip: [f64; 3]) -> SectorModel {
     let (mut own, mut next, mut mass) = (Vec::new(), Vec::new(), Vec::new());
     for d in 0..3 {
@@ -58,19 +58,18 @@ fn sector(hub: [f64; 3], tip: [f64; 3]) -> SectorModel {
     SectorModel::new(parts).unwrap()
 }
 
-/// ω² of two masses on two springs, (low, high): roots of m₁m₂λ² − (k₂(m₁ + m₂) + k₁m₂)λ + k₁k₂, free of
-/// cancellation.
+/// Closed form of ω² of two masses on two springs, (low, high): roots of m₁m₂λ² − (k₂(m₁ + m₂) + k₁m₂)λ + k₁k₂, free of cancellation.
 fn closed_form(hub: f64, tip: f64) -> [f64; 2] {
     let [m1, m2] = MASS;
     let a = m1 * m2;
     let b = tip * (m1 + m2) + hub * m2;
-    // b² − 4ac with c = k₁k₂, as a sum of squares: (k₂(m₁ + m₂) − k₁m₂)² + 4k₁k₂m₂².
+    // This is b² − 4ac with c = k₁k₂, as a sum of squares: (k₂(m₁ + m₂) − k₁m₂)² + 4k₁k₂m₂².
     let root = ((tip * (m1 + m2) - hub * m2).powi(2) + 4.0 * hub * tip * m2 * m2).sqrt();
     let high = (b + root) / (2.0 * a);
     [hub * tip / (a * high), high]
 }
 
-/// The six ω² of nodal diameter `i`, ascending.
+/// Expected ω² of nodal diameter `i`, all six, ascending.
 fn expected(hub: [f64; 3], tip: [f64; 3], i: usize) -> Vec<f64> {
     let sine = (PI * i as f64 / SECTORS as f64).sin();
     let mut all: Vec<f64> =
@@ -105,7 +104,7 @@ fn frequencies_are_as_good_as_the_matrix_entries() {
     }
 }
 
-/// From contrasts that cost half the digits to those that leave none: the same bound, or a refusal.
+/// Contrasts from those that cost half the digits to those that leave none: the same bound, or a refusal.
 #[test]
 fn beyond_double_precision_frequencies_are_right_or_refused() {
     for exponent in [36, 38, 40, 44, 48, 50, 52, 53, 56, 64, 100, 300] {

@@ -1,4 +1,4 @@
-//! What the hard cases share: sweeps through the door, and what each of their results must withstand.
+//! Sweeps through the door that the hard cases share, and what each of their results must withstand.
 
 use rubmap::analysis::monitor::Unwatched;
 use rubmap::analysis::request::SweepRequest;
@@ -12,24 +12,24 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::{Value, json};
 
-/// `integration.scheme` of the sweeps.
+/// Values of `integration.scheme` of the sweeps.
 pub(crate) const SCHEMES: [&str; 3] = ["central_differences", "exact_modal", "massless_boundary"];
 
-/// The same for a simulation without the door, in the same order.
+/// Schemes of [`SCHEMES`] for a simulation without the door, in the same order.
 pub(crate) const LIBRARY_SCHEMES: [Scheme; 3] = [
     Scheme::CentralDifferences,
     Scheme::ExactModal,
     Scheme::MasslessBoundary { kept_modes: KEPT_MODES as usize },
 ];
 
-/// `integration.kept_modes` where it has to be the same in two runs.
+/// Value of `integration.kept_modes` where it has to be the same in two runs.
 pub(crate) const KEPT_MODES: u32 = 7;
 
-/// The largest violation of the energy identity, relative to the largest energy, that any scheme may show.
+/// Largest violation of the energy identity, relative to the largest energy, that any scheme may show.
 pub(crate) const ENERGY_TOLERANCE: f64 = 1e-9;
 
-/// A sweep over `speeds` in rad/s: two lobes beyond the clearance, well damped, changed by the fields of `changes`;
-/// `kept_modes` among them is for the scheme that has it.
+/// Resolved sweep over `speeds` in rad/s: two lobes beyond the clearance, well damped, changed by the fields of
+/// `changes`; `kept_modes` among them is for the scheme that has it.
 pub(crate) fn sweep(sector: &SectorModel, scheme: &str, speeds: &[f64], changes: Value) -> ResolvedSweep {
     let mut request = json!({
         "model": "test wheel", "modes_per_speed": 6,
@@ -53,14 +53,14 @@ pub(crate) fn sweep(sector: &SectorModel, scheme: &str, speeds: &[f64], changes:
     resolve_sweep(serde_json::from_value(request).unwrap(), &ModelFacts::of(sector)).unwrap()
 }
 
-/// `request` with other settings, which nothing is held against.
+/// Sweep of `request` with other settings, which are not checked.
 pub(crate) fn changed(request: &ResolvedSweep, change: impl FnOnce(&mut SweepRequest)) -> ResolvedSweep {
     let mut settings = SweepRequest::from(request.clone());
     change(&mut settings);
     ResolvedSweep::stored(settings, 0).unwrap()
 }
 
-/// Every field of `changes` over that of `base`.
+/// Puts every field of `changes` over that of `base`.
 pub(crate) fn merge(base: &mut Value, changes: Value) {
     match (base, changes) {
         (Value::Object(base), Value::Object(changes)) => {
@@ -76,15 +76,15 @@ pub(crate) fn reduced(sector: &SectorModel, modes_per_speed: u32) -> ReducedSect
     prepare(sector, modes_per_speed, None, &NoCheckpoints, &Unwatched).unwrap()
 }
 
-/// The whole sweep as a job runs it: checked first, then speed by speed.
+/// Runs the whole sweep as a job does: checked first, then speed by speed.
 pub(crate) fn run(reduced: &ReducedSector, request: &ResolvedSweep) -> Vec<SpeedResult> {
     check(reduced, request, &Unwatched).unwrap();
     let speeds = request.speeds().rad_s().len();
     (0..speeds).map(|index| run_speed(reduced, request, index, None, &Unwatched).unwrap()).collect()
 }
 
-/// Completed, with finite numbers, complementary contact and balanced energy. Gaps are differences of lengths of
-/// about `length`: 1e-12 of it is their round-off through W.
+/// Asserts that a speed is completed, with finite numbers, complementary contact and balanced energy. Gaps are
+/// differences of lengths of about `length`: 1e-12 of it is their round-off through W.
 pub(crate) fn assert_sound(result: &SpeedResult, length: f64) {
     let point = &result.point;
     assert_eq!(point.status, PointStatus::Completed, "{point:?}");
@@ -94,8 +94,8 @@ pub(crate) fn assert_sound(result: &SpeedResult, length: f64) {
     assert_survives_json(result);
 }
 
-/// What is written is read back equal. JSON has no word for NaN or infinity: a number that is none becomes null, and
-/// is refused or differs when it is read.
+/// Asserts that a value is read back equal from its JSON, which has no word for NaN or infinity: a number that is none
+/// becomes null, and is refused or differs when it is read.
 pub(crate) fn assert_survives_json<T>(value: &T)
 where
     T: Serialize + DeserializeOwned + PartialEq + std::fmt::Debug,
@@ -104,7 +104,7 @@ where
     assert_eq!(&serde_json::from_str::<T>(&text).unwrap(), value);
 }
 
-/// Largest amplitude of each sensor, and the largest difference of two runs' spectra of it relative to that.
+/// Largest difference of two runs' spectra of a sensor, relative to the largest amplitude of the sensor.
 pub(crate) fn spectral_difference(a: &SpeedResult, b: &SpeedResult) -> f64 {
     let (a, b) = (a.spectra.as_ref().unwrap(), b.spectra.as_ref().unwrap());
     assert_eq!(a.sensors.len(), b.sensors.len());
@@ -118,7 +118,7 @@ pub(crate) fn spectral_difference(a: &SpeedResult, b: &SpeedResult) -> f64 {
     a.sensors.iter().zip(&b.sensors).map(of).fold(0.0, f64::max)
 }
 
-/// Y times `factor`.
+/// Multiplies Y by `factor`.
 pub(crate) fn scale(matrix: &mut CyclicMatrix, factor: f64) {
     for values in [matrix.own.val_mut(), matrix.next.val_mut()] {
         values.iter_mut().for_each(|v| *v *= factor);

@@ -42,7 +42,7 @@ fn growth_does_not_depend_on_the_seed() {
             // No sample is a mean of steps: at the ends of the window, which are taken for neighbours, orders of magnitude would meet.
             scene.samples = steps;
             let mut factors = |seed: f64| -> Vec<f64> {
-                // Of the modal coordinate, whose unit is a millimetre times the root of a tonne.
+                // The seed is one of the modal coordinate, whose unit is a millimetre times the root of a tonne.
                 scene.initial = vec![InitialMode {
                     harmonic: 1,
                     family: 0,

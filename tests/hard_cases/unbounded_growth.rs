@@ -1,4 +1,4 @@
-//! A response that grows without bound.
+//! Response that grows without bound.
 //!
 //! Left alone it overflows after hours, spreads NaN over every result, or is reported as an amplitude. Guaranteed: found at
 //! the first sample at which any component of a tip is beyond a tenth of the wheel's radius, with node, sector, component, time and the
@@ -22,8 +22,8 @@ use crate::support::{ENERGY_TOLERANCE, SCHEMES, assert_sound, assert_survives_js
 
 const SECTORS: usize = 7;
 
-/// The highest mode of nodal diameter 1 a little beyond central differences' limit, ωh = 2(1 + δ): it grows by
-/// exp(acosh(1 + 4δ + 2δ²)) a step and changes sign.
+/// Unstable step: the highest mode of nodal diameter 1 a little beyond central differences' limit, ωh = 2(1 + δ), grows
+/// by exp(acosh(1 + 4δ + 2δ²)) a step and changes sign.
 #[test]
 fn an_unstable_step_is_found_when_theory_says() {
     for delta in [1e-5, 1e-4, 1e-2] {
@@ -83,7 +83,7 @@ fn an_unstable_step_is_found_when_theory_says() {
     }
 }
 
-/// A mode that moves tips along the casing and not at all towards it: nothing touches, and nothing along the normal tells.
+/// Tip that swings along the casing and not at all towards it: nothing touches, and nothing along the normal tells.
 #[test]
 fn a_tip_that_swings_along_the_casing_is_found() {
     let mut scene = Scene::new(WheelRecipe { sectors: SECTORS, ..Default::default() });
@@ -122,7 +122,7 @@ fn a_tip_that_swings_along_the_casing_is_found() {
     }
 }
 
-/// A wheel that hardly anything holds to its hub, without damping: lobes throw its blades about ever more.
+/// Wheel that hardly anything holds to its hub, without damping: lobes throw its blades about ever more.
 #[test]
 fn a_speed_that_diverges_has_a_message_and_no_amplitude() {
     let sector = wheel(WheelRecipe { ground: 0.01, ..Default::default() });
@@ -148,7 +148,7 @@ fn a_speed_that_diverges_has_a_message_and_no_amplitude() {
             thrown.spectra.is_none() && point.responses.is_empty() && point.settling.is_none(),
             "{point:?}"
         );
-        // What was counted until then stands.
+        // The work until then is accounted for.
         assert!(point.energy_residual.unwrap() < ENERGY_TOLERANCE, "{point:?}");
         assert!(point.largest_energy.is_some() && point.contact_share > 0.0, "{point:?}");
         assert_survives_json(&thrown);

@@ -1,4 +1,4 @@
-//! The same wheel in millimetres and tonnes and in metres and kilograms.
+//! Units: one wheel in millimetres and tonnes and in metres and kilograms.
 //!
 //! A tolerance, a guard or a shift that is a number and not a share of the model's own scale ("1e-6 is small") passes
 //! in one set of units and fails in the other. Guaranteed: the same steps, contacts and verdicts; lengths scale by 1e-3,
@@ -13,7 +13,7 @@ use serde_json::json;
 use crate::fixtures::{TOP_SPEED, WheelRecipe, wheel};
 use crate::support::{SCHEMES, assert_sound, reduced, run, scale, sweep};
 
-/// A `sector` given in mm, t, N and s, in SI units: t → kg and N/mm → N/m are factors of 1e3.
+/// Sector in SI units, from one in mm, t, N and s: t → kg and N/mm → N/m are factors of 1e3.
 fn in_si(sector: SectorModel) -> SectorModel {
     let mut sector = sector.into_parts();
     scale(&mut sector.mass, 1e3);

@@ -1,4 +1,4 @@
-//! No clearance at all: blades rest on the casing.
+//! Clearance of zero: blades rest on the casing.
 //!
 //! Tolerances relative to the clearance are zero, a gap of exactly 0 is neither open nor closed, and every step of a
 //! moving wheel closes something. Guaranteed: a wheel at rest stays at rest to the bit; one that moves, or is pushed, keeps its
@@ -28,7 +28,7 @@ fn at_rest_in_a_circular_casing_nothing_moves() {
     }
 }
 
-/// Nothing gives a length to hold gaps against: neither a clearance nor a lobe.
+/// Circular casing without clearance: nothing gives a length to hold gaps against, neither a clearance nor a lobe.
 #[test]
 fn a_vibrating_wheel_in_a_circular_casing() {
     let mut scene = without_clearance();

@@ -1,4 +1,4 @@
-//! A spinning annulus cut into sectors: centrifugal load, cyclic solve and stresses against the closed form.
+//! Spinning annulus cut into sectors: centrifugal load, cyclic solve and stresses against the closed form.
 
 use rubmap::impeller::element::{Hex8, Hex20, Hexahedron, gauss_points};
 use rubmap::impeller::mesh::{ElementOrder, Elements, SectorMesh};
@@ -6,7 +6,7 @@ use rubmap::impeller::{AnnulusParameters, Material, SectorMatrices, annulus_mesh
 
 const INNER: f64 = 0.3;
 const OUTER: f64 = 1.0;
-/// Thin enough for plane stress to hold to 1e-7.
+/// Thickness, so small that plane stress holds to 1e-7.
 const THICKNESS: f64 = 1e-3;
 const MATERIAL: Material = Material {
     youngs_modulus: 1.0,
@@ -17,7 +17,7 @@ const MATERIAL: Material = Material {
     fatigue_strength: None,
 };
 
-/// One layer on a frictionless plane; nothing turns (θ clamped at the inner edge only).
+/// Mesh of one layer on a frictionless plane; nothing turns (θ clamped at the inner edge only).
 fn annulus(order: ElementOrder, sectors: usize, around: usize, radial: usize) -> SectorMesh {
     let p = AnnulusParameters {
         sectors,
@@ -42,7 +42,7 @@ fn exact_bore_stress() -> f64 {
     (3.0 + nu) / 4.0 * (OUTER.powi(2) + (1.0 - nu) / (3.0 + nu) * INNER.powi(2))
 }
 
-/// `E u_r/r` at the bore, where `σ_r` = 0: the hoop stress there.
+/// Hoop stress at the bore, which is `E u_r/r` as `σ_r` = 0 there.
 fn bore_stress(sector: &SectorMesh) -> f64 {
     let matrices = SectorMatrices::assemble(sector, &MATERIAL).unwrap();
     let u = &matrices.prestress.displacements;
@@ -51,7 +51,7 @@ fn bore_stress(sector: &SectorMesh) -> f64 {
     u[low][0] * MATERIAL.youngs_modulus / INNER
 }
 
-/// Second order in the mesh with 8 nodes, fourth with 20.
+/// Hoop stress at the bore converges to the closed form: second order in the mesh with 8 nodes, fourth with 20.
 #[test]
 fn hoop_stress_at_the_bore_converges_to_the_closed_form() {
     for (order, expected, within) in [(ElementOrder::Linear, 2.0, 2e-3), (ElementOrder::Quadratic, 4.0, 4e-6)]
@@ -111,7 +111,7 @@ fn gauss_point_stresses_follow_the_closed_form() {
     }
 }
 
-/// The same ring of 48 elements cut into 8, 12 or 16 sectors, or 3: the same answer to round-off of the solve.
+/// Ring of 48 elements cut into 8, 12 or 16 sectors, or 3: the same answer to round-off of the solve.
 #[test]
 fn sector_count_does_not_change_the_answer() {
     let reference = bore_stress(&annulus(ElementOrder::Linear, 12, 4, 8));

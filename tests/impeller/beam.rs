@@ -1,12 +1,11 @@
-//! The rotating uniform cantilever (Wright, Smith, Thresher and Wang, J. Appl. Mech. 49, 1982): flap against the table,
-//! lag² = flap² − Ω².
+//! Rotating uniform cantilever (Wright, Smith, Thresher and Wang, J. Appl. Mech. 49, 1982): flap against the table, lag² = flap² − Ω².
 
 use rubmap::impeller::mesh::ElementOrder::{self, Linear, Quadratic};
 use rubmap::impeller::{CantileverParameters, Material, SectorMatrices, cantilever, cantilever_mesh};
 
 use crate::eigen::{dense_eigenvalues, lowest_real};
 
-/// ω* of flap modes 1 and 2 at η (Wright et al. 1982, recomputed by Legendre–Ritz).
+/// Frequencies ω* of flap modes 1 and 2 at η (Wright et al. 1982, recomputed by Legendre–Ritz).
 const TABLE: [(f64, [f64; 2]); 4] = [
     (0.0, [3.51602, 22.03449]),
     (2.0, [4.13732, 22.61492]),
@@ -14,10 +13,10 @@ const TABLE: [(f64, [f64; 2]); 4] = [
     (8.0, [9.25684, 29.99538]),
 ];
 
-/// A square beam of unit length, E = ρ = A = 1; slenderness = length/side.
+/// Square beam of unit length, E = ρ = A = 1; slenderness = length/side.
 struct Beam {
     matrices: SectorMatrices,
-    /// √(EI/m)/L².
+    /// Unit of frequencies, √(EI/m)/L².
     unit: f64,
 }
 
@@ -36,7 +35,7 @@ impl Beam {
         Self { matrices, unit: (1.0_f64 / 12.0).sqrt() / slenderness.powi(2) }
     }
 
-    /// ω* of the four lowest modes at η, ascending: lag and flap of the first, then of the second family.
+    /// Frequencies ω* of the four lowest modes at η, ascending: lag and flap of the first, then of the second family.
     fn frequencies(&self, eta: f64) -> [f64; 4] {
         let omega = eta * self.unit;
         let values = lowest_real(&self.matrices.stiffness(omega), &self.matrices.rest.mass(), 4).unwrap();
@@ -59,9 +58,9 @@ fn errors(beam: &Beam) -> Vec<([f64; 2], [f64; 2])> {
         .collect()
 }
 
-/// ν = 0 (no clamping effect of the section), slenderness 200: mode 1 within 2e-5 of Euler–Bernoulli with either
-/// element, mode 2 within 4e-4 (80 of 8 nodes) and 1e-4 (64 of 20). The rest is the mesh (next tests) and shear and rotary
-/// inertia, −1e-5 at this slenderness.
+/// Flap frequencies with ν = 0 (no clamping effect of the section), slenderness 200: mode 1 within 2e-5 of Euler–Bernoulli
+/// with either element, mode 2 within 4e-4 (80 of 8 nodes) and 1e-4 (64 of 20). The rest is the mesh (next tests) and
+/// shear and rotary inertia, −1e-5 at this slenderness.
 #[test]
 fn flap_frequencies_meet_the_table() {
     for (beam, second) in
@@ -73,8 +72,7 @@ fn flap_frequencies_meet_the_table() {
     }
 }
 
-/// 8 nodes: halving the elements divides the error of mode 2 by four, at rest and at every speed (second order; measured
-/// 4.2 to 5).
+/// Elements of 8 nodes: halving them divides the error of mode 2 by four, at rest and at every speed (second order; measured 4.2 to 5).
 #[test]
 fn linear_elements_converge_at_second_order() {
     let coarse = errors(&Beam::new(Linear, 200.0, 20, 0.0));
@@ -85,8 +83,8 @@ fn linear_elements_converge_at_second_order() {
     }
 }
 
-/// 20 nodes: fourth order towards the beam's own limit (64 elements) once an element is about as long as the beam is
-/// high, at rest and at every speed. Longer elements bend through parasitic shear, at second order.
+/// Elements of 20 nodes: fourth order towards the beam's own limit (64 elements) once an element is about as long as
+/// the beam is high, at rest and at every speed. Longer elements bend through parasitic shear, at second order.
 #[test]
 fn quadratic_elements_converge_at_fourth_order() {
     let [coarse, fine, limit] = [16, 32, 64].map(|n| errors(&Beam::new(Quadratic, 20.0, n, 0.0)));
@@ -97,7 +95,7 @@ fn quadratic_elements_converge_at_fourth_order() {
     }
 }
 
-/// lag² = flap² − Ω² is exact for a line; a section of finite height departs by its own rotary inertia, as
+/// Lag² = flap² − Ω² is exact for a line; a section of finite height departs by its own rotary inertia, as
 /// (side/length)² (measured at η = 8: 9.7e-5 at slenderness 100, 2.4e-5 at 200).
 #[test]
 fn spin_softens_lag_by_the_speed_squared() {
@@ -112,7 +110,7 @@ fn spin_softens_lag_by_the_speed_squared() {
     }
 }
 
-/// With ν = 0.3 the clamp holds the section's own lateral strain over about one height: 4.4e-4 at this mesh.
+/// Poisson's ratio ν = 0.3: the clamp holds the section's own lateral strain over about one height: 4.4e-4 at this mesh.
 #[test]
 fn poissons_ratio_only_stiffens_the_clamp() {
     for (flap, lag) in errors(&Beam::new(Linear, 200.0, 160, 0.3)) {

@@ -20,15 +20,15 @@ use crate::eigen::{harmonic, hertz, lowest};
 
 const MODES: usize = 4;
 
-/// What CalculiX printed.
+/// Results that CalculiX printed.
 pub(crate) struct Answer {
     /// Frequencies (Hz) per nodal diameter.
     frequencies: Vec<Vec<f64>>,
     /// Nodal displacements in x, y, z.
     pub(crate) displacements: Vec<[f64; 3]>,
-    /// Per element and Gauss point: xx, yy, zz, xy, xz, yz.
+    /// Stresses per element and Gauss point: xx, yy, zz, xy, xz, yz.
     stresses: Vec<Vec<[f64; 6]>>,
-    /// Per node: xx, yy, zz, xy, yz, zx of the sector's own elements.
+    /// Stresses per node: xx, yy, zz, xy, yz, zx of the sector's own elements.
     pub(crate) nodal_stresses: Vec<[f64; 6]>,
 }
 
@@ -39,8 +39,7 @@ fn set(deck: &mut String, name: &str, nodes: impl Iterator<Item = usize>) {
     }
 }
 
-/// A cyclic frequency analysis without pre-stress (if there are cyclic faces), then a static step with the centrifugal
-/// load at `speed`.
+/// Deck of a cyclic frequency analysis without pre-stress (if there are cyclic faces), then a static step with the centrifugal load at `speed`.
 fn deck(sector: &SectorMesh, material: &Material, speed: f64) -> String {
     let mut deck = String::from("*NODE, NSET=NALL\n");
     for (n, [x, y, z]) in sector.mesh.nodes.iter().enumerate() {
@@ -52,7 +51,7 @@ fn deck(sector: &SectorMesh, material: &Material, speed: f64) -> String {
     };
     writeln!(deck, "*ELEMENT, TYPE={kind}, ELSET=EALL").unwrap();
     for e in 0..sector.mesh.elements.len() {
-        // At most sixteen numbers a line.
+        // A line has at most sixteen numbers.
         let numbers: Vec<String> = std::iter::once(e + 1)
             .chain(sector.mesh.elements.nodes_of(e).iter().map(|n| n + 1))
             .map(|number| number.to_string())
@@ -122,7 +121,7 @@ S
     deck
 }
 
-/// Runs CalculiX; none, with a printed reason, without it.
+/// Runs CalculiX; `None`, with a printed reason, without it.
 pub(crate) fn calculix(sector: &SectorMesh, material: &Material, speed: f64) -> Option<Answer> {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("sector.inp"), deck(sector, material, speed)).unwrap();
@@ -161,7 +160,7 @@ fn parse(text: &str, sector: &SectorMesh) -> Answer {
         let values: Option<Vec<f64>> = line.split_whitespace().map(|field| field.parse().ok()).collect();
         let Some(v) = values.filter(|v| !v.is_empty()) else { continue };
         match block {
-            // Nodal diameter, mode, eigenvalue, rad/time, cycles/time, imaginary part.
+            // The columns are nodal diameter, mode, eigenvalue, rad/time, cycles/time, imaginary part.
             "frequencies" => {
                 let diameter = v[0] as usize;
                 answer.frequencies.resize(answer.frequencies.len().max(diameter + 1), Vec::new());
@@ -175,7 +174,7 @@ fn parse(text: &str, sector: &SectorMesh) -> Answer {
     answer
 }
 
-/// The last stresses of a file of results at nodes, which has six digits.
+/// Last stresses of a file of results at nodes, which has six digits.
 fn nodal_stresses(frd: &str, nodes: usize) -> Vec<[f64; 6]> {
     let mut found = vec![[f64::NAN; 6]; nodes];
     let mut in_stress = false;
@@ -235,7 +234,7 @@ fn static_differences(sector: &SectorMesh, material: &Material, speed: f64, thei
     [displacement, stress]
 }
 
-/// A coarse impeller of 20-node elements with splitter blades.
+/// Parameters of a coarse impeller of 20-node elements with splitter blades.
 pub(crate) fn twenty_node_impeller() -> ImpellerParameters {
     ImpellerParameters {
         sectors: 7,
@@ -253,8 +252,8 @@ pub(crate) fn twenty_node_impeller() -> ImpellerParameters {
     }
 }
 
-/// The same element, so only the printed digits differ. Measured: frequencies 1.5e-7, displacements 3.9e-7, stresses
-/// 9e-8.
+/// Impeller of 20-node elements, the same as CalculiX's, so only the printed digits differ. Measured: frequencies
+/// 1.5e-7, displacements 3.9e-7, stresses 9e-8.
 #[test]
 fn a_twenty_node_impeller_agrees_with_calculix() {
     let p = twenty_node_impeller();
@@ -266,9 +265,9 @@ fn a_twenty_node_impeller_agrees_with_calculix() {
     assert!(frequency < 1e-6 && displacement < 1e-6 && stress < 1e-6);
 }
 
-/// The same idea in two formulations (above) on the default mesh, eight elements over a blade's length and four over
-/// its height at most: frequencies within 2 %, displacements within 2 % of the largest. At single Gauss points in the most
-/// crooked elements a stress is 15 % of the largest one apart.
+/// Impeller of 8-node elements, one idea in two formulations (C3D8I, see above), on the default mesh, eight elements over
+/// a blade's length and four over its height at most: frequencies within 2 %, displacements within 2 % of the largest. At
+/// single Gauss points in the most crooked elements a stress is 15 % of the largest one apart.
 #[test]
 fn eight_node_impeller_is_close_to_calculix() {
     let p = ImpellerParameters::default();

@@ -1,4 +1,4 @@
-//! What sweeps take for the wheel under its centrifugal load, against CalculiX: a sector with cyclic symmetry, `*DLOAD` with `CENTRIF`.
+//! Static part of sweeps, the wheel under its centrifugal load, against CalculiX: a sector with cyclic symmetry, `*DLOAD` with `CENTRIF`.
 
 use nalgebra::{Matrix3, Vector3};
 use rubmap::analysis::stress::StressMaker;
@@ -9,11 +9,11 @@ use rubmap::solid::frame::AxisFrame;
 
 use crate::calculix::{calculix, twenty_node_impeller};
 
-/// What it prints of displacements, and of stress at nodes after extrapolation by a table of four digits.
+/// Relative precision with which CalculiX prints displacements, and stress at nodes after extrapolation by a table of four digits.
 const PRINTED: [f64; 2] = [1e-6, 1e-4];
 
-/// By the stored matrices at rest, as CalculiX's linear step has them. At nodes of the faces between sectors CalculiX averages over the
-/// elements of its sector alone; we do over those of the next, too, as `tests/solid` has it of whole wheels.
+/// Static part of stress by the stored matrices at rest, as CalculiX's linear step has them. At nodes of the faces between sectors
+/// CalculiX averages over the elements of its sector alone; we do over those of the next, too, as `tests/solid` has it of whole wheels.
 #[test]
 fn the_static_part_of_stress_is_that_of_calculix() {
     let p = twenty_node_impeller();

@@ -1,4 +1,4 @@
-//! What every mesh must be, whatever its shape: checked from its nodes and elements alone.
+//! Properties that every mesh must have, whatever its shape: checked from its nodes and elements alone.
 
 use std::collections::{HashMap, HashSet};
 
@@ -9,7 +9,7 @@ use rubmap::impeller::mesh::{Elements, HexMesh, SectorMesh};
 const FACES: [[usize; 4]; 6] =
     [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]];
 
-/// The outer surface: faces of one element only, as four corners counter-clockwise seen from outside.
+/// Outer surface of a mesh: faces of one element only, as four corners counter-clockwise seen from outside.
 ///
 /// Checks on the way that every face belongs to one element, or to two from opposite sides.
 pub(crate) fn boundary(mesh: &HexMesh) -> Vec<[usize; 4]> {
@@ -28,7 +28,7 @@ pub(crate) fn boundary(mesh: &HexMesh) -> Vec<[usize; 4]> {
         match sides.as_slice() {
             [one] => outer.push(*one),
             [a, b] => {
-                // The same corners in the opposite sense.
+                // The other element has the same corners in the opposite sense.
                 let at = b.iter().position(|n| *n == a[0]).unwrap();
                 assert_eq!(a[1], b[(at + 3) % 4], "a face is entered twice from one side");
             }
@@ -38,8 +38,8 @@ pub(crate) fn boundary(mesh: &HexMesh) -> Vec<[usize; 4]> {
     outer
 }
 
-/// No two nodes in one place, none without an element, one middle per edge, and an outer surface that is closed and
-/// has the topology of a ball.
+/// Checks that no two nodes are in one place, none is without an element, every edge has one middle, and the outer
+/// surface is closed and has the topology of a ball.
 pub(crate) fn check_conforming(mesh: &HexMesh, size: f64) {
     let mut used: HashSet<usize> = HashSet::new();
     let mut middles: HashMap<[usize; 2], usize> = HashMap::new();
@@ -74,11 +74,11 @@ pub(crate) fn check_conforming(mesh: &HexMesh, size: f64) {
         }
     }
     assert!(edges.iter().all(|&[a, b]| edges.contains(&[b, a])), "the surface is open");
-    // V − E + F of a sphere.
+    // This is V − E + F of a sphere.
     assert_eq!(corners.len() + outer.len(), edges.len() / 2 + 2);
 }
 
-/// ∫ dV by 3 × 3 × 3 Gauss points (exact for these elements); every determinant on the way must be positive.
+/// Volume ∫ dV of a mesh by 3 × 3 × 3 Gauss points (exact for these elements); every determinant on the way must be positive.
 pub(crate) fn volume(mesh: &HexMesh) -> f64 {
     fn of<E: Hexahedron<N>, const N: usize>(mesh: &HexMesh, elements: &[[usize; N]]) -> f64 {
         let weighted = elements.iter().flat_map(|nodes| {
@@ -97,8 +97,8 @@ pub(crate) fn volume(mesh: &HexMesh) -> f64 {
     }
 }
 
-/// The high face is the low face turned by 2π/N, to a few roundings of sine and cosine, and the two cover the same
-/// piece of the surface.
+/// Checks that the high face is the low face turned by 2π/N, to a few roundings of sine and cosine, and that the two
+/// cover the same piece of the surface.
 pub(crate) fn check_cyclic(sector: &SectorMesh, size: f64) {
     let (s, c) = (2.0 * std::f64::consts::PI / sector.sectors as f64).sin_cos();
     for &(low, high) in &sector.cyclic {

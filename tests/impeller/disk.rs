@@ -6,13 +6,13 @@ use rubmap::impeller::mesh::ElementOrder;
 use crate::eigen::{harmonic, lowest};
 use crate::plate::unit_annulus;
 
-/// ω²/Ω² of nodal diameters 1 … 5 without nodal circle, ν = 0.3.
+/// Ratios ω²/Ω² of nodal diameters 1 … 5 without nodal circle, ν = 0.3.
 const MEMBRANE: [f64; 5] = [1.0, 2.35, 4.05, 6.10, 8.50];
 
-/// Ω in parts of √(E/ρ)/a.
+/// Speed Ω in parts of √(E/ρ)/a.
 const SPEED: f64 = 0.02;
 
-/// ω² of nodal diameter i at rest and at Ω; outer radius 1, clamped hub of radius 0.02, E = ρ = 1.
+/// Squares ω² of nodal diameter i at rest and at Ω; outer radius 1, clamped hub of radius 0.02, E = ρ = 1.
 fn squares(order: ElementOrder, thickness: f64, radial: usize, speed: f64, i: usize) -> [f64; 2] {
     let p = unit_annulus(order, 0.02, thickness, radial, speed);
     let package = annulus(&p).unwrap();
@@ -20,8 +20,8 @@ fn squares(order: ElementOrder, thickness: f64, radial: usize, speed: f64, i: us
     [0, 2].map(|s| lowest(&harmonic(&package, &package.stiffness[s], i), &m, 1).unwrap()[0])
 }
 
-/// So thin (4e-4) and so fast (0.02 of the plate wave's speed) that bending carries less than 0.5 %: within 1 % of the
-/// membrane. Measured: 0.8 % for the tilting mode, which the clamped hub (radius 0.02) holds, then 2e-5 to 0.6 %.
+/// Disk so thin (4e-4) and so fast (0.02 of the plate wave's speed) that bending carries less than 0.5 %: within 1 % of
+/// the membrane. Measured: 0.8 % for the tilting mode, which the clamped hub (radius 0.02) holds, then 2e-5 to 0.6 %.
 #[test]
 fn thin_disk_vibrates_as_a_membrane() {
     for (i, exact) in (1..).zip(MEMBRANE) {
@@ -32,8 +32,8 @@ fn thin_disk_vibrates_as_a_membrane() {
     }
 }
 
-/// Southwell: ω² ≥ ω²_plate + ω²_membrane, here with a plate that carries as much as the membrane. The hub takes up to
-/// 5e-4 of the membrane's part.
+/// Southwell's bound ω² ≥ ω²_plate + ω²_membrane, here with a plate that carries as much as the membrane. The hub takes
+/// up to 5e-4 of the membrane's part.
 #[test]
 fn bending_adds_at_least_its_own_share() {
     for i in 2..=5 {
@@ -44,8 +44,7 @@ fn bending_adds_at_least_its_own_share() {
     }
 }
 
-/// 8 nodes reach the same answers at second order (2.1 and 1.7 on average over two refinements of the radius; the
-/// angle stays as it is).
+/// Elements of 8 nodes reach the same answers at second order (2.1 and 1.7 on average over two refinements of the radius; the angle stays as it is).
 #[test]
 fn linear_elements_converge_to_the_same_membrane() {
     for i in [2, 3] {

@@ -33,7 +33,8 @@ fn annulus_is_conforming_and_closed() {
     }
 }
 
-/// A chord of a circle misses the area by (Δθ)²/6, a parabola through its middle by the fourth order.
+/// Volume of the annulus converges to the closed form: a chord of a circle misses the area by (Δθ)²/6, a parabola
+/// through its middle by the fourth order.
 #[test]
 fn volume_of_the_annulus_converges_to_the_closed_form() {
     let p = AnnulusParameters::default();

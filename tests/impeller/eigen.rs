@@ -8,7 +8,7 @@ use faer::sparse::{SparseColMat, Triplet};
 use faer::{Mat, Side, c64};
 use rubmap::package::raw::{RawMatrix, RawPackage};
 
-/// Both triangles as a dense matrix.
+/// Dense matrix with both triangles.
 pub(crate) fn dense(matrix: &RawMatrix) -> Mat<f64> {
     let mut full = Mat::zeros(matrix.size, matrix.size);
     for &(r, c, v) in &matrix.entries {
@@ -20,7 +20,7 @@ pub(crate) fn dense(matrix: &RawMatrix) -> Mat<f64> {
     full
 }
 
-/// All ω² of K x = ω² M x, ascending: Cholesky of M, then the standard problem.
+/// Eigenvalues ω² of K x = ω² M x, all of them, ascending: Cholesky of M, then the standard problem.
 pub(crate) fn dense_eigenvalues(stiffness: &RawMatrix, mass: &RawMatrix) -> Vec<f64> {
     let factor = dense(mass).llt(Side::Lower).expect("mass is positive definite");
     let l = factor.L();
@@ -31,7 +31,7 @@ pub(crate) fn dense_eigenvalues(stiffness: &RawMatrix, mass: &RawMatrix) -> Vec<
     a.self_adjoint_eigenvalues(Side::Lower).expect("converges")
 }
 
-/// The Hermitian matrix of nodal diameter `i`: `u_high = u_low e^{jiα}` (docs/method.md, From a sector to harmonic matrices), both triangles.
+/// Hermitian matrix of nodal diameter `i`: `u_high = u_low e^{jiα}` (docs/method.md, From a sector to harmonic matrices), both triangles.
 pub(crate) fn harmonic(package: &RawPackage, matrix: &RawMatrix, i: usize) -> SparseColMat<usize, c64> {
     let alpha = 2.0 * PI / package.manifest.sectors as f64;
     let rows: HashMap<(u64, u8), usize> =
@@ -60,8 +60,7 @@ pub(crate) fn harmonic(package: &RawPackage, matrix: &RawMatrix, i: usize) -> Sp
     SparseColMat::try_new_from_triplets(own, own, &triplets).expect("own rows come first")
 }
 
-/// The lowest `count` eigenvalues ω² of a Hermitian pencil with positive definite K, by subspace iteration; none
-/// if K has no Cholesky factor.
+/// Lowest `count` eigenvalues ω² of a Hermitian pencil with positive definite K, by subspace iteration; `None` if K has no Cholesky factor.
 pub(crate) fn lowest(
     k: &SparseColMat<usize, c64>,
     m: &SparseColMat<usize, c64>,
@@ -70,7 +69,7 @@ pub(crate) fn lowest(
     let factor = k.sp_cholesky(Side::Lower).ok()?;
     let n = k.nrows();
     let width = (count + 8).min(n);
-    // A fixed pseudo-random start.
+    // The start is pseudo-random and fixed.
     let mut state = 1u64;
     let mut x = Mat::from_fn(n, width, |_, _| {
         state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
@@ -108,7 +107,7 @@ pub(crate) fn lowest(
     None
 }
 
-/// [`lowest`] for a real symmetric pencil.
+/// Lowest eigenvalues of a real symmetric pencil, as [`lowest`].
 pub(crate) fn lowest_real(k: &RawMatrix, m: &RawMatrix, count: usize) -> Option<Vec<f64>> {
     let complex = |matrix: &RawMatrix| {
         let mut triplets = Vec::new();
@@ -123,7 +122,7 @@ pub(crate) fn lowest_real(k: &RawMatrix, m: &RawMatrix, count: usize) -> Option<
     lowest(&complex(k), &complex(m), count)
 }
 
-/// √ω²/2π.
+/// Frequencies √ω²/2π, Hz.
 pub(crate) fn hertz(eigenvalues: &[f64]) -> Vec<f64> {
     eigenvalues.iter().map(|v| v.max(0.0).sqrt() / (2.0 * PI)).collect()
 }

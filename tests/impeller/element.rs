@@ -1,4 +1,4 @@
-//! The elements alone: patch tests, rigid bodies, mass, geometric stiffness, Jacobians.
+//! Elements alone: patch tests, rigid bodies, mass, geometric stiffness, Jacobians.
 
 use nalgebra::{DMatrix, DVector, Matrix3, SymmetricEigen, Vector3};
 use rubmap::impeller::Material;
@@ -11,7 +11,7 @@ struct Patch<const N: usize> {
     elements: Vec<[usize; N]>,
 }
 
-/// 3 × 3 × 3 cells of corners; those inside are moved at random by up to `shift` of a cell.
+/// Patch of 3 × 3 × 3 cells of corners; those inside are moved at random by up to `shift` of a cell.
 fn corners(shift: f64) -> Patch<8> {
     let n = 4;
     let mut state = 7u64;
@@ -40,12 +40,12 @@ fn corners(shift: f64) -> Patch<8> {
     patch
 }
 
-/// The same elements with a node at the centre of every edge.
+/// Patch of the same elements with a node at the centre of every edge.
 fn with_edges(patch: &Patch<8>) -> Patch<20> {
     let mut quadratic =
         Patch { nodes: patch.nodes.clone(), outside: patch.outside.clone(), elements: Vec::new() };
     let mut known = std::collections::HashMap::new();
-    // On the surface of the 3 × 3 × 3 block, not merely between two nodes of it.
+    // A node counts as outside if it is on the surface of the 3 × 3 × 3 block, not merely between two nodes of it.
     let on_surface = |x: &Vector3<f64>| x.iter().any(|&c| c == 0.0 || c == 3.0);
     for element in &patch.elements {
         quadratic.elements.push(std::array::from_fn(|a| {
@@ -69,7 +69,7 @@ impl<const N: usize> Patch<N> {
         E::from(self.elements[element].map(|node| self.nodes[node].into()))
     }
 
-    /// Displacements with those on the surface prescribed and no forces inside.
+    /// Displacements of a patch with those on the surface prescribed and no forces inside.
     fn solve<E: Hexahedron<N>>(
         &self,
         material: &Material,
@@ -106,7 +106,7 @@ impl<const N: usize> Patch<N> {
     }
 }
 
-/// The stress with these strains by Hooke's law solved for stress, from the compliance.
+/// Stress with these strains by Hooke's law solved for stress, from the compliance.
 fn hooke(material: &Material, h: &Matrix3<f64>) -> Stress {
     let (e, nu) = (material.youngs_modulus, material.poissons_ratio);
     let compliance = nalgebra::Matrix6::from_fn(|i, j| match (i < 3, j < 3) {
@@ -129,8 +129,8 @@ fn gradient() -> Matrix3<f64> {
     Matrix3::new(1.0, 0.3, -0.2, 0.5, -0.7, 0.4, 0.1, 0.6, 0.9) * 1e-3
 }
 
-/// Linear displacements on the surface come out linear inside, with the exact constant stress at every Gauss point.
-/// Round-off of the solve allows 1e-10 relative with a wide margin.
+/// Patch test: linear displacements on the surface come out linear inside, with the exact constant stress at every
+/// Gauss point. Round-off of the solve allows 1e-10 relative with a wide margin.
 fn passes_patch_test<E: Hexahedron<N>, const N: usize>(patch: &Patch<N>) {
     let material = Material::default();
     let exact = |x: &Vector3<f64>| gradient() * x;
@@ -177,7 +177,7 @@ fn quadratic_element_bends_exactly_on_a_skewed_mesh() {
     }
 }
 
-/// A hexahedron with no parallel faces.
+/// Hexahedron with no parallel faces.
 fn crooked() -> [[f64; 3]; 8] {
     [
         [0.1, -0.1, 0.0],
@@ -191,7 +191,7 @@ fn crooked() -> [[f64; 3]; 8] {
     ]
 }
 
-/// Corners with a node on each edge, `bulge` off its centre in x, y and z.
+/// Nodes of a hexahedron of 20: corners with a node on each edge, `bulge` off its centre in x, y and z.
 fn twenty(corners: &[[f64; 3]; 8], bulge: f64) -> [[f64; 3]; 20] {
     std::array::from_fn(|a| match corners.get(a) {
         Some(x) => *x,
@@ -203,7 +203,7 @@ fn twenty(corners: &[[f64; 3]; 8], bulge: f64) -> [[f64; 3]; 20] {
     })
 }
 
-/// The block [0, 2] × [0, 3] × [0, 0.5].
+/// Corners of the block [0, 2] × [0, 3] × [0, 0.5].
 fn brick() -> [[f64; 3]; 8] {
     rubmap::impeller::element::CORNERS.map(|c| [1.0 + c[0], 1.5 * (1.0 + c[1]), 0.25 * (1.0 + c[2])])
 }
@@ -212,7 +212,7 @@ fn dense<const N: usize>(blocks: &Blocks<N>) -> DMatrix<f64> {
     DMatrix::from_fn(3 * N, 3 * N, |i, j| blocks[i / 3][j / 3][(i % 3, j % 3)])
 }
 
-/// A free element has exactly six zero eigenvalues (1e-12 of the largest is its round-off), the rest positive.
+/// Asserts that a free element has exactly six zero eigenvalues (1e-12 of the largest is its round-off), the rest positive.
 fn has_six_rigid_body_modes<E: Hexahedron<N>, const N: usize>(element: &E) {
     let k = dense(&element.stiffness(&Material::default()));
     assert!((&k - k.transpose()).norm() <= 1e-15 * k.norm());
@@ -245,14 +245,14 @@ fn pure_bending_of_one_linear_element_is_exact() {
     assert!((energy / beam - 1.0).abs() < 1e-12, "{}", energy / beam);
 }
 
-/// `Σ m_ab u_a · u_b` of a field.
+/// Sum `Σ m_ab u_a · u_b` of a field.
 fn kinetic<E: Hexahedron<N>, const N: usize>(element: &E, u: impl Fn(Vector3<f64>) -> Vector3<f64>) -> f64 {
     let mass = element.mass(2.5);
     let u = element.positions().map(|x| u(Vector3::from(x)));
     (0..N).flat_map(|a| (0..N).map(move |b| (a, b))).map(|(a, b)| mass[(a, b)] * u[a].dot(&u[b])).sum()
 }
 
-/// A block has the mass and the moments of inertia of a block, and its mass matrix is definite.
+/// Asserts that a block has the mass and the moments of inertia of a block, and a definite mass matrix.
 fn has_the_mass_of_a_block<E: Hexahedron<N>, const N: usize>(element: &E) {
     let (size, density) = ([2.0, 3.0, 0.5], 2.5);
     let total = density * size.iter().product::<f64>();
@@ -274,8 +274,8 @@ fn mass_is_that_of_a_block() {
     has_the_mass_of_a_block(&Hex20::from(twenty(&brick(), 0.0)));
 }
 
-/// Under uniform stress a displacement with constant gradient G takes `V Σ σ_ij G_ki G_kj`; V is that of the
-/// trilinear map, by a midpoint rule of its own (a few 1e-5 off).
+/// Asserts that under uniform stress a displacement with constant gradient G takes `V Σ σ_ij G_ki G_kj`; V is that of
+/// the trilinear map, by a midpoint rule of its own (a few 1e-5 off).
 fn takes_the_work_of_a_uniform_stress<E: Hexahedron<N>, const N: usize>(element: &E, volume: f64) {
     let sigma = Matrix3::new(3.0, 0.5, -0.4, 0.5, -1.0, 0.2, -0.4, 0.2, 2.0);
     let stress = Stress::new(3.0, -1.0, 2.0, 0.5, 0.2, -0.4);
@@ -296,7 +296,7 @@ fn geometric_stiffness_is_the_work_of_the_stress() {
     takes_the_work_of_a_uniform_stress(&Hex20::from(twenty(&crooked(), 0.0)), volume);
 }
 
-/// ∫ det J by an n³ midpoint rule on the trilinear map, with det J from finite cells' edge vectors.
+/// Volume ∫ det J by an n³ midpoint rule on the trilinear map, with det J from finite cells' edge vectors.
 fn volume_by_subdivision(x: &[[f64; 3]; 8], n: usize) -> f64 {
     let map = |a: f64, b: f64, c: f64| -> Vector3<f64> {
         let w = [
@@ -328,7 +328,7 @@ fn volume_by_subdivision(x: &[[f64; 3]; 8], n: usize) -> f64 {
     volume
 }
 
-/// A mid-edge node at a quarter of its edge makes the map singular at the corner (the crack-tip element of Henshell,
+/// Mid-edge node at a quarter of its edge: it makes the map singular at the corner (the crack-tip element of Henshell,
 /// Shaw and Barsoum); nearer than that it folds.
 #[test]
 fn a_mid_edge_node_beyond_the_quarter_point_is_noticed() {

@@ -1,4 +1,4 @@
-//! The Euler force on a disk clamped at its bore, against the closed form: pure shear, exact at any thickness.
+//! Euler force on a disk clamped at its bore, against the closed form: pure shear, exact at any thickness.
 
 use std::sync::{Arc, Mutex};
 
@@ -16,7 +16,7 @@ use serde_json::json;
 
 use crate::to_the_end::to_the_end;
 
-/// Keeps the rows of nodal diameter 0.
+/// Checkpoints that keep the rows of nodal diameter 0.
 #[derive(Default)]
 struct OfZero(Mutex<Vec<Vec<f64>>>);
 
@@ -34,15 +34,15 @@ impl Checkpoints for OfZero {
     }
 }
 
-/// `(r²τ)′ = ρΩ̇r³` with no shear at the rim b, τ = G r (u/r)′ and no displacement at the bore a:
-/// `u = ρΩ̇r/(8G) · (r² − a² + b⁴/r² − b⁴/a²)`, against the sense of Ω̇.
+/// Displacement of the rim by `(r²τ)′ = ρΩ̇r³` with no shear at the rim b, τ = G r (u/r)′ and no displacement at the
+/// bore a: `u = ρΩ̇r/(8G) · (r² − a² + b⁴/r² − b⁴/a²)`, against the sense of Ω̇.
 fn rim_displacement(p: &AnnulusParameters, rate: f64) -> f64 {
     let (a2, b2) = (p.inner_radius.powi(2), p.outer_radius.powi(2));
     let shear_modulus = p.material.youngs_modulus / (2.0 * (1.0 + p.material.poissons_ratio));
     p.material.density * rate * p.outer_radius / (8.0 * shear_modulus) * (b2 - a2 + b2 - b2 * b2 / a2)
 }
 
-/// A disk, its reduction with the Euler force, and what is known of it.
+/// Disk, with its facts, its reduction and its Euler force.
 struct Disk {
     p: AnnulusParameters,
     facts: ModelFacts,
@@ -77,7 +77,7 @@ fn disk(elements: [usize; 3]) -> Disk {
     }
 }
 
-/// The static sum over all modes, which has the sign: of fourth order in the mesh.
+/// Static sum over all modes, which has the sign: of fourth order in the mesh.
 #[test]
 fn a_disk_lags_where_its_speed_rises() {
     let rate = 300.0;
@@ -96,7 +96,7 @@ fn a_disk_lags_where_its_speed_rises() {
     assert!(fine < 1e-5 && coarse > 10.0 * fine, "{coarse:e} {fine:e}");
 }
 
-/// In time, up and down, once what begins with the run has died away.
+/// Euler force in time, up and down, once what begins with the run has died away.
 #[test]
 fn run_ups_have_the_euler_force_where_it_is_named() {
     let rate = 300.0;

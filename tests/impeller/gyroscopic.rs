@@ -21,7 +21,7 @@ fn small(element_order: ElementOrder) -> ImpellerParameters {
     }
 }
 
-/// A u with Aᵀ = ±A.
+/// Product A u with Aᵀ = ±A.
 fn product(matrix: &RawMatrix, image: f64, u: &[f64]) -> Vec<f64> {
     let mut product = vec![0.0; matrix.size];
     for &(row, column, value) in &matrix.entries {
@@ -34,7 +34,7 @@ fn product(matrix: &RawMatrix, image: f64, u: &[f64]) -> Vec<f64> {
     product
 }
 
-/// A vector field's (r, θ, z) components in the rows of a package whose axis is z.
+/// Components (r, θ, z) of a vector field in the rows of a package whose axis is z.
 fn field(package: &RawPackage, at: impl Fn([f64; 3]) -> [f64; 3]) -> Vec<f64> {
     let component = |dof: &rubmap::package::raw::RawDof| {
         let x = package.nodes[dof.node as usize - 1].position;
@@ -44,7 +44,7 @@ fn field(package: &RawPackage, at: impl Fn([f64; 3]) -> [f64; 3]) -> Vec<f64> {
     package.dofs.iter().map(component).collect()
 }
 
-/// G u = 2 M (e_z × u): for translations and for any linear motion, clamped nodes or not, in either element.
+/// Coriolis forces G u = 2 M (e_z × u): for translations and for any linear motion, clamped nodes or not, in either element.
 #[test]
 fn coriolis_forces_are_those_of_the_mass() {
     for order in [ElementOrder::Linear, ElementOrder::Quadratic] {
@@ -73,7 +73,7 @@ fn coriolis_forces_are_those_of_the_mass() {
     }
 }
 
-/// The matrix is nothing but more: the rest of the package does not change, and without it neither does the model's id.
+/// Gyroscopic matrix only where it is asked for: the rest of the package does not change, and without it neither does the model's id.
 #[test]
 fn only_where_it_is_asked_for() {
     let with = generate(&small(ElementOrder::Linear)).unwrap();

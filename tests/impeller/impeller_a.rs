@@ -13,20 +13,20 @@ use crate::eigen::{harmonic, hertz, lowest};
 const SECTORS: usize = 10;
 const BORE: f64 = 13.0;
 
-/// At rest, by CalculiX's own cyclic symmetry analysis: f1, f2, f3 of nodal diameters 0, 2, 5.
+/// Frequencies at rest, by CalculiX's own cyclic symmetry analysis: f1, f2, f3 of nodal diameters 0, 2, 5, Hz.
 const AT_REST: [(usize, [f64; 3]); 3] = [
     (0, [2250.532, 3882.676, 4357.521]),
     (2, [2249.385, 3762.181, 5224.063]),
     (5, [2283.033, 4698.776, 4792.489]),
 ];
-/// At 5000 rad/s, from the package's matrices (`K_σ` on the same mesh of 20-node elements).
+/// Frequencies at 5000 rad/s, from the package's matrices (`K_σ` on the same mesh of 20-node elements), Hz.
 const AT_SPEED: [(usize, [f64; 3]); 3] = [
     (0, [2469.048, 4030.349, 4381.930]),
     (2, [2475.196, 3967.971, 5326.236]),
     (5, [2517.201, 4970.430, 5098.990]),
 ];
 
-/// The deck, or none with a printed reason: it lives beside the repository, not in it.
+/// Text of the deck; `None`, with a printed reason, without it: it lives beside the repository, not in it.
 fn deck() -> Option<String> {
     let beside = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../shared/models");
     let folders = [
@@ -69,7 +69,7 @@ fn parse(deck: &str) -> (Vec<[f64; 3]>, Vec<Vec<usize>>) {
     (nodes, numbers.chunks(21).map(|c| c[1..].to_vec()).collect())
 }
 
-/// The deck's elements; bore clamped, faces paired by position.
+/// Sector of the deck's elements; bore clamped, faces paired by position.
 fn sector(deck: &str) -> SectorMesh {
     let (positions, elements) = parse(deck);
     let nodes = positions[1..].to_vec();
@@ -88,7 +88,7 @@ fn sector(deck: &str) -> SectorMesh {
     SectorMesh { sectors: SECTORS, mesh, clamped, cyclic, contact: Vec::new() }
 }
 
-/// At rest seven digits of CalculiX; at speed seven of another assembly of `K_σ` on CalculiX's `K_e` and M.
+/// Frequencies of impeller A: at rest seven digits of CalculiX; at speed seven of another assembly of `K_σ` on CalculiX's `K_e` and M.
 #[test]
 fn frequencies_of_impeller_a() {
     let Some(deck) = deck() else { return };

@@ -1,4 +1,4 @@
-//! The impeller's mesh against the curves it stands for, over sector counts, splitters, densities and orders.
+//! Mesh of the impeller against the curves it stands for, over sector counts, splitters, densities and orders.
 
 use std::collections::HashSet;
 use std::f64::consts::PI;
@@ -10,13 +10,13 @@ use crate::conformity::{check_conforming, check_cyclic, volume};
 
 pub(crate) const ORDERS: [ElementOrder; 2] = [ElementOrder::Linear, ElementOrder::Quadratic];
 
-/// Elements between contact nodes, over the height, through the thickness, across half a passage, through the disk.
+/// Densities: elements between contact nodes, over the height, through the thickness, across half a passage, through the disk.
 pub(crate) fn densities(counts: [usize; 5]) -> MeshDensities {
     let [between_contact_nodes, blade_height, blade_thickness, half_passage, disk] = counts;
     MeshDensities { between_contact_nodes, blade_height, blade_thickness, half_passage, disk }
 }
 
-/// Both orders, with and without splitter, few and many sectors, even and odd densities.
+/// Wheels of both orders, with and without splitter, few and many sectors, even and odd densities.
 fn wheels() -> impl Iterator<Item = ImpellerParameters> {
     let meshes = [(4, [2, 3, 1, 2, 2]), (10, [1, 2, 2, 1, 3]), (3, [3, 1, 3, 3, 1])];
     ORDERS.into_iter().flat_map(move |element_order| {
@@ -39,7 +39,7 @@ fn wheels() -> impl Iterator<Item = ImpellerParameters> {
     })
 }
 
-/// An upright wheel with blades of constant thickness: its volume is known.
+/// Upright wheel with blades of constant thickness: its volume is known.
 fn upright(element_order: ElementOrder, factor: usize) -> ImpellerParameters {
     ImpellerParameters {
         wrap_deg: 0.0,
@@ -111,7 +111,7 @@ fn contact_nodes_follow_the_shroud() {
             let fraction = index as f64 / (p.contact_nodes - 1) as f64;
             // The mesh's own table of arc lengths is good to 1e-8.
             assert!((arc(axes, s.atan2(c)) / whole - fraction).abs() < 1e-7);
-            // The ellipse's normal away from the hub, which here is inwards of the ellipse.
+            // This is the ellipse's normal away from the hub, which here is inwards of the ellipse.
             let normal = [c / axes[0], -s / axes[1]].map(|n| n / (c / axes[0]).hypot(s / axes[1]));
             let [n_r, n_t, n_z] = tip.normal;
             assert!((n_r - normal[0]).abs() < 1e-12 && n_t == 0.0 && (n_z - normal[1]).abs() < 1e-12);
@@ -130,8 +130,8 @@ fn contact_nodes_follow_the_shroud() {
     }
 }
 
-/// Disk by Pappus's rule, blade as thickness times the area between the two ellipses. Chords miss arcs at second
-/// order, parabolas at fourth.
+/// Volume of the disk by Pappus's rule, of the blade as thickness times the area between the two ellipses. Chords miss
+/// arcs at second order, parabolas at fourth.
 #[test]
 fn volume_converges_to_the_closed_form() {
     let p = upright(ElementOrder::Linear, 1);
@@ -148,7 +148,7 @@ fn volume_converges_to_the_closed_form() {
     }
 }
 
-/// Nodes of the blades' tips: those on the shroud's ellipse; (fraction of the arc, angle).
+/// Nodes of the blades' tips, which are those on the shroud's ellipse, as (fraction of the arc, angle).
 fn tips(sector: &SectorMesh, p: &ImpellerParameters) -> Vec<(f64, f64)> {
     let axes = shroud_axes(p);
     let whole = arc(axes, 0.5 * PI);
@@ -160,7 +160,7 @@ fn tips(sector: &SectorMesh, p: &ImpellerParameters) -> Vec<(f64, f64)> {
     tips.collect()
 }
 
-/// The splitter begins where it is asked to, stands half a pitch from the main blade, and both have the thickness asked
+/// Splitter: it begins where it is asked to, stands half a pitch from the main blade, and both have the thickness asked
 /// for, less at the tip than at the root.
 #[test]
 fn splitter_stands_in_the_middle_of_the_passage() {
@@ -179,7 +179,7 @@ fn splitter_stands_in_the_middle_of_the_passage() {
         let tips = tips(&sector, &p);
         let (main, splitter): (Vec<_>, Vec<_>) = tips.into_iter().partition(|(_, theta)| *theta < 0.0);
         let begin = |blade: &[(f64, f64)]| blade.iter().map(|t| t.0).fold(f64::INFINITY, f64::min);
-        // Four of ten elements.
+        // The splitter begins at four of ten elements.
         assert!(begin(&main).abs() < 1e-7 && (begin(&splitter) - 0.4).abs() < 1e-7);
         let edge = |blade: &[(f64, f64)]| -> [f64; 2] {
             let angles = blade.iter().filter(|t| t.0 > 1.0 - 1e-7).map(|t| t.1);
@@ -194,14 +194,14 @@ fn splitter_stands_in_the_middle_of_the_passage() {
     }
 }
 
-/// With a splitter the sector is the same disk, so it weighs the same but for the second, shorter blade.
+/// Sector with a splitter: it has the same disk, so it weighs the same but for the second, shorter blade.
 #[test]
 fn splitter_adds_its_own_volume() {
     let plain = upright(ElementOrder::Quadratic, 3);
-    // Four of twelve elements along the blade.
+    // The splitter begins at four of twelve elements along the blade.
     let split = ImpellerParameters { splitter: Some(Splitter { leading_edge: 1.0 / 3.0 }), ..plain.clone() };
     let added = [split, plain.clone()].map(|p| volume(&impeller_sector(&p).unwrap().mesh));
-    // What lies behind the line from hub to shroud at a third of their arcs, by the shoelace rule.
+    // Its area lies behind the line from hub to shroud at a third of their arcs, by the shoelace rule.
     let mut outline = Vec::new();
     for (axes, forth) in [(hub_axes(&plain), true), (shroud_axes(&plain), false)] {
         let target = arc(axes, 0.5 * PI) / 3.0;
@@ -234,7 +234,7 @@ fn impossible_wheels_are_named() {
     for (parameters, named) in [
         (ImpellerParameters { tip_thickness: 1.8, ..d() }, "tip_thickness"),
         (ImpellerParameters { root_thickness: 14.0, ..d() }, "root_thickness"),
-        // Room for one blade a sector, but not for two.
+        // There is room for one blade a sector, but not for two.
         (ImpellerParameters { root_thickness: 6.5, splitter: split(0.2), ..d() }, "root_thickness"),
         (ImpellerParameters { sectors: 80, ..d() }, "root_thickness"),
         (ImpellerParameters { splitter: split(0.0), ..d() }, "splitter.leading_edge"),

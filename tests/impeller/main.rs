@@ -1,4 +1,4 @@
-//! The finite-element generator against closed forms, another code and invariants.
+//! Finite-element generator against closed forms, another code and invariants.
 
 mod annulus;
 mod beam;

@@ -42,8 +42,7 @@ fn presets_have_the_sizes_they_promise() {
     assert_eq!(Preset::Small.parameters(), ImpellerParameters::default());
 }
 
-/// To the facets of a coarse mesh. Splitter, other blades and both ends
-/// of the blade do not disturb it.
+/// Thickness at the tip is found in the mesh, to the facets of a coarse one. Splitter, other blades and both ends of the blade do not disturb it.
 #[test]
 fn thickness_at_the_tip_is_found_in_the_mesh() {
     for (changes, tip) in [
@@ -93,7 +92,7 @@ fn edge_node(mesh: &SectorMesh, sector: &SectorModel, id: u64, thickness: f64) -
     found.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap().1
 }
 
-/// 3 %, 2.2 % and 4.25 % of the height at the trailing edge, so that 1.25 % and 2.1 % (2.05) are pushed in.
+/// Casing of the paper: 3 %, 2.2 % and 4.25 % of the height at the trailing edge, so that 1.25 % and 2.1 % (2.05) are pushed in.
 #[test]
 fn casing_of_the_paper() {
     let parameters = ImpellerParameters { outlet_blade_height: 8.0, ..Preset::Paper.parameters() };
@@ -125,7 +124,7 @@ fn requests_take_a_preset_and_change_what_they_name() {
     // A splitter can be taken away and be put where the preset has none.
     assert_eq!(request(json!({"preset": "medium", "splitter": null})).resolve().unwrap().splitter, None);
     assert!(request(json!({"splitter": {}})).resolve().unwrap().splitter.is_some());
-    // What a user wrote is what is kept.
+    // The request is stored as the user wrote it.
     assert_eq!(serde_json::to_value(&given).unwrap()["mesh"], json!({"disk": 4}));
     assert_eq!(request(serde_json::to_value(&given).unwrap()), given);
     // Printed parameters are a request for themselves.
@@ -159,7 +158,7 @@ fn wrong_requests_name_the_field() {
     assert!(unknown.unwrap_err().to_string().contains("`small`, `medium`, `paper`"));
 }
 
-/// The contract knows every field a request may have, and no other.
+/// Schema of the contract: it knows every field a request may have, and no other.
 #[test]
 fn schema_has_every_field() {
     let schema = serde_json::to_value(ImpellerRequest::schema()).unwrap();
@@ -174,7 +173,7 @@ fn schema_has_every_field() {
     assert_eq!(schema.get("required"), None);
 }
 
-/// A preset in SI units is the same wheel, not one of 130 metres.
+/// Preset in SI units: it is the same wheel, not one of 130 metres.
 #[test]
 fn presets_are_told_in_the_units_asked_for() {
     let of = |given| request(given).resolve();

@@ -56,7 +56,7 @@ fn any_wheel() -> impl Strategy<Value = ImpellerParameters> {
     )
 }
 
-/// Either a conforming mesh with positive Jacobians whose faces fit, or a refusal that names a field or an element.
+/// Asserts that a wheel is either a conforming mesh with positive Jacobians whose faces fit, or refused with the name of a field or an element.
 fn is_meshed_or_refused(p: &ImpellerParameters) -> TestCaseResult {
     match impeller_sector(p) {
         Ok(sector) => {
@@ -85,7 +85,7 @@ proptest! {
         is_meshed_or_refused(&p)?;
     }
 
-    /// Values no wheel can have are refused too, without a panic.
+    /// Values that no wheel can have are refused too, without a panic.
     #[test]
     fn absurd_numbers_are_refused(field in 0..12usize, value in prop::num::f64::ANY) {
         let mut p = ImpellerParameters { mesh: densities([1, 1, 1, 1, 1]), ..ImpellerParameters::default() };

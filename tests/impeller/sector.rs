@@ -26,8 +26,8 @@ fn impeller(element_order: ElementOrder) -> SectorMesh {
         .unwrap()
 }
 
-/// The mass of a sector of a disk is ρ π (b² − a²) t / N: fourth order in the angle of an element with 20 nodes, whose
-/// edges are parabolas, second order with 8, whose edges are chords.
+/// Mass of a sector of a disk, ρ π (b² − a²) t / N: fourth order in the angle of an element with 20 nodes, whose edges
+/// are parabolas, second order with 8, whose edges are chords.
 #[test]
 fn mass_of_a_disk_converges_to_density_times_volume() {
     for (order, expected) in [(ElementOrder::Linear, 4.0), (ElementOrder::Quadratic, 16.0)] {
@@ -56,8 +56,7 @@ fn mass_of_a_disk_converges_to_density_times_volume() {
     }
 }
 
-/// On the sector without clamps: translations carry the same mass in every direction, and neither they nor turns cost
-/// energy.
+/// Sector without clamps: translations carry the same mass in every direction, and neither they nor turns cost energy.
 #[test]
 fn free_sector_moves_as_a_rigid_body_without_forces() {
     for order in ORDERS {
@@ -99,7 +98,7 @@ fn free_sector_moves_as_a_rigid_body_without_forces() {
     }
 }
 
-/// One lower triangle each, sorted, in one pattern; M and K of the clamped sector are positive definite.
+/// Matrices have one lower triangle each, sorted, in one pattern; M and K of the clamped sector are positive definite.
 #[test]
 fn matrices_are_symmetric_and_definite() {
     for order in ORDERS {
@@ -116,7 +115,7 @@ fn matrices_are_symmetric_and_definite() {
     }
 }
 
-/// The medium preset at its Ω1: stresses stay below the 828 MPa at which Ti-6Al-4V may yield (ASTM B265, grade 5), and K is
+/// Medium preset at its Ω1: stresses stay below the 828 MPa at which Ti-6Al-4V may yield (ASTM B265, grade 5), and K is
 /// positive definite even with both cyclic faces free, hence for every nodal diameter, each a restriction of it.
 #[test]
 fn medium_wheel_stands_its_top_speed() {

@@ -1,4 +1,4 @@
-//! A mass without full rank, as elements with few points of integration leave it (C3D15 and C3D20R of CalculiX): its zeros
+//! Mass without full rank, as elements with few points of integration leave it (C3D15 and C3D20R of CalculiX): its zeros
 //! lie at ±round-off. Modes do not need it definite; only a mass that is negative by more is refused, at the upload.
 
 use std::collections::BTreeMap;
@@ -19,7 +19,7 @@ use super::eigen::harmonic;
 
 const SECTORS: usize = 5;
 
-/// Small enough to be solved densely, and large enough for the iteration.
+/// Numbers of elements: small enough to be solved densely, and large enough for the iteration.
 const MESHES: [[usize; 3]; 2] = [[3, 2, 1], [8, 3, 1]];
 
 fn mesh(elements: [usize; 3]) -> SectorMesh {
@@ -27,7 +27,7 @@ fn mesh(elements: [usize; 3]) -> SectorMesh {
     annulus_mesh(&p).unwrap()
 }
 
-/// A disk of quadratic hexahedra whose mass is integrated at four points of eight: rank 12 of an element's 60. `density`
+/// Disk of quadratic hexahedra whose mass is integrated at four points of eight: rank 12 of an element's 60. `density`
 /// of each element in parts of the material's, and every diagonal less by `shift` of itself.
 fn disk(elements: [usize; 3], density: impl Fn(usize) -> f64, shift: f64) -> RawPackage {
     let (sector, material) = (mesh(elements), Material::default());
@@ -79,7 +79,7 @@ fn scaled_mass(package: &RawPackage, i: usize) -> Vec<f64> {
     scaled.self_adjoint_eigenvalues(Side::Lower).unwrap()
 }
 
-/// ω of nodal diameter i, ascending, by the dense problem M̂ x = θ K̂ x, whose largest θ = 1/ω² need no definite mass.
+/// Frequencies ω of nodal diameter i, ascending, by the dense problem M̂ x = θ K̂ x, whose largest θ = 1/ω² need no definite mass.
 fn frequencies(package: &RawPackage, i: usize) -> Vec<f64> {
     let factor = harmonic(package, &package.stiffness[0], i).to_dense().llt(Side::Lower).unwrap();
     let mut a: Mat<c64> = harmonic(package, &package.mass, i).to_dense();
@@ -99,7 +99,7 @@ fn reduced(package: &RawPackage, modes: usize) -> ReducedWheel {
 #[test]
 fn directions_without_mass_at_round_off_are_carried() {
     for elements in MESHES {
-        // As large as CalculiX leaves them: −7.5e-12 of the diagonal.
+        // The shift is as large as CalculiX leaves it: −7.5e-12 of the diagonal.
         let package = disk(elements, |_| 1.0, 7.5e-12);
         let wheel = reduced(&package, 12);
         for (i, compared) in wheel.comparison.iter().enumerate() {
@@ -116,13 +116,14 @@ fn directions_without_mass_at_round_off_are_carried() {
                 "{elements:?}, nodal diameter {i}: {without} of {} without mass, full sector {full:.1e}, reduced {reduced:.1e}",
                 mass.len()
             );
-            // Those of the full sector are asked for to nine digits; twelve modes give the lowest four to three.
+            // Frequencies of the full sector are asked for to nine digits; twelve modes give the lowest four to three.
             assert!(full < 1e-8 && reduced < 2e-3, "{elements:?}, nodal diameter {i}: {full:e} {reduced:e}");
         }
     }
 }
 
-/// All there are, where more are asked for than have mass. So many show it if contact nodes have a motion without.
+/// Modes are those with mass: all there are, where more are asked for than have mass. So many modes show it if contact
+/// nodes have a motion without mass.
 #[test]
 fn modes_are_those_with_mass() {
     let every = ReductionOptions::new(1000);
@@ -145,7 +146,7 @@ fn modes_are_those_with_mass() {
         let off = compared.largest_difference();
         println!("nodal diameter {}: {modes} modes of {internal} DOF, {off:?}", harmonic.harmonic);
         assert!(modes < internal && certificate.completeness == Completeness::Whole, "{certificate:?}");
-        // Nothing is left out but what has no mass.
+        // Only what has no mass is left out.
         assert!(off.is_some_and(|(off, _)| off < 1e-7), "{off:?}");
     }
 }
@@ -161,7 +162,7 @@ fn a_mass_that_is_negative_by_more_is_refused_at_the_upload() {
     let text = refused(disk(MESHES[0], |_| 1.0, 1e-9));
     assert!(text.contains("is negative, by more than round-off, for a motion that node "), "{text}");
 
-    // One element of negative density, all diagonals positive still.
+    // One element has a negative density, while all diagonals are still positive.
     let package = disk(MESHES[0], |e| if e == 3 { -0.2 } else { 1.0 }, 0.0);
     let mass = harmonic(&package, &package.mass, 0).to_dense();
     assert!((0..mass.nrows()).all(|k| mass[(k, k)].re > 0.0));

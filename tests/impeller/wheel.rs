@@ -1,4 +1,4 @@
-//! The default impeller: its package is what docs/package.md asks for, and its matrices are honest.
+//! Default impeller: its package has what docs/package.md asks for, and its matrices are honest.
 
 use std::collections::{HashMap, HashSet};
 use std::f64::consts::PI;
@@ -12,7 +12,7 @@ use rubmap::package::raw::RawPackage;
 
 use crate::eigen::{harmonic, hertz, lowest};
 
-/// A small impeller, for the checks that do not need the default's mesh.
+/// Parameters of a small impeller, for the checks that do not need the default's mesh.
 fn small() -> ImpellerParameters {
     ImpellerParameters {
         contact_nodes: 4,
@@ -47,7 +47,7 @@ fn high_face_is_the_low_face_turned() {
             let ([x, y, z], at) = (position[low], position[high]);
             let turned = [c * x - s * y, s * x + c * y, z];
             for d in 0..3 {
-                // A few roundings of sine and cosine.
+                // The tolerance is a few roundings of sine and cosine.
                 assert!((turned[d] - at[d]).abs() < 1e-14 * parameters.outlet_radius);
             }
             assert_eq!(components[low], components[high]);
@@ -105,7 +105,7 @@ fn stiffness_is_exactly_linear_in_the_speed_squared() {
         assert!((4.0 * (b.2 - a.2) - (c.2 - a.2)).abs() < 1e-14 * largest);
         spin = spin.max((c.2 - a.2).abs());
     }
-    // docs/method.md, Centrifugal stiffening: about 1e-3 or less of the elastic stiffness for matrices on the undeformed geometry.
+    // By docs/method.md, Centrifugal stiffening: about 1e-3 or less of the elastic stiffness for matrices on the undeformed geometry.
     assert!(spin > 1e-6 * largest && spin < 2e-3 * largest, "{}", spin / largest);
 }
 
@@ -118,7 +118,7 @@ fn mass_and_rest_stiffness_do_not_depend_on_the_top_speed() {
     assert_eq!(slow.stiffness[2], fast.stiffness[1]);
 }
 
-/// Every harmonic has a Cholesky factor at every speed, and its first six frequencies rise with it.
+/// Default wheel: every harmonic has a Cholesky factor at every speed, and its first six frequencies rise with the speed.
 #[test]
 fn default_wheel_is_stable_and_stiffens_with_speed() {
     let parameters = ImpellerParameters::default();
@@ -132,7 +132,7 @@ fn default_wheel_is_stable_and_stiffens_with_speed() {
     }
 }
 
-/// SI and mm-t-s describe the same wheel: the same frequencies, to the conditioning of the iteration.
+/// Units SI and mm-t-s describe the same wheel: the same frequencies, to the conditioning of the iteration.
 #[test]
 fn units_do_not_change_the_frequencies() {
     let p = small();
@@ -161,8 +161,7 @@ fn units_do_not_change_the_frequencies() {
     }
 }
 
-/// Refining the mesh lowers the first frequency by less than 3 %, and each refinement by less than the one
-/// before.
+/// Refinement of the mesh lowers the first frequency by less than 3 %, and each refinement by less than the one before.
 #[test]
 fn first_frequency_converges_with_the_mesh() {
     let first = |factor: usize| {
@@ -221,7 +220,7 @@ fn inverted_elements_are_named() {
     assert!(HexMesh::default().check_jacobians().is_ok());
 }
 
-/// Far from the default the generator still makes a sector with positive Jacobians that can be solved.
+/// Parameters far from the default still give a sector with positive Jacobians that can be solved.
 #[test]
 fn other_shapes_are_generated_too() {
     for sectors in [3, 5, 7, 12, 30] {
@@ -242,7 +241,7 @@ fn other_shapes_are_generated_too() {
     }
 }
 
-/// Models are known by their content, so the same parameters must give the same bits.
+/// Package of the same parameters: the same bits, as models are known by their content.
 #[test]
 fn the_same_parameters_give_the_same_package() {
     let p = ImpellerParameters::default();

@@ -11,7 +11,7 @@ use faer::sparse::{SparseColMat, Triplet};
 
 use rubmap::dynamics::sector::CyclicMatrix;
 
-/// Rows of Ŷ split into internal (with the low face) and contact DOF (Eq. 1).
+/// Partition of the rows of Ŷ into internal (with the low face) and contact DOF (Eq. 1).
 #[derive(Debug, Clone)]
 pub(crate) struct Partition {
     /// Own DOF index of each internal row.
@@ -45,18 +45,18 @@ impl Partition {
     }
 }
 
-/// Ŷ(i) in blocks: internal first, contact second; Ŷ_bi = Ŷ_ibᴴ.
+/// Blocks of Ŷ(i): internal first, contact second; Ŷ_bi = Ŷ_ibᴴ.
 #[derive(Debug, Clone)]
 pub(crate) struct HarmonicMatrix {
-    /// Ŷ_ii, `n_i × n_i`, both triangles.
+    /// Internal block Ŷ_ii, `n_i × n_i`, both triangles.
     pub(crate) internal: SparseColMat<usize, c64>,
-    /// Ŷ_ib, `n_i × n_b`.
+    /// Coupling block Ŷ_ib, `n_i × n_b`.
     pub(crate) coupling: SparseColMat<usize, c64>,
-    /// Ŷ_bb, `n_b × n_b`.
+    /// Contact block Ŷ_bb, `n_b × n_b`.
     pub(crate) contact: SparseColMat<usize, c64>,
 }
 
-/// Ŷ(i) of nodal diameter `harmonic` for a wheel of `sectors`.
+/// Matrix Ŷ(i) of nodal diameter `harmonic` for a wheel of `sectors`.
 pub(crate) fn harmonic_matrix(
     matrix: &CyclicMatrix,
     harmonic: usize,
@@ -93,7 +93,7 @@ pub(crate) fn harmonic_matrix(
     }
 }
 
-/// e^{jiα}, exactly real where the harmonic is.
+/// Phase e^{jiα}, exactly real where the harmonic is.
 fn phase(harmonic: usize, sectors: usize) -> c64 {
     if harmonic == 0 {
         c64::new(1.0, 0.0)

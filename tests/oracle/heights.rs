@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 
 use rubmap::dynamics::casing::{Profile, Restriction};
 
-/// p at an angle in the fixed frame and a contact node. Measured curves are those of the product, which its own tests hold to the
-/// equations of a spline.
+/// Height p at an angle in the fixed frame and a contact node. Measured curves are those of the product, which its own tests hold
+/// to the equations of a spline.
 pub(crate) fn height(restriction: &Restriction, angle: f64, node: usize) -> f64 {
     let lobe = |amplitude: f64, width: f64, centre: f64| {
         let distance = (angle - centre).sin().atan2((angle - centre).cos());

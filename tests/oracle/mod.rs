@@ -1,7 +1,6 @@
-//! The literal dense scheme of the paper (Eqs 8–10) on the whole reduced wheel: the slow truth of tests and the
-//! baseline of benchmarks. Nothing here is shared with the production step but the reduced matrices it starts from:
-//! physical contact DOF of all sectors, dense products, nalgebra's factorisations, and an iterative
-//! complementarity solver.
+//! Literal dense scheme of the paper (Eqs 8–10) on the whole reduced wheel: the slow truth of tests and the baseline of
+//! benchmarks. Nothing here is shared with the production step but the reduced matrices it starts from: physical
+//! contact DOF of all sectors, dense products, nalgebra's factorisations, and an iterative complementarity solver.
 
 pub(crate) mod cyclic;
 pub(crate) mod heights;
@@ -40,7 +39,7 @@ impl DenseWheel {
         }
     }
 
-    /// D with the same ratio for every mode: 2ζ M Φ diag(ω) Φᵀ M.
+    /// Damping matrix D with the same ratio for every mode: 2ζ M Φ diag(ω) Φᵀ M.
     pub(crate) fn modal_damping(&self, ratio: f64) -> DMatrix<f64> {
         let lower = self.mass.clone().cholesky().expect("M_r is positive definite").l();
         let half = lower.solve_lower_triangular(&self.stiffness).unwrap();
@@ -56,7 +55,7 @@ impl DenseWheel {
     }
 }
 
-/// Hermitian Y on x = a + jb as a real symmetric matrix on (a, b); single harmonics are real already.
+/// Real form of a Hermitian Y: on x = a + jb as a real symmetric matrix on (a, b); single harmonics are real already.
 fn real_form(y: &Mat<c64>, harmonic: usize, sectors: usize) -> DMatrix<f64> {
     let n = y.nrows();
     if harmonic == 0 || 2 * harmonic == sectors {
@@ -72,7 +71,7 @@ fn real_form(y: &Mat<c64>, harmonic: usize, sectors: usize) -> DMatrix<f64> {
     })
 }
 
-/// Eq. 7: block diagonal over the harmonics, contact DOF turned from harmonics to sectors.
+/// Whole matrix of Eq. 7: block diagonal over the harmonics, contact DOF turned from harmonics to sectors.
 fn recompose(blocks: &[DMatrix<f64>], reduced: &ReducedWheel) -> DMatrix<f64> {
     let sectors = reduced.sectors;
     let n_b = reduced.contact_dofs();
@@ -111,7 +110,7 @@ fn recompose(blocks: &[DMatrix<f64>], reduced: &ReducedWheel) -> DMatrix<f64> {
     turn.transpose() * diagonal * turn
 }
 
-/// C_N: a column per contact node of the wheel, its outward normal.
+/// Constraint matrix C_N: a column per contact node of the wheel, its outward normal.
 fn constraints(wheel: &DenseWheel, reduced: &ReducedWheel) -> DMatrix<f64> {
     let nodes = reduced.contact.len();
     let mut constraints = DMatrix::zeros(wheel.size(), wheel.sectors * nodes);
@@ -126,11 +125,11 @@ fn constraints(wheel: &DenseWheel, reduced: &ReducedWheel) -> DMatrix<f64> {
     constraints
 }
 
-/// Eqs 8–10, step by step, with complementarity over all contact nodes.
+/// Scheme of Eqs 8–10, step by step, with complementarity over all contact nodes.
 pub(crate) struct DenseScheme {
     predict_now: DMatrix<f64>,
     predict_before: DMatrix<f64>,
-    /// A⁻¹ C_N
+    /// Response A⁻¹ C_N.
     response: DMatrix<f64>,
     /// DOF and components of every node's outward normal, sector by sector.
     normals: Vec<(Range<usize>, [f64; 3])>,
@@ -175,7 +174,7 @@ impl DenseScheme {
         }
     }
 
-    /// One step; `free_gap[sector·nodes + node]` is c − p at its end, `solve(W, g_p, λ)` the contact solver.
+    /// Takes one step; `free_gap[sector·nodes + node]` is c − p at its end, `solve(W, g_p, λ)` the contact solver.
     pub(crate) fn step(
         &mut self,
         free_gap: &[f64],
@@ -204,7 +203,7 @@ impl DenseScheme {
     }
 }
 
-/// Projected Gauss–Seidel to the last digit: slow, short, and unlike the production solver.
+/// Solves for contact by projected Gauss–Seidel to the last digit: slow, short, and unlike the production solver.
 pub(crate) fn gauss_seidel(w: &DMatrix<f64>, gap: &DVector<f64>, lambda: &mut DVector<f64>) {
     lambda.fill(0.0);
     for _ in 0..100_000 {
@@ -224,7 +223,7 @@ pub(crate) fn gauss_seidel(w: &DMatrix<f64>, gap: &DVector<f64>, lambda: &mut DV
     panic!("Gauss–Seidel did not converge");
 }
 
-/// c − p at every node of every sector, literally, after `revolutions`; negative ones turn the other way.
+/// Free gaps c − p at every node of every sector, literally, after `revolutions`; negative revolutions turn the other way.
 pub(crate) fn free_gaps(casing: &Casing, reduced: &ReducedWheel, revolutions: f64) -> Vec<f64> {
     let mut gaps = Vec::new();
     for s in 0..reduced.sectors {

@@ -1,6 +1,6 @@
-//! The reduction the plain way: every nodal diameter and speed a complex sparse factorisation of its own, modes by
-//! faer's single-vector Lanczos (or densely), products by faer. The slow truth of tests and the baseline of the
-//! benchmark. Of the production code it uses the complex sparse Cholesky factor, and no more.
+//! Reduction the plain way: every nodal diameter and speed a complex sparse factorisation of its own, modes by faer's
+//! single-vector Lanczos (or densely), products by faer. The slow truth of tests and the baseline of the benchmark. Of
+//! the production code it uses the complex sparse Cholesky factor, and no more.
 
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::matrix_free::LinOp;
@@ -17,13 +17,13 @@ use super::cyclic::{HarmonicMatrix, Partition, harmonic_matrix};
 /// Reduced matrices of one nodal diameter, contact DOF first.
 pub(crate) struct PlainHarmonic {
     pub(crate) mass: Mat<c64>,
-    /// At each given speed.
+    /// Stiffness at each given speed.
     pub(crate) stiffness: Vec<Mat<c64>>,
-    /// λ of the fixed-interface modes at each given speed.
+    /// Eigenvalues λ of the fixed-interface modes at each given speed.
     pub(crate) eigenvalues: Vec<Vec<f64>>,
 }
 
-/// How modes are found.
+/// Solver by which modes are found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Solver {
     Dense,
@@ -75,7 +75,7 @@ pub(crate) fn reduce(
     PlainHarmonic { mass: project(&mass), stiffness: stiffness.iter().map(project).collect(), eigenvalues }
 }
 
-/// Υ̂ᴴ Ŷ Υ̂, Υ̂ = [I 0; Ψ_s Ψ*].
+/// Projected matrix Υ̂ᴴ Ŷ Υ̂, Υ̂ = [I 0; Ψ_s Ψ*].
 fn project(y: &HarmonicMatrix, static_modes: &Mat<c64>, modes: &Mat<c64>) -> Mat<c64> {
     let (n_b, r) = (static_modes.ncols(), modes.ncols());
     let inner = &y.internal * static_modes + y.coupling.to_dense();
@@ -117,7 +117,7 @@ fn dense_modes(k: &HarmonicMatrix, mass: &HarmonicMatrix, count: usize) -> (Vec<
     ((0..count).map(|m| eigen.S().column_vector()[m].re * scale).collect(), vectors)
 }
 
-/// y ↦ L⁻¹ M L⁻ᴴ y, with M in elimination order, scaled to norm one for the solver's absolute tolerance.
+/// Operator y ↦ L⁻¹ M L⁻ᴴ y, with M in elimination order, scaled to norm one for the solver's absolute tolerance.
 struct ShiftInvert<'a> {
     factor: &'a SparseCholesky<'a, c64>,
     mass: SparseColMat<usize, c64>,

@@ -1,4 +1,4 @@
-//! The schemes beyond central differences on the whole dense wheel, literally: the exact propagator and the boundary
+//! Schemes beyond central differences on the whole dense wheel, literally: the exact propagator and the boundary
 //! without mass (docs/method.md, Schemes).
 
 use nalgebra::{DMatrix, DVector};
@@ -9,14 +9,14 @@ use rubmap::dynamics::schemes::exact_modal::FOLLOWS;
 
 use super::{DenseScheme, DenseWheel, constraints, real_form, recompose};
 
-/// The literal form of a production scheme.
+/// Literal form of a production scheme.
 pub(crate) enum Literal {
     Central(DenseScheme),
     Modal(DenseModal),
 }
 
 impl Literal {
-    /// At rest; damping `ratio` for every mode, steps of `h`.
+    /// Makes the literal form at rest, with damping `ratio` for every mode and steps of `h`.
     pub(crate) fn new(scheme: Scheme, reduced: &ReducedWheel, speed: f64, ratio: f64, h: f64) -> Self {
         let wheel = DenseWheel::new(reduced, speed, true);
         match scheme {
@@ -30,7 +30,7 @@ impl Literal {
         }
     }
 
-    /// One step; `free_gap[sector·nodes + node]` is c − p at its end, `solve(W, g_p, λ)` the contact solver.
+    /// Takes one step; `free_gap[sector·nodes + node]` is c − p at its end, `solve(W, g_p, λ)` the contact solver.
     pub(crate) fn step(
         &mut self,
         free_gap: &[f64],
@@ -42,7 +42,7 @@ impl Literal {
         }
     }
 
-    /// Component `d` of one contact node of one sector.
+    /// Displacement in component `d` of one contact node of one sector.
     pub(crate) fn displacement(&self, sector: usize, node: usize, d: usize) -> f64 {
         match self {
             Self::Central(scheme) => scheme.contact_displacement(sector, node)[d],
@@ -58,7 +58,7 @@ impl Literal {
         }
     }
 
-    /// Steps in which something touched.
+    /// Number of steps in which something touched.
     pub(crate) fn contact_steps(&self) -> u64 {
         match self {
             Self::Central(scheme) => scheme.contact_steps,
@@ -67,7 +67,7 @@ impl Literal {
     }
 }
 
-/// x⁺ = now·x + before·x⁻ + kick·f in the displacements x of the modes with mass, u = x + flexibility·f.
+/// Scheme x⁺ = now·x + before·x⁻ + kick·f in the displacements x of the modes with mass, u = x + flexibility·f.
 pub(crate) struct DenseModal {
     now: DMatrix<f64>,
     before: DMatrix<f64>,
@@ -85,14 +85,14 @@ pub(crate) struct DenseModal {
 }
 
 impl DenseModal {
-    /// Every mode by its exact propagator, those beyond [`FOLLOWS`] statically.
+    /// Takes every mode by its exact propagator, those beyond [`FOLLOWS`] statically.
     fn exact(reduced: &ReducedWheel, wheel: &DenseWheel, ratio: f64, speed: f64, h: f64) -> Self {
         let carried = modal_projector(reduced, speed, &|_, omega| omega * h <= FOLLOWS);
         let propagator = Propagator::new(&(carried * &wheel.mass), wheel, ratio, h);
         Self::new(reduced, wheel, propagator, false)
     }
 
-    /// The `kept` lowest modes of every nodal diameter by their exact propagator, the rest statically.
+    /// Takes the `kept` lowest modes of every nodal diameter by their exact propagator, the rest statically.
     fn massless(
         reduced: &ReducedWheel,
         wheel: &DenseWheel,
@@ -138,7 +138,7 @@ impl DenseModal {
     ) {
         let mut next = &self.now * &self.x + &self.before * &self.last;
         if self.flexibility.is_some() {
-            // Eq. of motion at the old time.
+            // This is the equation of motion at the old time.
             next -= &self.kick * &self.lambda;
         }
         let gap = DVector::from_column_slice(free_gap) - self.constraints.transpose() * &next;
@@ -163,19 +163,19 @@ impl DenseModal {
     }
 }
 
-/// x⁺ = now·x + before·x⁻ + kick·f of M ẍ + D ẋ + K x = f within the carried modes, f constant over the step, and the
-/// static answer of all others.
+/// Propagator x⁺ = now·x + before·x⁻ + kick·f of M ẍ + D ẋ + K x = f within the carried modes, f constant over the
+/// step, and the static answer of all others.
 struct Propagator {
     now: DMatrix<f64>,
     before: DMatrix<f64>,
     kick: DMatrix<f64>,
-    /// K⁻¹ less its share in the carried modes.
+    /// Flexibility K⁻¹ less its share in the carried modes.
     rest: DMatrix<f64>,
 }
 
 impl Propagator {
-    /// By the exponential of the first-order system in (x, hẋ), forwards and backwards: no mode and no frequency is
-    /// looked at. `carried` projects on the carried modes.
+    /// Makes the propagator by the exponential of the first-order system in (x, hẋ), forwards and backwards: no mode
+    /// and no frequency is looked at. `carried` projects on the carried modes.
     fn new(carried: &DMatrix<f64>, wheel: &DenseWheel, ratio: f64, h: f64) -> Self {
         let size = wheel.size();
         let one = DMatrix::identity(size, size);
@@ -207,7 +207,7 @@ impl Propagator {
     }
 }
 
-/// ΦΦᵀ of the modes of the whole wheel that are `chosen` by their place within the nodal diameter and by ω.
+/// Projector ΦΦᵀ of the modes of the whole wheel that are `chosen` by their place within the nodal diameter and by ω.
 fn modal_projector(reduced: &ReducedWheel, speed: f64, chosen: &dyn Fn(usize, f64) -> bool) -> DMatrix<f64> {
     let block = |harmonic: &rubmap::dynamics::reduction::ReducedHarmonic| {
         let i = harmonic.harmonic;

@@ -1,4 +1,4 @@
-//! Materials of the elements are those of the matrices.
+//! Agreement of the elements' materials with those of the matrices.
 
 use rubmap::impeller::mesh::ElementOrder;
 use rubmap::impeller::{Preset, generate};
@@ -16,7 +16,7 @@ fn set(f: &mut Files, field: &str, value: f64) {
     f.json(|json| json["mesh"]["sets"]["WHEEL"][field] = json!(value));
 }
 
-/// For the generator's titanium, 114 000 N/mm², 0.32 and 4.43e-9 t/mm³.
+/// Wrong units are refused, here for the generator's titanium: 114 000 N/mm², 0.32 and 4.43e-9 t/mm³.
 #[test]
 fn wrong_units_are_refused() {
     check_on(
@@ -41,7 +41,8 @@ fn wrong_units_are_refused() {
     );
 }
 
-/// A stiff spring and a point mass at one of four free nodes do not speak for the others; in another formulation uniform strain is the same.
+/// Additions at a node are not the material: a stiff spring and a point mass at one of four free nodes do not speak for the others; in
+/// another formulation uniform strain is the same.
 #[test]
 fn what_is_added_at_a_node_is_not_the_material() {
     let mut package = disk(ElementOrder::Linear);
@@ -59,7 +60,7 @@ fn what_is_added_at_a_node_is_not_the_material() {
     package::to_sector(package).unwrap();
 }
 
-/// Only one of two sets is wrong, and it is named.
+/// Set whose material is wrong, one of two: it is named.
 #[test]
 fn the_set_is_named() {
     let mut package = disk(ElementOrder::Quadratic);

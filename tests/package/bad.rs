@@ -1,10 +1,10 @@
-//! The checks of docs/package.md as a list of bad packages: each carries the exact message it must produce.
+//! Checks of docs/package.md as a list of bad packages: each carries the exact message it must produce.
 
 use serde_json::json;
 
 use crate::sample::Files;
 
-/// A spoiled package, the message and the place (file, line, field) it must be refused with.
+/// Spoiled package, with the message and the place (file, line, field) it must be refused with.
 pub(crate) struct Case {
     spoil: fn(&mut Files),
     message: &'static str,
@@ -23,7 +23,7 @@ fn check(cases: &[Case]) {
     check_on(&Files::good(), cases);
 }
 
-/// Each case, on a copy of `good`.
+/// Checks each case, on a copy of `good`.
 pub(crate) fn check_on(good: &Files, cases: &[Case]) {
     let mut wrong = String::new();
     for Case { spoil, message, place } in cases {
@@ -201,7 +201,7 @@ fn manifest() {
     ]);
 }
 
-/// A name of so many letters.
+/// Name of so many letters.
 fn long(letters: usize) -> String {
     "é".repeat(letters)
 }
@@ -470,7 +470,7 @@ fn mass() {
             "m.mtx: the mass of the assembled wheel is negative for some motion: the entry 1.0079560902217548e-7 between node 1 (row 2) and node 1 (row 1) is larger than their diagonals allow",
             (M, None, None),
         ),
-        // Every pair is sound, three together are not: 20 on the diagonal, −15 between three DOF of node 3.
+        // Every pair of these entries is sound, all three are not: 20 on the diagonal, −15 between three DOF of node 3.
         case(
             |f| {
                 for (row, column) in [(8, 7), (9, 7), (9, 8)] {
@@ -562,7 +562,7 @@ fn cyclic_faces() {
             (JSON, None, Some("/cyclic")),
         ),
         case(
-            // The nodes of the second pair, moved to the axis and in no pair any more.
+            // The nodes of the second pair are moved to the axis and are in no pair any more.
             |f| {
                 f.json(|j| j["cyclic"] = json!([[1, 5]]));
                 f.line("nodes.csv", 2, "2,0,0,5");
@@ -571,7 +571,7 @@ fn cyclic_faces() {
             (JSON, None, Some("/cyclic")),
         ),
         case(
-            // Low and high swapped, and one node 0.1 off.
+            // Low and high are swapped, and one node is 0.1 off.
             |f| {
                 f.json(|j| j["cyclic"] = json!([[5, 1], [6, 2]]));
                 let line = f.text("nodes.csv").lines().nth(4).expect("node 6").to_owned();

@@ -41,7 +41,7 @@ pub(crate) fn put(folder: &Path, name: &str, text: impl AsRef<str>) {
     std::fs::write(folder.join(name), text.as_ref()).expect("written");
 }
 
-/// A ring sector of 8-node bricks, skewed so that no face is a plane of symmetry: radii 10 to 20, clamped bore.
+/// Ring sector of 8-node bricks, skewed so that no face is a plane of symmetry: radii 10 to 20, clamped bore.
 struct Ring {
     sectors: usize,
     copies: usize,
@@ -50,7 +50,7 @@ struct Ring {
 const CELLS: [usize; 3] = [4, 3, 2];
 
 impl Ring {
-    /// Node at (radial, circumferential, axial) grid position; circumferential positions run on over the copies.
+    /// Number of the node at a (radial, circumferential, axial) grid position; circumferential positions run on over the copies.
     fn node(&self, [i, j, k]: [usize; 3]) -> usize {
         let around = self.copies * CELLS[1] + usize::from(self.copies < self.sectors);
         1 + i + (CELLS[0] + 1) * (k + (CELLS[2] + 1) * (j % around))
@@ -70,13 +70,13 @@ impl Ring {
         nodes
     }
 
-    /// Without clamped nodes, which CalculiX cannot tie.
+    /// Nodes of a face without clamped ones, which CalculiX cannot tie.
     fn face(&self, j: usize) -> String {
         let grid = (1..=CELLS[0]).flat_map(|i| (0..=CELLS[2]).map(move |k| [i, j, k]));
         grid.map(|at| format!("{},\n", self.node(at))).collect()
     }
 
-    /// Mesh, material and clamp.
+    /// Deck with mesh, material and clamp.
     fn deck(&self) -> String {
         let mut deck = "*NODE, NSET=NALL\n".to_owned();
         for (node, [x, y, z]) in self.nodes() {
@@ -160,7 +160,7 @@ fn stresses(folder: &Path, job: &str, factor: f64) -> String {
     lines
 }
 
-/// docs/calculix.md: stresses of the cyclic sector as initial stresses, held in place, then exported.
+/// Exports matrices at speed as docs/calculix.md has it: stresses of the cyclic sector as initial stresses, held in place, then exported.
 fn export_at_speed(folder: &Path, job: &str, mesh: &str, stress: &str, load: &str) {
     ccx(
         folder,
@@ -199,7 +199,7 @@ fn frequencies(sector: &SectorModel, nodal_diameter: usize, speed: usize) -> Vec
     values.iter().step_by(2).map(|value| value.max(0.0).sqrt() / TAU).collect()
 }
 
-/// `NODAL DIAMETER, MODE NO, …, CYCLES/TIME, …` of a cyclic `*FREQUENCY`, where every mode comes twice.
+/// Frequencies of a cyclic `*FREQUENCY` by nodal diameter, from lines `NODAL DIAMETER, MODE NO, …, CYCLES/TIME, …`, where every mode comes twice.
 fn cyclic_frequencies(folder: &Path, job: &str) -> BTreeMap<usize, Vec<f64>> {
     let text = std::fs::read_to_string(folder.join(format!("{job}.dat"))).expect("readable");
     let mut found: BTreeMap<usize, Vec<f64>> = BTreeMap::new();
@@ -216,7 +216,7 @@ fn cyclic_frequencies(folder: &Path, job: &str) -> BTreeMap<usize, Vec<f64>> {
     found
 }
 
-/// The import, by way of a file.
+/// Imports a model of CalculiX, by way of a file.
 fn imported(model: &CalculixModel) -> (SectorModel, ImportSummary, SectorMesh) {
     let (package, summary) = calculix::import(model).expect("imported");
     let file = tempfile::NamedTempFile::new().expect("a file");
@@ -227,7 +227,7 @@ fn imported(model: &CalculixModel) -> (SectorModel, ImportSummary, SectorMesh) {
     (read.sector, summary, mesh)
 }
 
-/// Whether a mesh is that of one sector of a [`Ring`].
+/// Asserts that a mesh is that of one sector of a [`Ring`].
 fn assert_ring(mesh: &SectorMesh) {
     assert_eq!(mesh.elements.len(), CELLS.iter().product::<usize>());
     assert_eq!((mesh.sets.len(), &*mesh.sets[0].name), (1, "EALL"));
@@ -271,7 +271,7 @@ fn a_sector_exported_by_calculix_has_the_frequencies_of_its_cyclic_analysis() {
         }
     }
     println!("largest difference from CalculiX's own cyclic symmetry: {worst:.1e}");
-    // Seven printed digits.
+    // CalculiX prints seven digits.
     assert!(worst < 1e-6, "{worst:.1e}");
     // The tip is z = 2 + 0.01 (r − 10)² on the side of larger z.
     for point in &summary.contact {
@@ -419,7 +419,7 @@ fn impeller_a_by_the_same_recipe_is_the_shared_package() {
         "K(Ω1) − K(0): {off:.1e} from that of the package, at rest {:.1e}",
         (&k0.0 - &k0.1).norm_max() / k0.1.norm_max()
     );
-    // Stresses of seven digits.
+    // Stresses have seven digits.
     assert!(off < 1e-6, "{off:.1e}");
     // The package's normals are those of the shroud curve; ours of the ten nodes alone.
     for (a, b) in sector.contact.iter().zip(&shared.contact) {

@@ -10,7 +10,7 @@ use rubmap::package::raw::{Axis, Frame, RawMatrix, RawPackage};
 use crate::calculix::{model, put};
 use crate::sample::{Shape, package as sample};
 
-/// A matrix as CalculiX stores it: upper triangle, 14 digits, here with Fortran's exponents.
+/// Text of a matrix as CalculiX stores it: upper triangle, 14 digits, here with Fortran's exponents.
 fn stored(matrix: &RawMatrix, row_of: impl Fn(u32) -> usize) -> String {
     let entry = |&(r, c, v): &(u32, u32, f64)| {
         format!("{} {} {}\n", row_of(c) + 1, row_of(r) + 1, format!("{v:.16e}").replace('e', "D"))
@@ -18,7 +18,7 @@ fn stored(matrix: &RawMatrix, row_of: impl Fn(u32) -> usize) -> String {
     matrix.entries.iter().map(entry).collect()
 }
 
-/// The sample in Cartesian components as a deck of two files and two jobs; rows at speed are listed backwards.
+/// Writes the sample in Cartesian components as a deck of two files and two jobs; rows at speed are listed backwards.
 fn by_hand(folder: &Path) -> RawPackage {
     let package = sample(Shape { frame: Frame::Cartesian, ..Shape::default() });
     let mut deck =
@@ -95,7 +95,7 @@ fn a_deck_and_its_matrices_become_the_package_they_say() {
     assert_eq!(pairs, [[1, 5], [2, 6]]);
 }
 
-/// A blade on a rigid disk has no neighbour, and so no faces.
+/// Single sector: a blade on a rigid disk has no neighbour, and so no faces.
 #[test]
 fn a_single_sector_needs_no_faces() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -107,7 +107,7 @@ fn a_single_sector_needs_no_faces() {
     assert_eq!((&found.dofs, &found.mass), (&expected.dofs, &expected.mass));
     let sector = package::to_sector(found).expect("passes the checks of every package");
     assert_eq!(sector.own_dofs(), expected.dofs.len());
-    // Whoever names one face means both.
+    // A name of one face means both.
     let half = CalculixModel { low_set: Some("LOW".into()), ..alone.clone() };
     let refused = calculix::import(&half).expect_err("no high face").to_string();
     assert!(refused.contains("which nodes are the high cyclic face?"), "{refused}");
@@ -116,7 +116,7 @@ fn a_single_sector_needs_no_faces() {
     assert!(refused.ends_with("or import a wheel of one sector without --wheel"), "{refused}");
 }
 
-/// What to spoil, and the end of the message it must be refused with (the start is a file of a temporary folder).
+/// Change that spoils a model, and the end of the message it must be refused with (the start is a file of a temporary folder).
 type Spoil = (fn(&Path, &mut CalculixModel), &'static str);
 
 fn replace(folder: &Path, file: &str, from: &str, to: &str) {

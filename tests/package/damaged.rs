@@ -1,4 +1,4 @@
-//! Uploads that are not packages at all: never a panic, never past the limits.
+//! Damaged uploads that are not packages at all: never a panic, never past the limits.
 
 use std::io::Write;
 use std::sync::LazyLock;
@@ -62,8 +62,8 @@ fn a_gzip_bomb_is_cut_off_while_it_expands() {
     assert_eq!(problem(&files.zip(Deflated), &limits), refused);
 }
 
-/// Text that deflates a thousandfold, such as one line written over and over, must not cost a thousand times what a model of
-/// the upload's size does.
+/// Expansion in proportion to the upload: text that deflates a thousandfold, such as one line written over and over, must
+/// not cost a thousand times what a model of the upload's size does.
 #[test]
 fn an_upload_may_expand_in_proportion_to_its_size() {
     let mut files = Files::good();
@@ -81,7 +81,7 @@ fn an_upload_may_expand_in_proportion_to_its_size() {
     );
 }
 
-/// Reading stops where a repetition is certain: what follows, here no entry at all, is not looked at.
+/// Repeated rows: reading stops where a repetition is certain; what follows, here no entry at all, is not looked at.
 #[test]
 fn repeated_rows_are_refused_before_the_rest_is_read() {
     let header = "%%MatrixMarket matrix coordinate real";
@@ -107,7 +107,7 @@ fn repeated_rows_are_refused_before_the_rest_is_read() {
         refused(&files),
         "k0.mtx, line 7: entry (2, 1) is given twice (first on line 4); assemble the matrix so that every entry appears once"
     );
-    // Tables before matrices.
+    // Tables are read before matrices.
     for (table, message) in [
         ("nodes.csv", "nodes.csv, line 4: node 3 is already defined on line 3"),
         ("dofs.csv", "dofs.csv, line 4: component 3 of node 1 is already row 3 (line 3)"),
@@ -120,7 +120,7 @@ fn repeated_rows_are_refused_before_the_rest_is_read() {
     }
 }
 
-/// Of entries above and below the diagonal, those that are named decide what is said about them.
+/// Entries above and below the diagonal: those that are named decide what is said about them.
 #[test]
 fn two_mentions_in_one_triangle_are_no_mirror_images() {
     let mut files = Files::good();
@@ -214,7 +214,7 @@ proptest! {
             let at = at.index(bytes.len());
             bytes[at] = byte;
         }
-        // May still be good: times and attributes of entries mean nothing.
+        // The package may still be good: times and attributes of entries mean nothing.
         let _ = import(&bytes);
     }
 
@@ -251,7 +251,7 @@ proptest! {
                 prop_assert!(!error.to_string().is_empty());
                 prop_assert!(error.line().is_none() || error.file().is_some());
             }
-            // What passes can be worked with.
+            // A package that passes can be worked with.
             Ok(imported) => {
                 let mesh = imported.mesh.expect("it is named");
                 prop_assert!(volumes(&mesh).iter().all(|volume| *volume > 0.0));

@@ -1,4 +1,4 @@
-//! Different files that say the same thing.
+//! Equivalent packages: different files that say the same thing.
 
 use rubmap::package::{self, Limits};
 use zip::CompressionMethod::Stored;
@@ -12,7 +12,7 @@ fn gzipped(content: &[u8]) -> Vec<u8> {
     gz.finish().expect("in memory")
 }
 
-/// A `symmetric` file as `general`, entries in reverse order, in other capitals and with comments.
+/// Text of a `symmetric` file as `general`, entries in reverse order, in other capitals and with comments.
 fn general(text: &str) -> String {
     let mut lines = text.lines();
     let (_, size) = (lines.next(), lines.next().expect("sizes"));
@@ -136,8 +136,8 @@ fn folders_and_dots_inside_the_archive_are_fine() {
     files.import().expect("a file in a folder");
 }
 
-/// mm, kN, ms, kg is a consistent system whose frequencies come out per millisecond; speeds stay rad/s, so its mass
-/// is brought to force·s²/length: mm, N, s, t with the same numbers for stiffness in kN has mass 1e6 times larger.
+/// Units mm, kN, ms, kg are a consistent system whose frequencies come out per millisecond; speeds stay rad/s, so its
+/// mass is brought to force·s²/length: mm, N, s, t with the same numbers for stiffness in kN has mass 1e6 times larger.
 #[test]
 fn milliseconds_become_seconds() {
     let seconds = Files::good().import().expect("good").sector;

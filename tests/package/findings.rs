@@ -1,4 +1,4 @@
-//! Rigid motions against the matrices: rows in another order or frame, few digits, stiffness of other speeds.
+//! Findings of rigid motions in the matrices: rows in another order or frame, few digits, stiffness of other speeds.
 
 use std::collections::HashMap;
 use std::f64::consts::TAU;
@@ -99,7 +99,7 @@ fn rows_in_another_order_are_refused_with_that_order() {
     }
 }
 
-/// An order that is none of the known ones: accepted, for it may be something else than a solid, and told.
+/// Order of rows that is none of the known ones: accepted, for it may be something else than a solid, and reported.
 #[test]
 fn rows_that_no_reading_balances_are_told() {
     let mut package = wheel();
@@ -162,7 +162,7 @@ fn components_in_another_frame_are_refused_with_that_frame() {
     says(high, "/frame", "along axes turned with the sector");
 }
 
-/// K(Ω) of other speeds, and with other shares of what belongs in it, against the shares that were put in.
+/// Shares of stiffening and softening: K(Ω) of other speeds, and with other shares of what belongs in it, against the shares that were put in.
 #[test]
 fn shares_of_stiffening_and_softening_are_told() {
     let good = wheel();
@@ -243,7 +243,8 @@ fn frequencies(sector: &SectorModel) -> Vec<f64> {
     values.iter().map(|value| value.max(0.0).sqrt() / TAU).collect()
 }
 
-/// Entries rounded to single precision and to fewer digits: the said change of the lowest frequencies is about the true one, by dense matrices.
+/// Few digits: entries rounded to single precision and to fewer digits. The reported change of the lowest frequencies is about the true one, by
+/// dense matrices.
 #[test]
 fn few_digits_are_told_with_what_they_cost() {
     let mesh = MeshDensities {

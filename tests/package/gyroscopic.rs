@@ -1,4 +1,4 @@
-//! The gyroscopic matrix of a package: the ways to write it, and what is refused.
+//! Gyroscopic matrix of a package: the ways to write it, and what is refused.
 
 use rubmap::package::raw::{MatrixFormat, RawPackage};
 use rubmap::package::{self, Limits, PackageError};
@@ -65,7 +65,7 @@ fn is_part_of_the_address_where_it_is_given() {
     assert!(address(&with) != address(&other) && address(&with) != address(&without));
 }
 
-/// With time in milliseconds it is brought to seconds as the mass is.
+/// Milliseconds: with time in them the matrix is brought to seconds as the mass is.
 #[test]
 fn milliseconds_become_seconds() {
     let mut files = Files::of(&good());
@@ -161,13 +161,13 @@ fn wrong_ones_are_refused() {
         assert_eq!(error.to_string(), message);
         assert_eq!((error.file(), error.line(), error.field()), place, "{message}");
     }
-    // What is left of cancellation and of printing few digits is no asymmetry.
+    // The remains of cancellation and of printing few digits are no asymmetry.
     let mut files = Files::of(&good());
     files.put("g.mtx", general(18, "2 1 1\n1 2 -1.0000001\n4 4 1e-13\n5 4 1e-13\n"));
     files.import().expect("skew-symmetric within round-off");
 }
 
-/// A package made in memory must say the same in both places.
+/// Name and matrix go together: a package made in memory must say the same in both places.
 #[test]
 fn name_and_matrix_go_together() {
     let refused = |package| match package::to_sector(package) {

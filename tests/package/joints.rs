@@ -21,7 +21,7 @@ fn without_mesh(mut package: RawPackage) -> RawPackage {
     package
 }
 
-/// What a sector cut out of the matrices of the wheel has: the low face with the part of both.
+/// Folds the part of the high face into the low one, as in a sector cut out of the matrices of the wheel.
 fn assembled(package: &mut RawPackage, keeps_high: bool) {
     let sector = 2.0 * std::f64::consts::PI / package.manifest.sectors as f64;
     assert!(package.manifest.frame == rubmap::package::raw::Frame::Cylindrical, "faces in {sector} rad fit");

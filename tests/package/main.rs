@@ -1,4 +1,4 @@
-//! The importer as its users meet it: good packages, bad ones, damaged ones, and what a good one becomes.
+//! Importer as its users meet it: good packages, bad ones, damaged ones, and what a good one becomes.
 
 mod agreement;
 mod bad;

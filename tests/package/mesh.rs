@@ -1,4 +1,4 @@
-//! The elements of a package: read as written, checked, and absent where a package has none.
+//! Elements of a package: read as written, checked, and absent where a package has none.
 
 use std::path::Path;
 
@@ -14,7 +14,7 @@ use serde_json::json;
 use crate::bad::{case, check_on};
 use crate::sample::Files;
 
-/// A disk of four elements a sector: nodes 1 to 18, the bore 1, 4, 7, … clamped.
+/// Package of a disk of four elements a sector: nodes 1 to 18, the bore 1, 4, 7, … clamped.
 pub(crate) fn disk(element_order: ElementOrder) -> RawPackage {
     let material = Material {
         yield_strength: Some(880.0),
@@ -329,7 +329,7 @@ fn materials() {
     );
 }
 
-/// A deck by hand around the disk: its elements in several cards and sets, with strengths beside it.
+/// Model by hand around the disk: a deck with its elements in several cards and sets, with strengths beside it.
 fn deck(folder: &Path, change: impl FnOnce(String) -> String) -> CalculixModel {
     let package = disk(ElementOrder::Linear);
     let mut deck = "*NODE\n".to_owned();

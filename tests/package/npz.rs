@@ -8,7 +8,7 @@ use zip::CompressionMethod::{Deflated, Stored};
 
 use crate::sample::{Files, Shape, import_within, package as sample};
 
-/// One array in numpy's format, by its own hand: version 1, padding as numpy's.
+/// Bytes of one array in numpy's format, by its own hand: version 1, padding as numpy's.
 fn npy(descr: &str, shape: &str, bytes: &[u8]) -> Vec<u8> {
     let head = format!("{{'descr': '{descr}', 'fortran_order': False, 'shape': {shape}, }}");
     let mut out = b"\x93NUMPY\x01\x00\x76\x00".to_vec();
@@ -22,7 +22,7 @@ fn vector<const B: usize>(descr: &str, values: impl IntoIterator<Item = [u8; B]>
     npy(descr, &format!("({},)", bytes.len()), bytes.as_flattened())
 }
 
-/// The arrays of a matrix, in a form that tests can spoil.
+/// Arrays of a matrix, in a form that tests can spoil.
 #[derive(Clone)]
 struct Arrays(Vec<(&'static str, Vec<u8>)>);
 
@@ -50,7 +50,7 @@ impl Arrays {
         ])
     }
 
-    /// Coordinate format with 64-bit indices and double values.
+    /// Arrays in coordinate format with 64-bit indices and double values.
     fn coo(size: usize, entries: &[(u32, u32, f64)]) -> Self {
         let mut arrays = Self::scheme("coo", size as i64);
         arrays.put("row", vector("<i8", entries.iter().map(|e| i64::from(e.0).to_le_bytes())));
@@ -59,7 +59,7 @@ impl Arrays {
         arrays
     }
 
-    /// Compressed rows or columns with 32-bit indices.
+    /// Arrays of compressed rows or columns with 32-bit indices.
     fn compressed(format: &str, size: usize, entries: &[(u32, u32, f64)]) -> Self {
         let of = |e: &(u32, u32, f64)| if format == "csr" { (e.0, e.1) } else { (e.1, e.0) };
         let mut sorted = entries.to_vec();
@@ -78,7 +78,7 @@ fn both_triangles(matrix: &RawMatrix) -> Vec<(u32, u32, f64)> {
     matrix.entries.iter().copied().chain(mirrored).collect()
 }
 
-/// The sample with its first stiffness replaced by the arrays given.
+/// Files of the sample with its first stiffness replaced by the arrays given.
 fn with_rest(arrays: &[u8]) -> Files {
     let mut files = Files::good();
     files.0.remove("k0.mtx");
@@ -152,7 +152,7 @@ fn every_scheme_triangle_and_type_is_the_same_matrix() {
     let upper: Vec<_> = lower.iter().map(|&(r, c, v)| (c, r, v)).collect();
     let full = both_triangles(&reference);
     let mut with_zeros = upper.clone();
-    // Zeros stored in the empty triangle say nothing.
+    // Zeros stored in the empty triangle mean nothing.
     with_zeros.extend([(5, 2, 0.0), (17, 3, -0.0)]);
     for entries in [&lower, &upper, &full, &with_zeros] {
         let [coo, csr, csc] = [

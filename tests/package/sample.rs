@@ -1,4 +1,4 @@
-//! One tiny good package and the means to change its files.
+//! Sample package, tiny and good, and the means to change its files.
 
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
@@ -9,7 +9,7 @@ use rubmap::dynamics::sector::Units;
 use rubmap::package::raw::{Axis, Frame, Manifest, ManifestContact, RawDof, RawMatrix, RawNode, RawPackage};
 use rubmap::package::{self, Imported, Limits, PackageError};
 
-/// A reproducible stream of numbers in (−1, 1).
+/// Reproducible stream of numbers in (−1, 1).
 pub(crate) struct Numbers(pub(crate) u64);
 
 impl Numbers {
@@ -19,7 +19,7 @@ impl Numbers {
     }
 }
 
-/// What a sample is like.
+/// Shape of a sample.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Shape {
     pub(crate) sectors: usize,
@@ -38,7 +38,7 @@ impl Default for Shape {
     }
 }
 
-/// v turned by `angle` about the unit vector `axis` (Rodrigues), independently of the importer's own frames.
+/// Vector v turned by `angle` about the unit vector `axis` (Rodrigues), independently of the importer's own frames.
 pub(crate) fn turn(v: [f64; 3], axis: [f64; 3], angle: f64) -> [f64; 3] {
     let dot = (0..3).map(|k| axis[k] * v[k]).sum::<f64>();
     let cross =
@@ -51,11 +51,11 @@ pub(crate) fn unit(v: [f64; 3]) -> [f64; 3] {
     v.map(|x| x / length)
 }
 
-/// Low nodes 1, 2; contact nodes 3, 4; high nodes 5, 6 (listed 6 first); node 7 clamped. Unassembled high face.
+/// Package of the sample. Low nodes 1, 2; contact nodes 3, 4; high nodes 5, 6 (listed 6 first); node 7 clamped. Unassembled high face.
 pub(crate) fn package(shape: Shape) -> RawPackage {
     let alpha = TAU / shape.sectors as f64;
     let axis = unit(shape.direction);
-    // Any vector off the axis; the importer's zero of θ does not matter for these samples.
+    // The helper is any vector off the axis; the importer's zero of θ does not matter for these samples.
     let helper = if axis[0].abs() < 0.9 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] };
     let along: f64 = (0..3).map(|k| helper[k] * axis[k]).sum();
     let radial = unit(std::array::from_fn(|k| helper[k] - along * axis[k]));
@@ -118,7 +118,7 @@ pub(crate) fn package(shape: Shape) -> RawPackage {
     }
 }
 
-/// The package with a random gyroscopic matrix in `g.mtx`.
+/// Package with a random gyroscopic matrix in `g.mtx`.
 pub(crate) fn with_gyroscopic(mut package: RawPackage, seed: u64) -> RawPackage {
     let mut numbers = Numbers(seed);
     let size = package.dofs.len();
@@ -129,7 +129,7 @@ pub(crate) fn with_gyroscopic(mut package: RawPackage, seed: u64) -> RawPackage 
     package
 }
 
-/// A package as files, in a form that tests can spoil.
+/// Package as files, in a form that tests can spoil.
 #[derive(Debug, Clone)]
 pub(crate) struct Files(pub(crate) BTreeMap<String, Vec<u8>>);
 
@@ -163,7 +163,7 @@ impl Files {
         self.0.insert(name.to_owned(), content.into());
     }
 
-    /// Replaces the first occurrence, which must exist.
+    /// Replaces the first occurrence of a text, which must exist.
     pub(crate) fn replace(&mut self, name: &str, from: &str, to: &str) {
         let text = self.text(name);
         assert!(text.contains(from), "{name} does not contain {from:?}:\n{text}");
@@ -211,7 +211,7 @@ pub(crate) fn import_within(bytes: &[u8], limits: &Limits) -> Result<Imported, P
     package::read(file.path(), limits)
 }
 
-/// The folder of the shared models, if this machine has it.
+/// Folder of the shared models, if this machine has it.
 pub(crate) fn shared_models() -> Option<PathBuf> {
     let beside = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared"));
     let shared = std::env::var_os("RUBMAP_SHARED").map_or(beside, PathBuf::from).join("models");

@@ -1,4 +1,4 @@
-//! The shared impeller: a real mesh, in both frames, against each other.
+//! Shared impeller: a real mesh, in both frames, against each other.
 
 use rubmap::dynamics::sector::CyclicMatrix;
 use rubmap::package::{self, Limits};
@@ -29,7 +29,7 @@ fn both_frames_of_the_impeller_are_one_sector() {
         for (a, b) in [(&a.own, &b.own), (&a.next, &b.next)] {
             let difference = (a.to_dense() - b.to_dense()).norm_max();
             println!("{s}: largest difference {:.1e} of the largest entry", difference / largest);
-            // Rotation there (by the model's author) and back: a few roundings of entries up to the largest.
+            // The rotation there (by the model's author) and back is a few roundings of entries up to the largest.
             assert!(difference <= 1e-14 * largest);
         }
     };

@@ -1,4 +1,4 @@
-//! What the sector model means: the energy of the assembled wheel, computed without any of the importer's steps.
+//! Energy of the assembled wheel, computed without any of the importer's steps: what the sector model means.
 //!
 //! A random displacement of every node of the wheel, in global components, has an energy that the raw sector
 //! matrices give sector by sector, and that Y0 and Y1 must give too: Σ_s q_sᵀ Y0 q_s + 2 q_sᵀ Y1 q_{s+1}. Likewise the power
@@ -17,7 +17,7 @@ use crate::sample::{Numbers, Shape, package as sample, turn, unit, with_gyroscop
 
 type Vector = [f64; 3];
 
-/// uᵀ A u of one sector, u in the package's frame.
+/// Energy uᵀ A u of one sector, u in the package's frame.
 fn raw_energy(matrix: &RawMatrix, u: &[f64]) -> f64 {
     let energy = |&(i, j, value): &(u32, u32, f64)| {
         let twice = if i == j { 1.0 } else { 2.0 };
@@ -30,7 +30,7 @@ fn bilinear(matrix: &SparseColMat<usize, f64>, left: &[f64], right: &[f64]) -> f
     matrix.triplet_iter().map(|entry| left[entry.row] * entry.val * right[entry.col]).sum()
 }
 
-/// pᵀ G u of one sector, G skew-symmetric.
+/// Power pᵀ G u of one sector, G skew-symmetric.
 fn raw_power(matrix: &RawMatrix, p: &[f64], u: &[f64]) -> f64 {
     let term = |&(i, j, value): &(u32, u32, f64)| {
         let (i, j) = (i as usize, j as usize);
@@ -71,7 +71,7 @@ fn dot(a: Vector, b: Vector) -> f64 {
     (0..3).map(|k| a[k] * b[k]).sum()
 }
 
-/// A random displacement of the wheel, sector by sector: in the rows of the package, and in those of the sector model.
+/// Random displacement of the wheel, sector by sector: in the rows of the package, and in those of the sector model.
 fn displacement(package: &RawPackage, seed: u64) -> [Vec<Vec<f64>>; 2] {
     let sectors = package.manifest.sectors;
     let alpha = TAU / sectors as f64;
@@ -142,7 +142,7 @@ fn assert_energies_agree(package: &RawPackage) {
     for (seed, (raw, folded)) in
         (1..4).flat_map(|seed| energies(package, &model, seed).map(|pair| (seed, pair)))
     {
-        // Sums of some hundred terms of one sign: round-off, not more.
+        // The difference is round-off of sums of some hundred terms of one sign, not more.
         assert!((raw - folded).abs() <= 1e-12 * raw.abs(), "seed {seed}: raw {raw:e}, folded {folded:e}");
     }
     assert_powers_agree(package);
@@ -157,7 +157,7 @@ fn assert_powers_agree(package: &RawPackage) {
     for seed in 1..4 {
         let ([raw_p, p], [raw_q, q]) = (displacement(&package, seed), displacement(&package, seed + 10));
         let by_sector: Vec<f64> = raw_p.iter().zip(&raw_q).map(|(p, u)| raw_power(raw, p, u)).collect();
-        // Some hundred terms of up to 1e-9 a sector, of both signs.
+        // The sums have some hundred terms of up to 1e-9 a sector, of both signs.
         let scale = 1e-7 * by_sector.len() as f64;
         let (expected, found) = (by_sector.iter().sum::<f64>(), folded_power(folded, &p, &q));
         assert!((expected - found).abs() <= 1e-14 * scale, "seed {seed}: {expected:e} {found:e}");
@@ -165,7 +165,7 @@ fn assert_powers_agree(package: &RawPackage) {
 }
 
 fn directions() -> impl Strategy<Value = Vector> {
-    // Along each axis, nearly along x (where θ is measured from y), and anywhere; not of unit length.
+    // The axis is along each coordinate, nearly along x (where θ is measured from y), or anywhere; not of unit length.
     prop_oneof![
         Just([0.0, 0.0, 1.0]),
         Just([0.0, 0.0, -3.0]),

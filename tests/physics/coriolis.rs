@@ -41,7 +41,7 @@ fn lower(row: u32, column: u32, value: f64) -> (u32, u32, f64) {
     (row, column, value)
 }
 
-/// Two masses on isotropic springs in the plane of rotation: m(ẍ − 2Ωẏ − Ω²x) + kx = 0.
+/// Package of two masses on isotropic springs in the plane of rotation: m(ẍ − 2Ωẏ − Ω²x) + kx = 0.
 fn two_masses(frame: Frame) -> RawPackage {
     let masses = [2e-6, 3e-6];
     let squares = SQUARES;
@@ -78,13 +78,13 @@ fn two_masses(frame: Frame) -> RawPackage {
         dofs: (1..=2).flat_map(|node| (1..=3).map(move |component| RawDof { node, component })).collect(),
         mass: matrix(diagonal(&|node, _| masses[node])),
         stiffness: speeds.map(stiffness).to_vec(),
-        // The same in x, y as in r, θ: 2m [e_z×].
+        // The matrix is the same in x, y as in r, θ: 2m [e_z×].
         gyroscopic: Some(matrix(vec![lower(1, 0, 2.0 * masses[0]), lower(4, 3, 2.0 * masses[1])])),
         elements: None,
     }
 }
 
-/// ω0² of the two masses in each direction.
+/// Squares ω0² of the two masses in each direction.
 const SQUARES: [[f64; 3]; 2] = [[4e6, 4e6, 1.21e6], [9e6, 9e6, 4.41e6]];
 
 #[test]
@@ -109,8 +109,8 @@ fn a_rotating_mass_has_its_frequencies_shifted_by_the_speed() {
     }
 }
 
-/// All positive ν of M ü + Ω G u̇ + K u = 0, ascending: with energy coordinates u̇-like and u-like the first-order matrix S
-/// is real and skew-symmetric, and SᵀS has every ν² twice.
+/// Frequencies: all positive ν of M ü + Ω G u̇ + K u = 0, ascending: with energy coordinates u̇-like and u-like the
+/// first-order matrix S is real and skew-symmetric, and SᵀS has every ν² twice.
 fn dense_frequencies(m: &DMatrix<f64>, g: &DMatrix<f64>, k: &DMatrix<f64>) -> Vec<f64> {
     let n = m.nrows();
     let (l, root) = (m.clone().cholesky().unwrap().l(), k.clone().cholesky().unwrap().l());
@@ -126,13 +126,13 @@ fn dense_frequencies(m: &DMatrix<f64>, g: &DMatrix<f64>, k: &DMatrix<f64>) -> Ve
     squares.chunks(2).map(|pair| (0.5 * (pair[0] + pair[1])).sqrt()).collect()
 }
 
-/// The wheel of `recipe` with random gyroscopic forces.
+/// Wheel of `recipe` with random gyroscopic forces.
 fn turning(recipe: WheelRecipe, seed: u64) -> SectorModel {
     let gyroscopic = Some(gyroscopic(recipe, seed));
     SectorModel::new(SectorParts { gyroscopic, ..wheel(recipe).into_parts() }).unwrap()
 }
 
-/// With every fixed-interface mode kept the waves of all nodal diameters are the motions of the assembled wheel.
+/// Waves of all nodal diameters, with every fixed-interface mode kept, are the motions of the assembled wheel.
 #[test]
 fn waves_are_those_of_the_assembled_wheel() {
     for sectors in [1, 2, 3, 4, 7, 10] {
@@ -162,8 +162,8 @@ fn waves_are_those_of_the_assembled_wheel() {
     }
 }
 
-/// g is skew-Hermitian to the last bit, real where the nodal diameter is single, absent unless asked for; of a finite-element
-/// impeller with a truncated basis as of a complete one.
+/// Modal gyroscopic matrices g are skew-Hermitian to the last bit, real where the nodal diameter is single, absent unless
+/// asked for; of a finite-element impeller with a truncated basis as of a complete one.
 #[test]
 fn modal_gyroscopic_matrices_are_skew() {
     let recipe = WheelRecipe::default();
@@ -188,7 +188,7 @@ fn modal_gyroscopic_matrices_are_skew() {
     }
 }
 
-/// As the gyroscopic matrix or the speed goes to zero, either wave goes to the mode without Coriolis forces.
+/// Waves without speed or matrix: as the gyroscopic matrix or the speed goes to zero, either wave goes to the mode without Coriolis forces.
 #[test]
 fn without_speed_or_matrix_waves_are_plain_modes() {
     let recipe = WheelRecipe { stiffening: false, ..Default::default() };
@@ -208,12 +208,12 @@ fn without_speed_or_matrix_waves_are_plain_modes() {
         (0..reduced.harmonics.len()).map(of).fold(0.0, f64::max)
     };
     assert!(shift(0.0) < 1e-12, "{:e}", shift(0.0));
-    // First order in Ω.
+    // The shift is of first order in Ω.
     let ratio = shift(1e-3 * TOP_SPEED) / shift(1e-4 * TOP_SPEED);
     assert!((ratio - 10.0).abs() < 0.1, "{ratio}");
 }
 
-/// A ring of `sectors` masses that stiff rods join, on soft isotropic springs, beside a stiff blade tip that takes no part.
+/// Ring of `sectors` masses that stiff rods join, on soft isotropic springs, beside a stiff blade tip that takes no part.
 fn ring(sectors: usize) -> SectorModel {
     let (mass, spring, rod) = (1e-6, 1.0, 1e7);
     let angle = PI / sectors as f64;
@@ -268,14 +268,14 @@ fn the_pattern_of_a_spinning_ring_lags_behind() {
         let split = 4.0 * n * speed / (n * n + 1.0);
         let middle = (split * split / 4.0 + 1e6).sqrt();
         let waves = wave_frequencies(&reduced, i, speed, false).unwrap();
-        // Springs to rods are 1e-7.
+        // Springs are 1e-7 of the rods.
         close(&[waves.forward[0]], &[middle - split / 2.0], 1e-5);
         close(&[waves.backward[0]], &[middle + split / 2.0], 1e-5);
     }
 }
 
-/// At a driven crossing the force of its engine order, taken through the assembled wheel, resonates: the branch is the one
-/// that order drives. Orders that drive the other wave are answered elsewhere.
+/// Driven crossings: there the force of its engine order, taken through the assembled wheel, resonates; the branch is the
+/// one that order drives. Orders that drive the other wave are answered elsewhere.
 #[test]
 fn engine_orders_meet_the_waves_they_drive() {
     let sectors = 7;

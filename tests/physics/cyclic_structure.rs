@@ -7,7 +7,7 @@ use rubmap::dynamics::sector::SectorModel;
 
 use crate::fixtures::{TOP_SPEED, WheelRecipe, assembled_wheel, eigenvalues, wheel};
 
-/// All ω² of the wheel's nodal diameters, pairs twice, ascending.
+/// Squares ω² of the wheel's nodal diameters, pairs twice, ascending.
 fn squares(wheel: &ModalWheel) -> Vec<f64> {
     let mut all: Vec<f64> = wheel
         .harmonics
@@ -21,8 +21,8 @@ fn squares(wheel: &ModalWheel) -> Vec<f64> {
     all
 }
 
-/// With every fixed-interface mode kept the reduction is a change of basis: each nodal diameter's frequencies are
-/// those of the assembled wheel, at rest, at the given speeds and between them.
+/// Complete basis: with every fixed-interface mode kept the reduction is a change of basis, and each nodal diameter's
+/// frequencies are those of the assembled wheel, at rest, at the given speeds and between them.
 #[test]
 fn complete_basis_reproduces_the_assembled_wheel() {
     for (sectors, stiffening) in
@@ -53,7 +53,7 @@ fn complete_basis_reproduces_the_assembled_wheel() {
     }
 }
 
-/// A truncated basis bounds every frequency from above (Rayleigh–Ritz) and converges with the modes kept.
+/// Truncated basis: it bounds every frequency from above (Rayleigh–Ritz) and converges with the modes kept.
 #[test]
 fn truncated_basis_converges_from_above() {
     let sector = wheel(WheelRecipe { nodes: 40, ..Default::default() });
@@ -81,8 +81,8 @@ fn truncated_basis_converges_from_above() {
     assert!(last < 0.01, "{last}");
 }
 
-/// Without ground springs the wheel of translated springs floats: its three translations are three modes of nodal
-/// diameter 0. The refusal names them and asks about the hub.
+/// Wheel that hangs on nothing: without ground springs the wheel of translated springs floats, and its three
+/// translations are three modes of nodal diameter 0. The refusal names them and asks about the hub.
 #[test]
 fn a_wheel_that_hangs_on_nothing_is_refused() {
     let sector = wheel(WheelRecipe { ground: 0.0, stiffening: false, ..Default::default() });
@@ -92,7 +92,7 @@ fn a_wheel_that_hangs_on_nothing_is_refused() {
     assert!(error.to_string().contains("is the hub constrained"));
 }
 
-/// A node almost without mass puts a mode at the far end of the spectrum; the lowest modes must not notice.
+/// Node almost without mass: it puts a mode at the far end of the spectrum; the lowest modes must not notice.
 #[test]
 fn a_nearly_massless_node_leaves_the_lowest_modes_alone() {
     let recipe = WheelRecipe { nodes: 20, ..Default::default() };

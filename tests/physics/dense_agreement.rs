@@ -1,4 +1,4 @@
-//! The production step against its literal dense form, scheme by scheme: the same displacements over the first revolution.
+//! Production step against its literal dense form, scheme by scheme: the same displacements over the first revolution.
 
 use std::f64::consts::TAU;
 
@@ -29,7 +29,7 @@ fn agree(recipe: WheelRecipe, damping_ratio: f64, restriction: Restriction, step
     }
 }
 
-/// `steps_factor` is in units of the smallest stable number of central differences' steps.
+/// Asserts agreement of a scheme; `steps_factor` is in units of the smallest stable number of central differences' steps.
 fn agree_by(
     scheme: Scheme,
     recipe: WheelRecipe,
@@ -95,7 +95,7 @@ fn agree_by(
     assert!(contact_steps >= 3, "{scheme:?} {recipe:?}: {contact_steps} contact steps");
     assert_eq!(contact_steps, run.statistics.contact_steps, "{scheme:?} {recipe:?}");
     assert!(worst < 1e-9 * largest, "{scheme:?} {recipe:?}: {worst:e} of {largest}");
-    // Warm starts: hardly any contact problem needs more than a second or third candidate set.
+    // With warm starts hardly any contact problem needs more than a second or third candidate set.
     let pivots = run.statistics.pivots;
     assert!(
         pivots.problems > 0 && pivots.candidates < 3 * pivots.problems,
@@ -135,7 +135,7 @@ fn two_sectors() {
     agree(WheelRecipe { sectors: 2, contact_nodes: 1, seed: 6, ..Default::default() }, 0.001, lobes(1), 3.0);
 }
 
-/// Steps so long that the upper half of the modes follows statically.
+/// Modes that follow statically: steps so long that the upper half of the modes does.
 #[test]
 fn modes_that_follow_statically() {
     for damping_ratio in [0.0, 0.01] {
@@ -149,7 +149,7 @@ fn modes_that_follow_statically() {
     }
 }
 
-/// From one mode with mass to nearly all of them.
+/// Numbers of kept modes from one mode with mass to nearly all of them.
 #[test]
 fn any_number_of_kept_modes() {
     for (kept_modes, steps_factor) in [(1, 1.0), (4, 1.5), (12, 2.5)] {
@@ -158,7 +158,7 @@ fn any_number_of_kept_modes() {
     }
 }
 
-/// A Fourier series of three orders, that of the third less high towards the trailing edge.
+/// Casing of a Fourier series of three orders, that of the third less high towards the trailing edge.
 #[test]
 fn fourier_casing() {
     let wave = |order, amplitude, phase_rad, along_chord| Part {

@@ -19,7 +19,7 @@ use rubmap::dynamics::states::{HarmonicStates, WheelStates};
 use crate::fixtures::{Numbers, TOP_SPEED, WheelRecipe, assembled_wheel, wheel};
 use crate::node_sensors::nodes_of;
 
-/// Whole bases, by nodal diameter.
+/// Checkpoints that keep whole bases, by nodal diameter.
 #[derive(Default)]
 struct Bases(Mutex<BTreeMap<usize, Mat<c64>>>);
 
@@ -48,7 +48,7 @@ impl Bases {
     }
 }
 
-/// A wheel reduced with all of its modes.
+/// Wheel reduced with all of its modes.
 fn whole(sectors: usize) -> (SectorModel, ReducedSector, Bases, FieldSector) {
     let sector = wheel(WheelRecipe { sectors, ..Default::default() });
     let bases = Bases::default();
@@ -58,7 +58,7 @@ fn whole(sectors: usize) -> (SectorModel, ReducedSector, Bases, FieldSector) {
     (sector, reduced, bases, of)
 }
 
-/// All DOF of the wheel in (r, θ, z): its nodes stand at θ = 0 of their sectors.
+/// Displacements of all DOF of the wheel in (r, θ, z): its nodes stand at θ = 0 of their sectors.
 fn turned_back(field: &Field, of: &FieldSector, frame: usize) -> DVector<f64> {
     let places = Points::all(of, Part::Wheel).places().to_vec();
     let all = (0..of.sectors()).flat_map(|sector| {
@@ -69,7 +69,7 @@ fn turned_back(field: &Field, of: &FieldSector, frame: usize) -> DVector<f64> {
     DVector::from_vec(all.collect())
 }
 
-/// With every mode kept, a shape at any phase, standing or travelling, is an eigenvector of the assembled wheel.
+/// Mode shapes with every mode kept: at any phase, standing or travelling, they are eigenvectors of the assembled wheel.
 #[test]
 fn mode_shapes_solve_the_assembled_wheel() {
     for sectors in [1, 2, 5, 6] {
@@ -117,7 +117,8 @@ fn mode_shapes_solve_the_assembled_wheel() {
     }
 }
 
-/// Of a motion with engine orders 0, 2 and 3 the shape of one at a phase is that part alone at the angle, and the mean the constant.
+/// Deflection shapes of a motion with engine orders 0, 2 and 3: the shape of one at a phase is that part alone at the angle, and the
+/// mean the constant.
 #[test]
 fn deflection_shapes_take_one_engine_order_out_of_many() {
     let (_, reduced, bases, of) = whole(5);
@@ -126,7 +127,7 @@ fn deflection_shapes_take_one_engine_order_out_of_many() {
     let (samples, revolutions) = (16, 2);
     let at: Vec<f64> = (1..=samples * revolutions).map(|m| 3.0 + m as f64 / samples as f64).collect();
     let orders = [0, 2, 3];
-    // Per nodal diameter, unknown and order what turns forwards and what turns backwards.
+    // The parts are, per nodal diameter, unknown and order, what turns forwards and what turns backwards.
     let parts: Vec<Vec<[[c64; 2]; 3]>> = reduced
         .wheel
         .harmonics
@@ -157,7 +158,7 @@ fn deflection_shapes_take_one_engine_order_out_of_many() {
     for (k, order) in orders.into_iter().enumerate() {
         let phase = 0.7;
         let shape = deflection_shape(&all, &of, order, (phase, 1), &mut product).unwrap();
-        // Where φ = Eθ.
+        // This is the revolution where φ = Eθ.
         let revolution = if order == 0 { 0.0 } else { phase / (TAU * f64::from(order)) };
         let alone = instants(&states(&[k], &[revolution]), &of, &[0], &mut product).unwrap();
         let (found, expected) = (turned_back(&shape, &of, 0), turned_back(&alone, &of, 0));

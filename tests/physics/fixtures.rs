@@ -7,7 +7,7 @@ use rubmap::dynamics::sector::{ContactNode, CyclicMatrix, SectorModel, SectorPar
 use rubmap::impeller::{ImpellerParameters, MeshDensities, generate};
 use rubmap::package::raw::RawPackage;
 
-/// Deterministic numbers in [0, 1).
+/// Generator of deterministic numbers in [0, 1).
 pub(crate) struct Numbers(u64);
 
 impl Numbers {
@@ -23,14 +23,14 @@ impl Numbers {
     }
 }
 
-/// How a test wheel is made.
+/// Recipe of a test wheel.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct WheelRecipe {
     pub(crate) sectors: usize,
-    /// Nodes of a sector (three DOF each), the contact nodes last.
+    /// Number of nodes of a sector (three DOF each), the contact nodes last.
     pub(crate) nodes: usize,
     pub(crate) contact_nodes: usize,
-    /// Low-face nodes (the first ones), coupled to the previous sector.
+    /// Number of low-face nodes (the first ones), coupled to the previous sector.
     pub(crate) face_nodes: usize,
     /// Whether K depends on Ω.
     pub(crate) stiffening: bool,
@@ -53,12 +53,12 @@ impl Default for WheelRecipe {
     }
 }
 
-/// Ω1 of the test wheels, rad/s.
+/// Top speed Ω1 of the test wheels, rad/s.
 pub(crate) const TOP_SPEED: f64 = 3000.0;
 
-/// A sector of point masses joined by anisotropic springs (a positive semidefinite 3 × 3 block each), all tied to
-/// the ground by weak springs, faces tied to the next sector's. Frequencies are a few times TOP_SPEED/2π·(1…10), so
-/// that engine orders 1 to 10 meet modes; lengths are millimetres by size.
+/// Sector of point masses joined by anisotropic springs (a positive semidefinite 3 × 3 block each), all tied to the
+/// ground by weak springs, faces tied to the next sector's. Frequencies are a few times TOP_SPEED/2π·(1…10), so that
+/// engine orders 1 to 10 meet modes; lengths are millimetres by size.
 pub(crate) fn wheel(recipe: WheelRecipe) -> SectorModel {
     let WheelRecipe { sectors, nodes, contact_nodes, face_nodes, stiffening, seed, ground } = recipe;
     let mut numbers = Numbers::new(seed);
@@ -127,7 +127,7 @@ pub(crate) fn wheel(recipe: WheelRecipe) -> SectorModel {
     SectorModel::new(parts).unwrap()
 }
 
-/// A finite-element impeller of a few hundred DOF a sector, four contact nodes.
+/// Package of a finite-element impeller of a few hundred DOF a sector, four contact nodes.
 pub(crate) fn small_impeller(sectors: usize) -> RawPackage {
     let mesh = MeshDensities {
         between_contact_nodes: 2,
@@ -140,7 +140,7 @@ pub(crate) fn small_impeller(sectors: usize) -> RawPackage {
     generate(&parameters).unwrap()
 }
 
-/// A random positive definite 3 × 3 spring block of about `scale`.
+/// Random positive definite 3 × 3 spring block of about `scale`.
 fn spring(numbers: &mut Numbers, scale: f64) -> DMatrix<f64> {
     let root = DMatrix::from_fn(3, 3, |_, _| numbers.next() - 0.5);
     (&root * root.transpose() + DMatrix::identity(3, 3) * 0.1) * scale
@@ -167,7 +167,7 @@ fn sparse(matrix: &DMatrix<f64>) -> SparseColMat<usize, f64> {
     SparseColMat::try_new_from_triplets(matrix.nrows(), matrix.ncols(), &entries).unwrap()
 }
 
-/// The whole wheel, sector by sector: [own on the diagonal, next above it, its transpose below], closed to a ring.
+/// Matrix of the whole wheel, sector by sector: [own on the diagonal, next above it, its transpose below], closed to a ring.
 pub(crate) fn assembled_wheel(matrix: &CyclicMatrix, sectors: usize) -> DMatrix<f64> {
     let size = matrix.own.nrows();
     let mut wheel = DMatrix::zeros(sectors * size, sectors * size);
@@ -184,7 +184,7 @@ pub(crate) fn assembled_wheel(matrix: &CyclicMatrix, sectors: usize) -> DMatrix<
     wheel
 }
 
-/// A random gyroscopic matrix of the size of `recipe`'s masses, with the couplings of its faces.
+/// Random gyroscopic matrix of the size of `recipe`'s masses, with the couplings of its faces.
 pub(crate) fn gyroscopic(recipe: WheelRecipe, seed: u64) -> CyclicMatrix {
     let mut numbers = Numbers::new(seed);
     let size = 3 * recipe.nodes;
@@ -195,7 +195,7 @@ pub(crate) fn gyroscopic(recipe: WheelRecipe, seed: u64) -> CyclicMatrix {
     cyclic(&(&half - half.transpose()), &random(3 * recipe.face_nodes))
 }
 
-/// The whole wheel of a skew-symmetric matrix.
+/// Matrix of the whole wheel, from a skew-symmetric matrix.
 pub(crate) fn assembled_skew(matrix: &CyclicMatrix, sectors: usize) -> DMatrix<f64> {
     let size = matrix.own.nrows();
     let mut wheel = DMatrix::zeros(sectors * size, sectors * size);
@@ -212,7 +212,7 @@ pub(crate) fn assembled_skew(matrix: &CyclicMatrix, sectors: usize) -> DMatrix<f
     wheel
 }
 
-/// ω² of K x = ω² M x in ascending order, by nalgebra.
+/// Eigenvalues ω² of K x = ω² M x in ascending order, by nalgebra.
 pub(crate) fn eigenvalues(k: &DMatrix<f64>, m: &DMatrix<f64>) -> Vec<f64> {
     let lower = m.clone().cholesky().expect("a mass is positive definite").l();
     let half = lower.solve_lower_triangular(k).unwrap();

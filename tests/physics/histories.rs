@@ -48,7 +48,7 @@ impl Scene {
         }
     }
 
-    /// A multiple of `interval`.
+    /// Number of steps, a multiple of `interval`.
     fn steps(&self, interval: usize) -> usize {
         let stable = smallest_stable_steps(self.modal.largest_frequency(), SPEED) as f64;
         ((1.5 * stable).ceil() as usize).next_multiple_of(interval)
@@ -195,7 +195,7 @@ fn histories_are_those_of_the_literal_schemes() {
             assert_eq!(found.closings as usize, closings, "{what}");
             let peak = truth_of(pair).into_iter().fold(0.0, f64::max);
             assert!((found.peak_force - peak).abs() < 1e-9 * largest, "{what}");
-            // The histories' forces integrate to it.
+            // The histories' forces integrate to the impulse.
             let integral = h * interval as f64 * detail.force[pair].iter().sum::<f64>();
             assert!((found.impulse - integral).abs() <= 1e-12 * found.impulse, "{what}");
             of_pairs += found.impulse;
@@ -221,7 +221,7 @@ fn energy_parts_add_up_at_every_sample() {
     }
 }
 
-/// What is recorded changes no bit of what happens, and any revolutions of it are the same.
+/// Details that are recorded change no bit of what happens, and any revolutions of them are the same.
 #[test]
 fn details_change_nothing() {
     for scheme in SCHEMES {

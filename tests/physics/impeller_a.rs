@@ -1,5 +1,5 @@
-//! The real impeller of shared/models against CalculiX's own cyclic symmetry analysis. Skipped, with a printed reason,
-//! where that folder is not beside the project.
+//! Impeller A, the real one of shared/models, against CalculiX's own cyclic symmetry analysis. Skipped, with a printed
+//! reason, where that folder is not beside the project.
 
 use std::f64::consts::TAU;
 use std::path::PathBuf;
@@ -21,7 +21,7 @@ const AT_REST: [[f64; 6]; 6] = [
     [2283.033, 4698.776, 4792.489, 5931.419, 7293.537, 7817.600],
 ];
 
-/// At 3750 rad/s, between the given speeds: scipy on the package's matrices (same source).
+/// First six frequencies in Hz per nodal diameter at 3750 rad/s, between the given speeds: scipy on the package's matrices (same source).
 const AT_3750: [[f64; 6]; 6] = [
     [2377.784, 3967.540, 4371.175, 5379.838, 7240.414, 7499.295],
     [2378.126, 3816.289, 5278.659, 7110.114, 7340.602, 8810.242],
@@ -81,7 +81,7 @@ fn frequencies_equal_calculix_in_both_frames() {
     }
 }
 
-/// Stiffness exported on the deformed geometry: noticed, explained, with an honest error (0.55 % by CalculiX).
+/// Deformed geometry: stiffness exported on it is noticed, explained, with an honest error (0.55 % by CalculiX).
 #[test]
 fn deformed_geometry_is_detected() {
     let Some(path) = model("impeller-a-nlgeom.zip") else { return };
@@ -112,7 +112,7 @@ fn simulate(path: &std::path::Path) -> SpeedResult {
     run_speed(&reduced, &request, 0, None, &Unwatched).unwrap()
 }
 
-/// The Cartesian twin gives the same spectra: the frame is the exporter's affair.
+/// Cartesian twin: it gives the same spectra, as the frame is the exporter's affair.
 #[test]
 fn both_frames_give_the_same_spectra() {
     let (Some(cylindrical), Some(cartesian)) = (model("impeller-a.zip"), model("impeller-a-cartesian.zip"))

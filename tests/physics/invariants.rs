@@ -1,4 +1,4 @@
-//! What must hold for every wheel, casing and step: complementarity, the energy identity, symmetry.
+//! Invariants that hold for every wheel, casing and step: complementarity, the energy identity, symmetry.
 
 use proptest::prelude::*;
 use rubmap::dynamics::casing::{Casing, Lobes};
@@ -117,8 +117,8 @@ proptest! {
     }
 }
 
-/// Ten sectors from rest against two lobes keep their two-fold symmetry: with damping that quenches symmetry
-/// breaking, odd nodal diameters stay at round-off.
+/// Symmetry of ten sectors from rest against two lobes: they keep their two-fold symmetry, and with damping that
+/// quenches symmetry breaking, odd nodal diameters stay at round-off.
 #[test]
 fn two_lobes_leave_odd_nodal_diameters_at_round_off() {
     let mut scene = Scene::new(WheelRecipe::default());
@@ -138,7 +138,7 @@ fn two_lobes_leave_odd_nodal_diameters_at_round_off() {
 fn renumbering_sectors_turns_the_response() {
     for sectors in [7, 10] {
         let mut scene = Scene::new(WheelRecipe { sectors, ..Default::default() });
-        // The first revolution and a half, before rounding differences can grow.
+        // The first revolution and a half is compared, before rounding differences can grow.
         scene.revolutions = 2;
         let reference = scene.run();
         let alpha = std::f64::consts::TAU / sectors as f64;
@@ -154,7 +154,7 @@ fn renumbering_sectors_turns_the_response() {
     }
 }
 
-/// The same scene gives the same bits every time.
+/// Runs of one scene give the same bits every time.
 #[test]
 fn runs_are_reproducible_to_the_bit() {
     let scene = Scene::new(WheelRecipe::default());

@@ -1,4 +1,4 @@
-//! The physics against independent truth: explicitly assembled wheels, a literal dense integrator, invariants.
+//! Physics against independent truth: explicitly assembled wheels, a literal dense integrator, invariants.
 
 mod coriolis;
 mod cyclic_structure;

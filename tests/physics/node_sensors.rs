@@ -22,7 +22,7 @@ use std::f64::consts::TAU;
 
 use crate::fixtures::{TOP_SPEED, WheelRecipe, assembled_wheel, small_impeller, wheel};
 
-/// All nodes of a test wheel, by the number of their first DOF over three.
+/// Nodes of a test wheel, all of them, by the number of their first DOF over three.
 pub(crate) fn nodes_of(sector: &SectorModel) -> Vec<SectorNode> {
     let node = |node: usize| SectorNode {
         id: node as u64,
@@ -38,14 +38,14 @@ pub(crate) fn nodes_of(sector: &SectorModel) -> Vec<SectorNode> {
     (0..sector.own_dofs() / 3).map(node).collect()
 }
 
-/// A reduction that is read at `nodes`.
+/// Makes a reduction that is read at `nodes`.
 fn read_at(sector: &SectorModel, modes: u32, nodes: &[SectorNode]) -> ReducedSector {
     let kept = KeptRows::new(&NoCheckpoints, nodes);
     let reduced = prepare(sector, modes, None, &kept, &Unwatched).unwrap();
     ReducedSector { nodes: kept.of(&reduced.wheel), ..reduced }
 }
 
-/// With every mode kept, the shapes at all nodes of all sectors solve the eigenproblem of the assembled wheel.
+/// Shapes at all nodes of all sectors, with every mode kept, solve the eigenproblem of the assembled wheel.
 #[test]
 fn shapes_at_every_node_are_those_of_the_assembled_wheel() {
     for (sectors, stiffening) in [(1, true), (2, false), (5, true), (6, true)] {
@@ -134,8 +134,8 @@ fn resolved(
     resolve_sweep(request, &ModelFacts::of(sector)).unwrap()
 }
 
-/// Without contact a wheel driven at one engine order answers as the assembled one does: at every node within the error of the
-/// reduction, which goes with the modes kept.
+/// Forced responses inside the sector: without contact a wheel driven at one engine order answers as the assembled one does,
+/// at every node within the error of the reduction, which goes with the modes kept.
 #[test]
 fn forced_responses_inside_the_sector_converge_to_the_assembled_wheel() {
     let recipe = WheelRecipe { sectors: 5, nodes: 20, stiffening: false, ..Default::default() };
@@ -170,18 +170,18 @@ fn forced_responses_inside_the_sector_converge_to_the_assembled_wheel() {
             found.zip(&expected).map(|(a, b)| (a - b).abs() / largest).fold(0.0, f64::max)
         };
         let errors = [3, 8, 1000].map(error);
-        // Three and eight of 51 internal modes; with all of them what is left is the step's, over which the force is steady.
+        // Three and eight of 51 internal modes are kept; with all of them the error left is the step's, over which the force is steady.
         let falls = errors[0] < 0.06 && errors[1] < 0.5 * errors[0];
         assert!(falls && errors[2] < 1e-5, "order {order}: {errors:?}");
     }
 }
 
-/// A boundary without mass and lasting contact: what a node of the basis reads, static part included, is what the contact node
-/// reads that it is.
+/// Rows of a contact node, with a boundary without mass and lasting contact: a node of the basis, static part included, reads
+/// what the contact node reads that it is.
 #[test]
 fn rows_of_a_contact_node_read_what_it_reads() {
     let sector = wheel(WheelRecipe { sectors: 6, ..Default::default() });
-    // Numbered as any other node.
+    // The contact node is numbered as any other node.
     let mut nodes = nodes_of(&sector);
     nodes.retain(|node| node.dofs[0].is_some_and(|dof| dof.dof == sector.contact[1].dofs[0]));
     let reduced = read_at(&sector, 6, &nodes);
@@ -221,7 +221,7 @@ fn rows_of_a_contact_node_read_what_it_reads() {
     }
 }
 
-/// In contact: the same place by other names, at the seam of two sectors, and along a direction.
+/// Displacement in contact, at the same place by other names, at the seam of two sectors, and along a direction.
 #[test]
 fn the_same_displacement_by_other_names() {
     let package = small_impeller(6);

@@ -1,4 +1,4 @@
-//! The production reduction (one real factor a speed, all nodal diameters together) against the plain one (a complex
+//! Production reduction (one real factor a speed, all nodal diameters together) against the plain one (a complex
 //! factorisation and a dense eigensolver for each).
 //!
 //! Both modal bases are mass-orthonormal, so they differ by a unitary matrix: the contact blocks, the products
@@ -24,14 +24,14 @@ fn close(found: &Mat<c64>, expected: &Mat<c64>, tolerance: f64, what: &str) {
     assert!(error < tolerance, "{what}: {error:.1e}");
 }
 
-/// Contact block and Y_bm Y_mb.
+/// Parts that both reductions have in common: contact block and Y_bm Y_mb.
 fn parts(y: &Mat<c64>, n_b: usize) -> [Mat<c64>; 2] {
     let coupling = y.submatrix(0, n_b, n_b, y.ncols() - n_b);
     [y.submatrix(0, 0, n_b, n_b).to_owned(), coupling * coupling.adjoint()]
 }
 
-/// The joint basis keeps directions with singular values down to 1e-5, in which errors of the modes are 1e5 times as large. (4 sectors
-/// of 12 nodes: 1.0e-8 on one machine, less on others.)
+/// Tolerance: the joint basis keeps directions with singular values down to 1e-5, in which errors of the modes are 1e5 times as large.
+/// (4 sectors of 12 nodes: 1.0e-8 on one machine, less on others.)
 const MAGNIFIED: f64 = 1e-7;
 
 fn agree(sector: &SectorModel, modes: usize, solver: Solver, name: &str) -> ReducedWheel {
@@ -85,8 +85,8 @@ fn transpose<T>(a: [T; 2], b: [T; 2]) -> [[T; 2]; 2] {
     [[a0, b0], [a1, b1]]
 }
 
-/// Every nodal diameter of odd and even wheels, one sector closed on itself among them; small spaces (solved
-/// densely) and larger ones (Lanczos).
+/// Wheels of point masses: every nodal diameter of odd and even wheels, one sector closed on itself among them; small
+/// spaces (solved densely) and larger ones (Lanczos).
 #[test]
 fn point_mass_wheels() {
     for (sectors, nodes) in [(1, 90), (2, 90), (3, 90), (4, 12), (7, 90), (10, 12)] {
@@ -95,7 +95,7 @@ fn point_mass_wheels() {
     }
 }
 
-/// The high face's own block added onto the low face, as other exporters have it.
+/// Package with the high face's own block added onto the low face, as other exporters have it.
 fn assembled(mut package: RawPackage) -> RawPackage {
     let high_of: std::collections::HashMap<u64, u64> =
         package.manifest.cyclic.iter().map(|&[low, high]| (high, low)).collect();
@@ -120,7 +120,7 @@ fn assembled(mut package: RawPackage) -> RawPackage {
     package
 }
 
-/// A finite-element sector, both ways its high face may be exported: the same reduced wheel as the plain way makes.
+/// Finite-element sector, both ways its high face may be exported: the same reduced wheel as the plain way makes.
 #[test]
 fn impellers_assembled_or_not() {
     for sectors in [5, 6] {
@@ -133,7 +133,7 @@ fn impellers_assembled_or_not() {
     }
 }
 
-/// `sector` with `copies` more nodes that hang on the ground alone, by the same three springs each.
+/// Sector with `copies` more nodes that hang on the ground alone, by the same three springs each.
 fn with_pendants(sector: &SectorModel, copies: usize, squares: [f64; 3]) -> SectorModel {
     let mut sector = sector.clone().into_parts();
     let own = sector.own_dofs();
@@ -155,8 +155,9 @@ fn with_pendants(sector: &SectorModel, copies: usize, squares: [f64; 3]) -> Sect
     SectorModel::new(sector).unwrap()
 }
 
-/// Eight modes of one frequency in every nodal diameter, more than a block holds: the count notices what the first
-/// search leaves out, and the next one finds it; also where the eight straddle the last mode asked for.
+/// Multiple eigenvalue: eight modes of one frequency in every nodal diameter, more than a block holds. The count
+/// notices what the first search leaves out, and the next one finds it; also where the eight straddle the last mode
+/// asked for.
 #[test]
 fn no_copy_of_a_multiple_eigenvalue_is_missed() {
     let plain = wheel(WheelRecipe { sectors: 4, nodes: 90, stiffening: false, ..Default::default() });
@@ -181,7 +182,7 @@ fn no_copy_of_a_multiple_eigenvalue_is_missed() {
     }
 }
 
-/// Every bit of a reduction is the same on any number of threads.
+/// Threads change nothing: every bit of a reduction is the same on any number of them.
 #[test]
 fn threads_change_nothing() {
     let sector = to_sector(small_impeller(5)).unwrap();
@@ -194,7 +195,7 @@ fn threads_change_nothing() {
     assert!(bytes(1) == bytes(3));
 }
 
-/// Keeps parts in memory.
+/// Checkpoints that keep parts in memory.
 struct Kept(Mutex<BTreeMap<String, Vec<u8>>>);
 
 impl Checkpoints for Kept {
@@ -209,7 +210,7 @@ impl Checkpoints for Kept {
     fn keep_basis(&self, _rows: &BasisRows<'_>) {}
 }
 
-/// A reduction that goes on with all parts but one, whichever it is, or without those of a kind, ends with the same bytes.
+/// Lost part: a reduction that goes on with all parts but one, whichever it is, or without those of a kind, ends with the same bytes.
 #[test]
 fn a_lost_part_changes_nothing() {
     let sector = to_sector(small_impeller(5)).unwrap();
@@ -235,13 +236,13 @@ fn a_lost_part_changes_nothing() {
     }
 }
 
-/// The baseline of the benchmark computes what it is compared with.
+/// Baseline of the benchmark: it computes what it is compared with.
 #[test]
 fn the_benchmark_baseline_agrees() {
     agree(&to_sector(small_impeller(4)).unwrap(), 8, Solver::Lanczos, "single-vector Lanczos");
 }
 
-/// Ten frequencies of the reduced wheel are those of the full sector within what truncation explains, from above, at
+/// Compared frequencies: ten of the reduced wheel are those of the full sector within what truncation explains, from above, at
 /// the given speeds and between them; the full ones are the assembled matrices' own. Between the speeds they need no factor where
 /// K is linear in Ω², whichever the speeds are.
 #[test]

@@ -16,7 +16,7 @@ use serde_json::{Value, json};
 use crate::fixtures::{TOP_SPEED, WheelRecipe, wheel};
 use crate::to_the_end::to_the_end;
 
-/// A wheel, and the speed at which an engine order meets the lowest mode of its nodal diameter.
+/// Driven wheel, and the speed at which an engine order meets the lowest mode of its nodal diameter.
 struct Driven {
     sector: SectorModel,
     reduced: ReducedSector,
@@ -91,8 +91,8 @@ impl Driven {
     }
 }
 
-/// M q̈ + K(Ω(t)) q = f e^{jkθ(t)} of one nodal diameter, by the classical Runge–Kutta method; displacements of a contact row of a sector at
-/// the samples of the angle.
+/// Literal integration of M q̈ + K(Ω(t)) q = f e^{jkθ(t)} of one nodal diameter, by the classical Runge–Kutta method; displacements of a
+/// contact row of a sector at the samples of the angle.
 fn literal(driven: &Driven, (start, rate): (f64, f64), samples: u64, per_revolution: usize) -> Vec<f64> {
     let harmonic = &driven.reduced.wheel.harmonics[ORDER as usize];
     let size = harmonic.mass.nrows();
@@ -151,8 +151,8 @@ fn literal(driven: &Driven, (start, rate): (f64, f64), samples: u64, per_revolut
     found
 }
 
-/// Through a resonance of an undamped wheel that stiffens on the way: angles, K(Ω), and the state that is handed on from basis to basis. The
-/// error falls with the tolerance of the angle.
+/// Run-up through a resonance of an undamped wheel that stiffens on the way: angles, K(Ω), and the state that is handed on from basis to
+/// basis. The error falls with the tolerance of the angle.
 #[test]
 fn a_run_up_is_that_of_a_literal_integration_under_the_stiffness_of_the_moment() {
     let driven = Driven::new(10);
@@ -189,8 +189,9 @@ fn a_run_up_is_that_of_a_literal_integration_under_the_stiffness_of_the_moment()
     }
 }
 
-/// One blade whose tip rattles against a casing: its resonance leans over, and two motions last at the speeds beyond it. As the rate goes to
-/// zero the envelope is that of the steady speeds of a sweep in the same direction: the large motion upwards, the small one downwards.
+/// Slow run-ups of one blade whose tip rattles against a casing: its resonance leans over, and two motions last at the speeds beyond it. As
+/// the rate goes to zero the envelope is that of the steady speeds of a sweep in the same direction: the large motion upwards, the small one
+/// downwards.
 #[test]
 fn slow_run_ups_meet_the_steady_map_in_their_direction() {
     let driven = Driven::new(1);

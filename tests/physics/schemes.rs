@@ -1,4 +1,4 @@
-//! How fast histories converge with the step, and that all schemes converge to the same one.
+//! Convergence of histories with the step: how fast, and that all schemes converge to the same one.
 
 use std::f64::consts::{PI, TAU};
 
@@ -18,7 +18,7 @@ use rubmap::package::to_sector;
 
 use crate::fixtures::{TOP_SPEED, WheelRecipe, wheel};
 
-/// A wheel at one speed against two lobes.
+/// Wheel at one speed against two lobes.
 struct Scene {
     wheel: ModalWheel,
     contact: Vec<ContactNode>,
@@ -27,7 +27,7 @@ struct Scene {
     revolutions: usize,
 }
 
-/// Samples of a revolution that histories are compared at.
+/// Number of samples of a revolution at which histories are compared.
 const SAMPLES: usize = 100;
 
 impl Scene {
@@ -44,7 +44,7 @@ impl Scene {
         Self { wheel, contact: reduced.contact, casing, damping_ratio: 0.005, revolutions: 1 }
     }
 
-    /// Ten sectors of masses and springs.
+    /// Scene of ten sectors of masses and springs.
     fn small() -> Self {
         let lobes = Lobes { count: 2, amplitude: 0.425, width_rad: 0.35, phase_rad: 0.1 };
         let casing =
@@ -52,7 +52,7 @@ impl Scene {
         Self::new(&wheel(WheelRecipe::default()), 6, 0.6 * TOP_SPEED, true, casing)
     }
 
-    /// The impeller of the demo in its casing at 24,000 rpm.
+    /// Scene of the impeller of the demo in its casing at 24,000 rpm.
     fn demo() -> Self {
         let parameters = ImpellerParameters::default();
         let sector = to_sector(generate(&parameters).unwrap()).unwrap();
@@ -105,7 +105,7 @@ impl Scene {
         }
     }
 
-    /// The smallest stable number of steps, to the next multiple of the samples.
+    /// Smallest stable number of steps, to the next multiple of the samples.
     fn smallest(&self, scheme: Scheme) -> usize {
         (scheme.smallest_stable_steps(&self.wheel, &self.contact) as usize).next_multiple_of(SAMPLES)
     }
@@ -123,7 +123,7 @@ fn order(errors: &[f64]) -> f64 {
     (errors[0] / errors[errors.len() - 1]).log2() / (errors.len() - 1) as f64
 }
 
-/// Over the first revolution. With mass at the contact, the instant of each closing is a matter of the step.
+/// Orders over the first revolution. With mass at the contact, the instant of each closing is a matter of the step.
 #[test]
 fn orders_on_a_small_wheel() {
     let scene = Scene::small();
@@ -148,7 +148,7 @@ fn orders_on_a_small_wheel() {
     }
 }
 
-/// The impeller of the demo over two revolutions: 900 unknowns and more, 73 modes per nodal diameter.
+/// Orders and limits on the impeller of the demo over two revolutions: 900 unknowns and more, 73 modes per nodal diameter.
 #[test]
 fn orders_and_limits_on_the_impeller() {
     let mut scene = Scene::demo();
@@ -173,7 +173,7 @@ fn orders_and_limits_on_the_impeller() {
         apart.push(error(&scene.tip(scheme, 16 * scene.smallest(scheme)), &limit));
     }
     assert!(apart[0] < 0.05 && apart[2] < 0.025 && apart.is_sorted_by(|a, b| a > b), "{apart:?}");
-    // Of second order towards its own limit.
+    // The error is of second order towards the scheme's own limit.
     scene.revolutions = 1;
     for kept_modes in [30, 40, 50] {
         let scheme = Scheme::MasslessBoundary { kept_modes };
@@ -193,7 +193,7 @@ fn a_mass_bounces_off_a_stop_at_the_frequency_of_restitution_one() {
     let scheme = Scheme::MasslessBoundary { kept_modes: 1 };
     for share in [0.9, 0.75, 0.5, 0.25, 0.0f64] {
         let mut contact = Mat::<c64>::zeros(3, 2);
-        // ω0 = 1 and a flexibility of (10/10⁴)²: in contact the mass swings at ω_c = 1000 ω0.
+        // Here ω0 = 1 and the flexibility is (10/10⁴)²: in contact the mass swings at ω_c = 1000 ω0.
         contact[(0, 0)] = c64::new(1.0, 0.0);
         contact[(0, 1)] = c64::new(10.0, 0.0);
         let modes =
@@ -226,7 +226,7 @@ fn a_mass_bounces_off_a_stop_at_the_frequency_of_restitution_one() {
         .run(&|_| true);
         let Outcome::Completed(history) = &run.outcome else { panic!("{:?}", run.outcome) };
         let line = &history.displacement[0];
-        // Turning points on the free side, and not round-off at the stop.
+        // These are the turning points on the free side, and not round-off at the stop.
         let turns: Vec<usize> = (1..line.len() - 1)
             .filter(|&q| line[q] < line[q - 1] && line[q] <= line[q + 1] && line[q] < -0.5)
             .collect();

@@ -1,4 +1,4 @@
-//! A sweep through the door: the stability limit, results with their credentials.
+//! Sweep through the door: the stability limit, results with their credentials.
 
 use rubmap::analysis::effects::symmetry::request::Symmetry;
 use rubmap::analysis::error::AnalysisError;
@@ -32,7 +32,7 @@ fn request(sector: &SectorModel, speeds: &[f64]) -> SweepRequest {
     resolve_sweep(serde_json::from_value(request).unwrap(), &ModelFacts::of(sector)).unwrap().into()
 }
 
-/// `request` as if it had been resolved.
+/// Sweep of `request` as if it had been resolved.
 fn unchecked(request: &SweepRequest) -> ResolvedSweep {
     ResolvedSweep::stored(request.clone(), 0).unwrap()
 }
@@ -41,8 +41,9 @@ fn reduced(sector: &SectorModel) -> ReducedSector {
     prepare(sector, 6, None, &NoCheckpoints, &Unwatched).unwrap()
 }
 
-/// One step fewer than the smallest stable number is refused before anything runs, with that number in the message;
-/// that number itself is integrated with its energy accounted for, and so is every speed of the range.
+/// Fixed steps against the stability limit: one step fewer than the smallest stable number is refused before anything
+/// runs, with that number in the message; that number itself is integrated with its energy accounted for, and so is
+/// every speed of the range.
 #[test]
 fn fixed_steps_are_held_against_the_stability_limit_of_the_slowest_speed() {
     let sector = wheel(WheelRecipe::default());
@@ -94,8 +95,8 @@ fn results_are_consistent() {
     }
 }
 
-/// What never moves, or moves by round-off only, has no dominant line; nor has what moves at higher orders than were asked for. A table
-/// of critical speeds says so.
+/// Sweep where no line stands out: what never moves, or moves by round-off only, has no dominant line; nor has what moves at higher
+/// orders than were asked for. A table of critical speeds says so.
 #[test]
 fn where_no_line_stands_out_none_is_named() {
     let sector = wheel(WheelRecipe::default());
@@ -151,7 +152,7 @@ fn cancellation_is_seen_inside_every_verb() {
     assert!(matches!(check(&reduced, &unchecked(&request), &Impatient), Err(AnalysisError::Cancelled)));
 }
 
-/// Lengths up to what lets a run end without divergence, no more; of a model whose facts do not say where its tips are, any.
+/// Lengths against the wheel: up to what lets a run end without divergence, no more; of a model whose facts do not say where its tips are, any.
 #[test]
 fn lengths_are_held_against_the_wheel() {
     let sector = wheel(WheelRecipe::default());
@@ -192,7 +193,7 @@ fn lengths_are_held_against_the_wheel() {
         let violations = resolve_sweep(request.clone(), &facts).unwrap_err();
         let pointers: Vec<_> = violations.iter().map(|violation| violation.pointer.as_str()).collect();
         assert_eq!(pointers, [field], "{violations:?}");
-        // As a version kept them that knew neither.
+        // An older version stored facts that knew neither.
         let mut older = serde_json::to_value(&facts).unwrap();
         older
             .as_object_mut()
@@ -209,8 +210,8 @@ fn lengths_are_held_against_the_wheel() {
     resolve_sweep(free, &facts).unwrap();
 }
 
-/// A step that is wider than a lobe would pass it by, with numbers that look fine: refused when given, avoided when
-/// chosen.
+/// Narrow lobes: a step that is wider than a lobe would pass it by, with numbers that look fine. Such a step is refused
+/// when given, avoided when chosen.
 #[test]
 fn narrow_lobes_are_not_stepped_over() {
     let sector = wheel(WheelRecipe::default());

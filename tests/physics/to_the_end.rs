@@ -1,4 +1,4 @@
-//! Run-ups, all legs of them.
+//! Runs run-ups to their end, leg by leg.
 
 use rubmap::analysis::monitor::Unwatched;
 use rubmap::analysis::resolved::ResolvedRunUps;

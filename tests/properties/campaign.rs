@@ -1,4 +1,4 @@
-//! Properties drawn anew at every call, for as long as one likes: what tests of fixed cases have not thought of.
+//! Campaigns of properties drawn anew at every call, for as long as one likes: they find what tests of fixed cases have not thought of.
 //!
 //! `RUBMAP_CAMPAIGN_SECONDS` bounds the time (60 unless given), `RUBMAP_CAMPAIGN_SEED` repeats cases from a seed that was printed.
 
@@ -13,10 +13,10 @@ use proptest::test_runner::{Config, RngSeed, TestCaseResult, TestRunner};
 /// Time between two lines about a campaign that goes on.
 const TOLD_EVERY: Duration = Duration::from_secs(60);
 
-/// Minimising a failure ends after this many milliseconds.
+/// Time in milliseconds after which minimising a failure ends.
 const SHRINKING_MS: u32 = 60_000;
 
-/// Holds `property` against cases of `strategy` until the time is over; panics at its end if any case failed.
+/// Tests `property` on cases of `strategy` until the time is over; panics at its end if any case failed.
 pub(crate) fn campaign<S>(name: &str, strategy: S, property: impl Fn(S::Value) -> TestCaseResult)
 where
     S: Strategy,
@@ -27,13 +27,13 @@ where
         Some(value.parse::<u64>().unwrap_or_else(|_| panic!("{variable}={value} is no whole number")))
     };
     let seconds = given("RUBMAP_CAMPAIGN_SECONDS").unwrap_or(60);
-    // Hashing is keyed by chance.
+    // Hashing is keyed by chance, so that the seed is random.
     let first = given("RUBMAP_CAMPAIGN_SEED").unwrap_or_else(|| RandomState::new().hash_one(name) >> 16);
     println!("{name}: {seconds} s from RUBMAP_CAMPAIGN_SEED={first}");
     let start = Instant::now();
     let (mut cases, mut failures, mut told) = (0, 0, start);
     while cases == 0 || start.elapsed() < Duration::from_secs(seconds) {
-        // A seed of its own for every case, so that a failure is repeated at once.
+        // Every case has a seed of its own, so that a failure is repeated at once.
         let seed = first.wrapping_add(cases);
         let config = Config {
             cases: 1,

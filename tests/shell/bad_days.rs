@@ -12,7 +12,7 @@ use futures::StreamExt;
 use super::shell::Shell;
 use super::stub::{JOB, Stub, job, problem};
 
-/// Events of a job, then the end of the connection.
+/// Response with events of a job, then the end of the connection.
 fn events(jobs: Vec<serde_json::Value>) -> Response {
     let events = jobs
         .into_iter()
@@ -28,7 +28,7 @@ fn a_submission_is_sent_again_with_its_key() {
         match before {
             0 => problem(503, "unavailable", Some(1)),
             1 => problem(429, "limit-reached", Some(0)),
-            // A gateway that cannot reach the service.
+            // This is a gateway that cannot reach the service.
             2 => (StatusCode::BAD_GATEWAY, "<html>").into_response(),
             _ => (StatusCode::ACCEPTED, Json(job("accepted", 0))).into_response(),
         }
@@ -53,7 +53,7 @@ fn who_asks_for_more_patience_than_there_is_gets_none() {
     assert_eq!(stub.asked().len(), 1);
 }
 
-/// DELETE of a job that has ended takes its results away, unless only cancelling is asked for.
+/// Cancellation whose answer is lost: DELETE of a job that has ended takes its results away, unless only cancelling is asked for.
 #[test]
 fn a_cancellation_whose_answer_is_lost_deletes_nothing() {
     let stub = Stub::start(|before, request| async move {
@@ -88,7 +88,7 @@ fn jobs_are_followed_by_their_events() {
     let stub = Stub::start(|before, request| async move {
         match (request.uri().path().ends_with("/events"), before) {
             (false, _) => Json(job("running", 10)).into_response(),
-            // Breaks off, and goes on when it is asked again.
+            // The stream breaks off, and goes on when it is asked for again.
             (true, 1) => events(vec![job("running", 20), job("running", 30)]),
             (true, _) => events(vec![job("running", 70), job("successful", 100)]),
         }
@@ -119,7 +119,7 @@ fn a_service_without_events_is_asked_again_and_again() {
     assert_eq!(stub.asked().iter().filter(|(what, _)| what.ends_with("/events")).count(), 1);
 }
 
-/// The largest memory that a running process has had, kB.
+/// Largest memory that a running process has had, kB.
 fn high_water(id: u32) -> Option<u64> {
     let status = std::fs::read_to_string(format!("/proc/{id}/status")).ok()?;
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;

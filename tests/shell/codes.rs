@@ -1,4 +1,4 @@
-//! Every code that a command can leave.
+//! Exit codes of commands, all of them.
 
 use std::process::Stdio;
 use std::time::{Duration, Instant};
@@ -90,7 +90,7 @@ fn three_is_a_refusal_and_says_all_that_is_wrong() {
         ends(&shell, words, 3, parts);
     }
     ends(&shell, &format!("rm {unknown}"), 3, &["there is no job"]);
-    // For scripts the problem is a document.
+    // The output for scripts is the document of the problem.
     let refused = shell.run("sweep request.json --json");
     let problem: Value = serde_json::from_str(&refused.out).unwrap();
     assert_eq!((refused.code, &problem["errors"][0]["pointer"]), (3, &"/model".into()));
@@ -110,7 +110,7 @@ fn a_token_comes_from_the_environment_or_a_file() {
     ends(&shell, "ls --token wrong", 3, &["401"]);
     shell.done("ls --token-file token");
     assert_eq!(left(shell.command("ls").env("RUBMAP_TOKEN", &token)).code, 0);
-    // The file is what was said last.
+    // The last token given, that of the file, counts.
     assert_eq!(left(shell.command("ls --token-file token").env("RUBMAP_TOKEN", "wrong")).code, 0);
 }
 
@@ -179,7 +179,7 @@ fn an_interrupted_command_leaves_the_job_and_says_how_to_go_on() {
     assert_eq!(shell.json("ls --json")["jobs"][0]["status"], "running");
 }
 
-/// A command that gets SIGINT after its first line.
+/// Command that gets SIGINT after its first line.
 struct Interrupted {
     child: std::process::Child,
     errors: std::io::BufReader<std::process::ChildStderr>,

@@ -1,4 +1,4 @@
-//! Files that are whole, or not there.
+//! Downloads: files that are whole, or not there.
 
 use std::os::unix::fs::PermissionsExt;
 
@@ -13,7 +13,7 @@ use super::shell::{Shell, read};
 use super::small_disk::SmallDisk;
 use super::stub::{JOB, Stub, job};
 
-/// A service whose result breaks off after some bytes, as often as `times`, and is whole afterwards.
+/// Service whose result breaks off after some bytes, as often as `times`, and is whole afterwards.
 fn breaking(times: usize) -> Stub {
     Stub::start(move |before, request| async move {
         if !request.uri().path().ends_with("/campbell") {
@@ -21,7 +21,7 @@ fn breaking(times: usize) -> Stub {
         }
         let first = futures::stream::once(async { Ok::<_, std::io::Error>("first half, ") });
         let second = futures::stream::once(async move {
-            // What was sent has to be on its way before the rest breaks off.
+            // The first bytes have to be on their way before the rest breaks off.
             tokio::time::sleep(std::time::Duration::from_millis(50)).await;
             if before < times { Err(std::io::Error::other("gone")) } else { Ok("second half") }
         });
@@ -44,7 +44,7 @@ fn a_download_that_breaks_off_begins_again_or_leaves_what_was_there() {
     assert_eq!(left.code, 6, "{left:?}");
     assert_eq!(read(&shell.path("table.csv")), "of yesterday");
     assert_eq!(files_in(shell.folder.path()), ["table.csv"], "nothing half is left");
-    // What has been printed cannot be taken back, and is not printed again.
+    // Printed bytes cannot be taken back, and are not printed again.
     let left = shell.run(&format!("get {JOB} campbell"));
     assert_eq!((left.code, left.out.as_str()), (6, "first half, "), "{left:?}");
 }

@@ -7,7 +7,7 @@ use serde_json::Value;
 
 use super::shell::Shell;
 
-/// The plan of a request that comes in the input.
+/// Plan of a request that comes in the input.
 fn planned(shell: &Shell, text: &str) -> Value {
     let mut command = shell.command("plan - --json");
     let mut child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
@@ -34,7 +34,7 @@ fn yaml_and_json_ask_for_the_same() {
     let settings = planned(&shell, &json)["settings"].clone();
     assert_eq!(settings["speeds"]["values"].as_array().map(Vec::len), Some(2), "{settings}");
     assert_eq!(planned(&shell, &yaml)["settings"], settings);
-    // In a file, and as it is changed on the way.
+    // The request comes in a file, and is changed on the way.
     shell.write("request.yaml", &yaml.replace("- 512.5", "- 600"));
     let changed = shell.json("plan request.yaml --json --set /speeds/values/1=512.5");
     assert_eq!(changed["settings"], settings);

@@ -1,4 +1,4 @@
-//! The program as a client, as a user has it: the binary in a pipe and in a terminal, against the real service; and against one that
+//! Program as a client, as a user has it: the binary in a pipe and in a terminal, against the real service; and against one that
 //! behaves as services do on bad days.
 
 #[path = "../api/app.rs"]

@@ -7,7 +7,7 @@ use super::model::files_in;
 use super::shell::{Shell, left, read};
 use super::stub::{JOB, Stub, job};
 
-/// All commands, by the program's own help.
+/// Names of all commands, by the program's own help.
 fn commands(shell: &Shell) -> Vec<String> {
     let help = shell.done("--help");
     let lines = help.lines().filter_map(|line| line.strip_prefix("  "));

@@ -1,4 +1,4 @@
-//! A session of commands in pipes: results on the one stream, everything else on the other.
+//! Session of commands in pipes: results on the one stream, everything else on the other.
 
 use super::shell::{Shell, left, read};
 
@@ -33,7 +33,7 @@ fn from_a_package_to_its_critical_speeds() {
     assert!(!swept.err.contains('\u{1b}'), "no bars in a pipe: {swept:?}");
     assert!(shell.done("plan request.json --model wheel").contains("memory"), "its cost is known now");
 
-    // A job by its id, the beginning of it, and its name.
+    // A job is found by its id, the beginning of it, and its name.
     let watched = shell.json(&format!("watch {job} {} first --json", &job[..20]));
     let statuses: Vec<_> = watched["jobs"].as_array().unwrap().iter().map(|job| &job["status"]).collect();
     assert_eq!(statuses, ["successful"; 3]);
@@ -99,7 +99,7 @@ fn every_kind_of_job_can_be_asked_for() {
     assert!(shell.done("plan --kind model-generation wheel.yaml").contains("unknowns"));
 }
 
-/// `rubmap ls | head -1`: who reads no further has all that was wanted.
+/// Reader that goes, `rubmap ls | head -1`: it has all that was wanted.
 #[test]
 fn a_reader_may_go() {
     let (shell, _program) = Shell::with_service();

@@ -1,4 +1,4 @@
-//! A user at a shell.
+//! Shell of a user.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -10,13 +10,13 @@ use super::app::sweep_of;
 use super::model;
 use super::program::Program;
 
-/// A folder, and a service that commands in it speak to.
+/// Folder of a user, and the service to which commands in it speak.
 pub(crate) struct Shell {
     pub(crate) folder: TempDir,
     pub(crate) server: String,
 }
 
-/// What a command left.
+/// Exit code and output of a command.
 #[derive(Debug)]
 pub(crate) struct Left {
     pub(crate) code: i32,
@@ -29,7 +29,7 @@ impl Shell {
         Self { folder: tempfile::tempdir().unwrap(), server: server.to_owned() }
     }
 
-    /// With a service of its own and a package.
+    /// Makes a shell with a service of its own and a package.
     pub(crate) fn with_service() -> (Self, Program) {
         let folder = tempfile::tempdir().unwrap();
         let program = Program::serve(&folder.path().join("data"));
@@ -41,7 +41,7 @@ impl Shell {
         self.folder.path().join(name)
     }
 
-    /// A command, of words between blanks.
+    /// Command of words between blanks.
     pub(crate) fn command(&self, words: &str) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_rubmap"));
         command.args(words.split_whitespace()).current_dir(&self.folder).env("RUBMAP_SERVER", &self.server);
@@ -56,7 +56,7 @@ impl Shell {
         left(&mut self.command(words))
     }
 
-    /// What a command prints that must be done.
+    /// Runs a command that must be done; returns its output.
     #[track_caller]
     pub(crate) fn done(&self, words: &str) -> String {
         let left = self.run(words);
@@ -64,7 +64,7 @@ impl Shell {
         left.out.trim_end().to_owned()
     }
 
-    /// The document that a command prints that must be done.
+    /// Runs a command that must be done; returns the document that it prints.
     #[track_caller]
     pub(crate) fn json(&self, words: &str) -> Value {
         serde_json::from_str(&self.done(words)).unwrap()
@@ -74,7 +74,7 @@ impl Shell {
         std::fs::write(self.path(name), text).unwrap();
     }
 
-    /// Leaves a short sweep in request.json, without a model.
+    /// Writes a short sweep to request.json, without a model.
     pub(crate) fn write_sweep(&self) {
         let mut request = sweep_of("");
         request.as_object_mut().unwrap().remove("model");

@@ -1,4 +1,4 @@
-//! A service that behaves as a test wants.
+//! Stub of a service that behaves as a test wants.
 
 use std::sync::{Arc, Mutex};
 
@@ -7,12 +7,12 @@ use axum::extract::Request;
 use axum::response::{IntoResponse, Response};
 use serde_json::{Value, json};
 
-/// A service whose answers are a function of the request and of how many requests came before it.
+/// Service whose answers are a function of the request and of how many requests came before it.
 pub(crate) struct Stub {
     pub(crate) address: String,
-    /// Method and path of every request, and its idempotency key.
+    /// Method and path of every request, with its idempotency key.
     asked: Arc<Mutex<Vec<(String, String)>>>,
-    /// Ends with it.
+    /// Runtime of the service, which ends with the stub.
     _runtime: tokio::runtime::Runtime,
 }
 
@@ -50,7 +50,7 @@ impl Stub {
 /// Id of the one job of a stub.
 pub(crate) const JOB: &str = "0198c5a2-7c1e-7d54-9f3b-2f6d7a6f4b10";
 
-/// The job, so far.
+/// Body of the stub's job in a state.
 pub(crate) fn job(status: &str, progress: u64) -> Value {
     json!({
         "id": JOB, "kind": "sweep", "status": status, "progress": progress, "links": [],
@@ -58,7 +58,7 @@ pub(crate) fn job(status: &str, progress: u64) -> Value {
     })
 }
 
-/// A problem.
+/// Response that reports a problem.
 pub(crate) fn problem(status: u16, kind: &str, retry_after_s: Option<u32>) -> Response {
     let mut body = json!({"type": format!("urn:rubmap:problem:{kind}"), "title": "No", "status": status, "detail": "not now"});
     if let Some(seconds) = retry_after_s {

@@ -1,4 +1,4 @@
-//! A session in a terminal.
+//! Session in a terminal.
 
 use rexpect::process::WaitStatus;
 use rexpect::session::{PtySession, spawn_command};
@@ -8,7 +8,7 @@ use super::shell::Shell;
 
 fn spawn(shell: &Shell, words: &str) -> PtySession {
     let mut command = shell.command(words);
-    // As wide as terminals are, and able to move.
+    // The terminal is as wide as terminals are, and able to move the cursor.
     command.env("TERM", "xterm").env("COLUMNS", "120");
     spawn_command(command, Some(PATIENCE.as_millis() as u64)).unwrap()
 }

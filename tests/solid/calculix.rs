@@ -12,25 +12,25 @@ use rubmap::solid::stress::{NodalStress, point_stress};
 
 use crate::meshes::{block, crooked, noise};
 
-/// CalculiX prints displacements and stresses at points with seven digits. In a mode, stress comes from differences of displacements
-/// that are some hundredth of them.
+/// Relative precision of CalculiX's output: it prints displacements and stresses at points with seven digits. In a mode, stress
+/// comes from differences of displacements that are some hundredth of them.
 const PRINTED: [f64; 2] = [5e-7, 5e-5];
 
-/// Its table of extrapolation has coefficients of four digits, the largest 2.549 (C3D8, C3D20R) and 2.37499 (C3D20).
+/// Precision of CalculiX's table of extrapolation, whose coefficients have four digits, the largest 2.549 (C3D8, C3D20R) and 2.37499 (C3D20).
 const ITS_TABLE: f64 = 5e-5;
 
-/// One set of displacements and stresses that CalculiX printed.
+/// Set of displacements and stresses that CalculiX printed.
 #[derive(Default)]
 struct Answer {
-    /// x, y, z by node.
+    /// Displacements x, y, z by node.
     displacements: Vec<[f64; 3]>,
-    /// xx, yy, zz, xy, yz, zx at the points of each element.
+    /// Stresses xx, yy, zz, xy, yz, zx at the points of each element.
     points: Vec<Vec<[f64; 6]>>,
-    /// The same at each node.
+    /// Stresses xx, yy, zz, xy, yz, zx at each node.
     nodes: Vec<[f64; 6]>,
 }
 
-/// Runs `steps` on the mesh, each of which prints U and S of everything; none, with a printed reason, without CalculiX.
+/// Runs `steps` on the mesh, each of which prints U and S of everything; `None`, with a printed reason, without CalculiX.
 fn calculix(mesh: &SectorMesh, steps: &str) -> Option<Vec<Answer>> {
     let mut deck = String::from("*NODE, NSET=NALL\n");
     for (id, [x, y, z]) in mesh.node_ids.iter().zip(&mesh.nodes) {
@@ -115,7 +115,7 @@ fn parse(mesh: &SectorMesh, dat: &str, frd: &str) -> Vec<Answer> {
 
 const PRINT: &str = "*NODE PRINT, NSET=NALL\nU\n*EL PRINT, ELSET=EALL\nS\n*EL FILE\nS\n*END STEP\n";
 
-/// Holds our stresses of CalculiX's displacements against CalculiX's stresses; returns the largest differences at points and at
+/// Compares our stresses of CalculiX's displacements with CalculiX's stresses; returns the largest differences at points and at
 /// nodes, relative to the largest stress component.
 fn differences(mesh: &SectorMesh, answer: &Answer) -> [f64; 2] {
     let largest = answer.points.iter().flatten().flatten().fold(0.0, |most: f64, s| most.max(s.abs()));
@@ -143,7 +143,7 @@ fn differences(mesh: &SectorMesh, answer: &Answer) -> [f64; 2] {
     [points / largest, nodes / largest]
 }
 
-/// Every node is moved anyhow, so that no balance of forces makes anything small.
+/// Displacements of crooked elements in which every node is moved anyhow, so that no balance of forces makes anything small.
 #[test]
 fn any_displacement_of_crooked_elements() {
     for kind in ElementKind::ALL.into_iter().filter(|&kind| kind != ElementKind::QM6) {
@@ -163,7 +163,7 @@ fn any_displacement_of_crooked_elements() {
     }
 }
 
-/// A crooked beam held at one end, in a spin and in its lowest modes: differences per step.
+/// Crooked beam held at one end, in a spin and in its lowest modes: differences per step.
 fn beam(kind: ElementKind, cells: [usize; 3], modes: usize) -> Option<Vec<[f64; 2]>> {
     let mesh = block(kind, cells, |at| crooked(at, 0.08).map(|x| 10.0 * x));
     let held = mesh.nodes.iter().zip(&mesh.node_ids).filter(|(at, _)| at[0] < 1.0);
@@ -191,8 +191,8 @@ fn a_static_load_and_vibration_modes() {
     }
 }
 
-/// CalculiX gives the incompatible modes of C3D8I mass, so in vibration they do not follow the corners statically, as ours do. What
-/// that makes of stress falls with the square of the element's size over the wave's length.
+/// Incompatible modes: CalculiX gives those of C3D8I mass, so in vibration they do not follow the corners statically, as ours do.
+/// The effect on stress falls with the square of the element's size over the wave's length.
 #[test]
 fn incompatible_modes_follow_statically() {
     let Some(short) = beam(ElementKind::C3D8I, [12, 1, 1], 1) else { return };

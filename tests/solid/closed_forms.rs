@@ -12,7 +12,7 @@ use rubmap::solid::load::centrifugal;
 use rubmap::solid::mesh::SectorMesh;
 use rubmap::solid::stress::{NodalStress, point_stress};
 
-/// The mesh of a package, by way of its file.
+/// Mesh of a package, by way of its file.
 fn mesh_of(package: &RawPackage) -> SectorMesh {
     let file = tempfile::NamedTempFile::new().unwrap();
     write(package, &file).unwrap();
@@ -26,7 +26,7 @@ fn stresses(operator: &NodalStress, displacements: &[[f64; 3]]) -> Vec<[f64; 6]>
     (0..operator.places().len()).map(|p| std::array::from_fn(|k| found[(6 * p + k, 0)].re)).collect()
 }
 
-/// σ = ρΩ²(R² − x²)/2 along a bar that spins about its end, and the pull at its root is that of its mass.
+/// Stress σ = ρΩ²(R² − x²)/2 along a bar that spins about its end, and the pull at its root, which is that of its mass.
 #[test]
 fn a_rotating_bar() {
     for order in [ElementOrder::Linear, ElementOrder::Quadratic] {
@@ -57,8 +57,8 @@ fn a_rotating_bar() {
         let operator = NodalStress::new(&mesh);
         let found = stresses(&operator, &spun.displacements);
         let at_root = density * (tip * tip - p.root_radius.powi(2)) / 2.0;
-        // An 8-node element has the mean along it: at its end half of what stress falls by along 5 mm is missing, 4.3 % at the
-        // tip. The load also pulls sideways, by y/r.
+        // An 8-node element has the mean stress along it: at its end half of what stress falls by along 5 mm is missing, 4.3 %
+        // at the tip. The load also pulls sideways, by y/r.
         let tolerance = match order {
             ElementOrder::Linear => 4.4e-2,
             ElementOrder::Quadratic => 1e-3,
@@ -71,7 +71,7 @@ fn a_rotating_bar() {
     }
 }
 
-/// A thin annulus held at its bore: plane stress with u(a) = 0 and σ_rr(b) = 0, the same at every angle, the cyclic faces included.
+/// Thin annulus held at its bore: plane stress with u(a) = 0 and σ_rr(b) = 0, the same at every angle, the cyclic faces included.
 #[test]
 fn a_rotating_disk() {
     for order in [ElementOrder::Linear, ElementOrder::Quadratic] {
@@ -110,7 +110,7 @@ fn a_rotating_disk() {
             }
             assert!(s[3].abs() < 1e-2 * largest && s[4].abs() < 1e-2 * largest);
         }
-        // Low face against the middle of the sector, node by node.
+        // The low face is compared with the middle of the sector, node by node.
         for &(low, _) in &mesh.cyclic {
             let at = |node: u32| operator.places().iter().position(|&place| place == node).map(|k| found[k]);
             let [x, y, z] = mesh.nodes[low as usize];
@@ -126,7 +126,7 @@ fn a_rotating_disk() {
     }
 }
 
-/// The generator integrates its matrices with elements of its own code; both have the same stress at the same points.
+/// Stress at points: the generator integrates its matrices with elements of its own code; both have the same stress at the same points.
 #[test]
 fn points_have_the_generators_stress() {
     for order in [ElementOrder::Linear, ElementOrder::Quadratic] {

@@ -1,4 +1,4 @@
-//! A sector with its nodal diameter's phase against the whole wheel of the same elements.
+//! Sector with its nodal diameter's phase against the whole wheel of the same elements.
 
 use std::f64::consts::TAU;
 
@@ -15,7 +15,7 @@ use crate::meshes::{block, noise};
 const SECTORS: usize = 5;
 const CELLS: [usize; 3] = [2, 2, 1];
 
-/// A sector whose cuts are skewed, its cells along r, θ and z.
+/// Sector whose cuts are skewed, its cells along r, θ and z.
 fn sector(kind: ElementKind) -> SectorMesh {
     let turn = TAU / SECTORS as f64;
     let place = |[r, j, z]: [f64; 3]| {
@@ -32,7 +32,7 @@ fn sector(kind: ElementKind) -> SectorMesh {
             mesh.cyclic.push((low as u32, high as u32));
         }
     }
-    // Another material in every third element, so that averages go over materials too.
+    // Every third element has another material, so that averages go over materials too.
     let mut other = mesh.sets[0].clone();
     other.material.youngs_modulus *= 0.5;
     mesh.sets.push(other);
@@ -40,7 +40,7 @@ fn sector(kind: ElementKind) -> SectorMesh {
     mesh
 }
 
-/// All sectors, and of each sector's nodes its place in the wheel.
+/// Mesh of all sectors, and the place in the wheel of each sector's nodes.
 fn wheel(sector: &SectorMesh) -> (SectorMesh, Vec<Vec<u32>>) {
     let frame = AxisFrame::new(sector.axis.0, sector.axis.1).unwrap();
     let low_of = |node: u32| sector.cyclic.iter().find(|&&(_, high)| high == node).map(|&(low, _)| low);
@@ -79,7 +79,7 @@ fn a_sector_has_the_stress_of_the_wheel() {
         assert_eq!(of_sector.places().len() * SECTORS, of_wheel.places().len());
         for diameter in 0..=2 {
             let phase = c64::cis(TAU * f64::from(diameter) / SECTORS as f64);
-            // More columns than are done at once.
+            // There are more columns than are done at once.
             let columns = 11;
             let u = Mat::from_fn(3 * sector.nodes.len(), columns, |row, column| {
                 let value = |part: f64| noise([row as f64, column as f64, part], 0.3);
@@ -126,7 +126,7 @@ fn a_sector_has_the_stress_of_the_wheel() {
         let at = |cut| skin_of_sector.faces.iter().filter(|face| face.cut == Some(cut)).count();
         assert_eq!(at(Cut::Low), at(Cut::High));
         assert_eq!(skin_of_sector.free().count() * SECTORS, skin(&wheel).faces.len());
-        // Outward: the divergence theorem gives the volume of straight-sided elements from the skin.
+        // The skin points outwards: the divergence theorem gives the volume of straight-sided elements from it.
         if kind.nodes() == kind.corners() {
             let flux: f64 = skin(&wheel).faces.iter().map(|face| flux(&wheel, &face.nodes)).sum();
             let volume: f64 = rubmap::solid::load::volumes(&wheel).iter().sum();
@@ -135,7 +135,7 @@ fn a_sector_has_the_stress_of_the_wheel() {
     }
 }
 
-/// ⅓ ∮ x·n dA of a bilinear face.
+/// Share ⅓ ∮ x·n dA of a bilinear face in the volume.
 fn flux(mesh: &SectorMesh, nodes: &[u32]) -> f64 {
     use nalgebra::Vector3;
     let x: Vec<Vector3<f64>> = nodes.iter().map(|&node| mesh.nodes[node as usize].into()).collect();

@@ -1,4 +1,4 @@
-//! The finite elements of a sector: stress against CalculiX, patch tests, closed forms.
+//! Finite elements of a sector: stress against CalculiX, patch tests, closed forms.
 
 mod calculix;
 mod closed_forms;

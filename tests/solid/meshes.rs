@@ -24,7 +24,7 @@ const WEDGES: [[usize; 6]; 2] = [[0, 1, 2, 4, 5, 6], [0, 2, 3, 4, 6, 7]];
 const TETRAHEDRON_EDGES: [[usize; 2]; 6] = [[0, 1], [1, 2], [2, 0], [0, 3], [1, 3], [2, 3]];
 const WEDGE_EDGES: [[usize; 2]; 9] = [[0, 1], [1, 2], [2, 0], [3, 4], [4, 5], [5, 3], [0, 3], [1, 4], [2, 5]];
 
-/// A block of `cells` cubes, each cut into elements of one kind; its nodes, given in cells, are put where `place` says.
+/// Block of `cells` cubes, each cut into elements of one kind; its nodes, given in cells, are put where `place` says.
 pub(crate) fn block(
     kind: ElementKind,
     cells: [usize; 3],
@@ -76,16 +76,16 @@ pub(crate) fn block(
     }
 }
 
-/// A number in (−1, 1) that looks random, of a place and a seed.
+/// Number in (−1, 1) that looks random, of a place and a seed.
 pub(crate) fn noise(at: [f64; 3], seed: f64) -> f64 {
     let wave = (at[0] * 12.9898 + at[1] * 78.233 + at[2] * 37.719 + seed * 4.581).sin() * 43758.5453;
     2.0 * (wave - wave.floor()) - 1.0
 }
 
-/// Every corner a little out of place; the middles of edges stay in the middle.
+/// Place in a crooked mesh: every corner is a little out of place; the middles of edges stay in the middle.
 pub(crate) fn crooked(at: [f64; 3], amount: f64) -> [f64; 3] {
     let corner = |at: [f64; 3]| -> [f64; 3] { std::array::from_fn(|d| at[d] + amount * noise(at, d as f64)) };
-    // Ends of the edge in whose middle this is: a corner of the grid is both.
+    // The point is in the middle of an edge with these ends; for a corner of the grid both are the corner.
     let [low, high] = [f64::floor, f64::ceil].map(|round| corner(at.map(round)));
     std::array::from_fn(|d| 0.5 * (low[d] + high[d]))
 }

@@ -21,7 +21,7 @@ pub(crate) fn cylindrical(mesh: &SectorMesh, field: impl Fn([f64; 3]) -> Vector3
     u
 }
 
-/// The six components in (r, θ, z) of a stress in x, y, z.
+/// Components in (r, θ, z), all six, of a stress in x, y, z.
 fn turned(axis: &AxisFrame, at: [f64; 3], s: &nalgebra::SVector<f64, 6>) -> [f64; 6] {
     let basis = axis.cylindrical(axis.coordinates(at)[1]);
     let full = Matrix3::new(s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2]);
@@ -39,7 +39,7 @@ fn constant_stress_is_exact_in_crooked_elements() {
         let axis = AxisFrame::new(mesh.axis.0, mesh.axis.1).unwrap();
         let field = |at: [f64; 3]| gradient * Vector3::from(at) + Vector3::new(3.0, -2.0, 1.0);
         let exact = stress(mesh.sets[0].material.lame_constants(), &gradient);
-        // C3D8I fails it on crooked elements: its modes take part where they should not.
+        // C3D8I fails the test on crooked elements: its modes take part where they should not.
         if kind == ElementKind::C3D8I {
             continue;
         }
@@ -63,7 +63,7 @@ fn constant_stress_is_exact_in_crooked_elements() {
     }
 }
 
-/// The same in an element whose modes have the right gradients only where it is a parallelepiped.
+/// Constant stress is exact in an element whose modes have the right gradients only where it is a parallelepiped.
 #[test]
 fn constant_stress_is_exact_in_parallelepipeds_of_c3d8i() {
     let mesh = block(ElementKind::C3D8I, [2, 2, 2], |[x, y, z]| [x + 0.3 * y, y - 0.1 * z, 1.2 * z]);

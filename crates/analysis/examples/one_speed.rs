@@ -1,4 +1,4 @@
-//! The physics without the service: a wheel, a scene, one speed, its spectrum. `cargo run --release --example one_speed`
+//! Physics without the service: a wheel, a scene, one speed, its spectrum. `cargo run --release --example one_speed`
 
 use anyhow::{Context, Result, anyhow};
 use rubmap_analysis::monitor::Unwatched;

@@ -1,4 +1,4 @@
-//! What only the reduced sector can tell about a request, before any speed runs.
+//! Checks of a request that need the reduced sector, before any speed runs.
 
 use crate::effects::abradable::convert::coating;
 use crate::effects::effect::AtSpeed;
@@ -15,9 +15,9 @@ use rubmap_wheel::dynamics::error::ModelError;
 use rubmap_wheel::dynamics::modal_wheel::{ModalWheel, RotationEffects, natural_frequencies};
 use rubmap_wheel::dynamics::schemes::{Scheme, central_differences};
 
-/// Checks what only the reduced sector can tell, before any speed runs: that the wheel slides, and a fixed step or number of
-/// kept modes against the stability limit, at the slowest and at the fastest speed. The limit, ω_max/Ω, falls with speed as
-/// K/Ω² does where K is linear in Ω². Speeds between, and those at which the model itself fails, are left to their own runs.
+/// Checks a request against the reduced sector, before any speed runs: that the wheel slides, and a fixed step or number of kept modes
+/// against the stability limit, at the slowest and at the fastest speed. The limit, ω_max/Ω, falls with speed as K/Ω² does where K is
+/// linear in Ω². Speeds between, and those at which the model itself fails, are left to their own runs.
 pub fn check(
     reduced: &ReducedSector,
     request: &ResolvedSweep,
@@ -48,7 +48,7 @@ pub fn check(
     refuse(request, worst.0, worst.1)
 }
 
-/// Whether the wheel stands what the scene names at each of `speeds`.
+/// Checks at each of `speeds` that the wheel can be run with what the scene names.
 fn check_at(reduced: &ReducedSector, request: &ResolvedSweep, speeds: &[f64]) -> Result<(), AnalysisError> {
     let asked: Vec<&AtSpeed> = named(&request.scene).filter_map(|effect| effect.at_speed.as_ref()).collect();
     if asked.is_empty() {
@@ -69,7 +69,7 @@ fn check_at(reduced: &ReducedSector, request: &ResolvedSweep, speeds: &[f64]) ->
     Ok(())
 }
 
-/// The stability limit of what a request fixes, at one speed; 1 where nothing it fixes has one.
+/// Stability limit of the fixed settings of a request, at one speed, in steps per revolution; 1 where none of them has a limit.
 fn limit_of_request(
     reduced: &ReducedSector,
     request: &ResolvedSweep,
@@ -95,7 +95,7 @@ fn limit_of_request(
             };
             Ok(match kept_modes {
                 AutoOr::Fixed(kept) => limit(kept as usize),
-                // As `"auto"` keeps at least one mode, at its own distance from the limit.
+                // `"auto"` keeps at least one mode, at its own distance from the limit.
                 AutoOr::Auto => (limit(1) as f64 / SAFETY).ceil() as u64,
             })
         }

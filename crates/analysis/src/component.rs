@@ -1,4 +1,4 @@
-//! Directions by name, and of unit length.
+//! Directions of components by name, and unit vectors.
 
 use crate::request::Component;
 use rubmap_wheel::dynamics::direction::Direction;

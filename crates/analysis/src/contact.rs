@@ -1,4 +1,4 @@
-//! What a run says of contact.
+//! Contact results of a run.
 
 use crate::resolved::ResolvedSweep;
 use crate::result::{ContactForces, ContactSummary, ForceMap, ForceRow, Point};
@@ -7,11 +7,11 @@ use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
 use rubmap_wheel::dynamics::sector::Units;
 use rubmap_wheel::revision::VERSION;
 
-/// Contact over a window of so many revolutions.
+/// Contact of a run over its window of revolutions, with the data needed to report it.
 pub(super) struct ContactOf<'a> {
     pub(super) record: &'a ContactRecord,
     pub(super) wheel: &'a ModalWheel,
-    /// c of every contact node.
+    /// Clearance c of every contact node.
     pub(super) clearance: &'a [f64],
     pub(super) window_revolutions: f64,
     pub(super) steps_per_revolution: usize,
@@ -19,7 +19,7 @@ pub(super) struct ContactOf<'a> {
 }
 
 impl ContactOf<'_> {
-    /// In full.
+    /// Contact forces of every blade and contact node.
     pub(super) fn forces(&self) -> ContactForces {
         let list = |number: &dyn Fn(usize, &PairContact) -> f64| {
             let blades = self.record.pairs.chunks_exact(self.record.nodes);
@@ -44,7 +44,7 @@ impl ContactOf<'_> {
         if clearance > 0.0 { outward.max(0.0) / clearance } else { 1.0 }
     }
 
-    /// In short.
+    /// Summary of contact.
     pub(super) fn summary(&self, forces: &ContactForces) -> ContactSummary {
         let parts = self.wheel.repeats as f64;
         let revolution_s = std::f64::consts::TAU / self.wheel.speed_rad_s;
@@ -75,7 +75,7 @@ impl ContactOf<'_> {
     }
 }
 
-/// A completed speed with contact as a row of a [`ForceMap`]: of every contact node its worst blade.
+/// Row of a [`ForceMap`] for a completed speed with contact: the worst blade of every contact node.
 pub fn force_row(point: &Point, forces: &ContactForces) -> Option<ForceRow> {
     let summary = point.contact.as_ref()?;
     let nodes = forces.peak_force.first().map_or(0, Vec::len);
@@ -100,7 +100,7 @@ pub fn force_row(point: &Point, forces: &ContactForces) -> Option<ForceRow> {
     })
 }
 
-/// Contact over all speeds of a sweep from `rows` by index.
+/// Force map of a sweep, from `rows` by index of their speed.
 pub fn force_map(
     request: &ResolvedSweep,
     units: &Units,
@@ -123,7 +123,7 @@ pub fn force_map(
     map
 }
 
-/// Sector and contact node of the largest number, the first of equal ones, and the number.
+/// Sector and contact node of the largest number, the first of equal ones, and the number itself.
 fn largest(of: &[Vec<f64>]) -> (u32, u32, f64) {
     let mut best = (0, 0, 0.0);
     for (sector, blade) in (0..).zip(of) {

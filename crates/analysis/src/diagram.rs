@@ -1,4 +1,4 @@
-//! Natural frequencies of a wheel over a grid of speeds, and where they meet engine orders.
+//! Frequency diagram: natural frequencies of a wheel over a grid of speeds, and their crossings with engine orders.
 
 use std::f64::consts::TAU;
 
@@ -17,16 +17,16 @@ pub(super) struct FrequencyDiagram<'a> {
     wheel: &'a ReducedWheel,
     effects: RotationEffects,
     families: usize,
-    /// rad/s.
+    /// Rotational speeds, rad/s.
     pub(super) speeds: Vec<f64>,
-    /// Without Coriolis forces, `[speed][nodal diameter][family]`, Hz.
+    /// Frequencies without Coriolis forces, `[speed][nodal diameter][family]`, Hz.
     pub(super) frequencies_hz: Table,
-    /// With them, if they are among the effects.
+    /// Frequencies of waves with Coriolis forces, if those are among the effects.
     pub(super) waves: Option<WaveTables>,
 }
 
 impl<'a> FrequencyDiagram<'a> {
-    /// No speeds yet.
+    /// Diagram without speeds.
     pub(super) fn new(wheel: &'a ReducedWheel, effects: RotationEffects, families: usize) -> Self {
         let waves = effects.coriolis.then(WaveTables::default);
         Self { wheel, effects, families, speeds: Vec::new(), frequencies_hz: Table::new(), waves }
@@ -64,7 +64,7 @@ impl<'a> FrequencyDiagram<'a> {
         self.with_waves(|waves| crossings(waves, &self.speeds, self.families, superharmonics))
     }
 
-    /// Crossings that fields of `orders` periods can drive.
+    /// Crossings that excitations with `orders` periods around the circumference can drive.
     pub(super) fn driven_crossings(&self, orders: &[u32]) -> Vec<DrivenCrossing> {
         let sectors = self.wheel.sectors as u32;
         self.with_waves(|waves| driven_crossings(waves, &self.speeds, self.families, orders, sectors))
@@ -94,7 +94,7 @@ impl<'a> FrequencyDiagram<'a> {
     }
 }
 
-/// The reduced wheel as a source of frequencies in Hz: of waves of one direction, or without Coriolis forces.
+/// Reduced wheel as a source of frequencies in Hz: of waves of one direction, or without Coriolis forces.
 struct WheelFrequencies<'a> {
     wheel: &'a ReducedWheel,
     stiffening: bool,

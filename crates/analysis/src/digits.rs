@@ -1,6 +1,6 @@
-//! Numbers in sentences.
+//! Rounding of numbers for sentences.
 
-/// The same with four significant digits.
+/// Rounds a number to four significant digits.
 pub(crate) fn short(value: f64) -> f64 {
     format!("{value:.3e}").parse().unwrap_or(value)
 }

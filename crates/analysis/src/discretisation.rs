@@ -6,22 +6,22 @@ use crate::effects::casing::shape::Shape;
 use crate::request::AutoOr;
 use crate::resolved::ResolvedSweep;
 
-/// Steps and samples of a revolution.
+/// Time steps and recorded samples of a revolution.
 pub(super) struct Discretisation {
-    /// S.
+    /// Steps per revolution S.
     pub(super) per_revolution: usize,
-    /// Recorded samples, a divisor of S.
+    /// Recorded samples per revolution, a divisor of S.
     pub(super) samples: usize,
 }
 
-/// Samples per revolution for each engine order asked for: the band that the decimation of the window passes is an eighth of the samples.
+/// Samples per revolution for each engine order asked for: the decimation of the window passes a band of an eighth of the samples.
 const SAMPLES_PER_ORDER: usize = 8;
 
-/// Fewest samples a revolution: levels and histories are of these instants, and blades that rattle move at orders of some hundreds.
+/// Fewest samples per revolution: levels and histories are taken at these instants, and blades that rattle move at orders of some hundreds.
 const LEAST_SAMPLES: usize = 512;
 
 impl Discretisation {
-    /// Exactly `steps` per revolution of a wheel of `sectors`.
+    /// Discretisation with exactly `steps` per revolution of a wheel of `sectors`.
     pub(super) fn exactly(steps: usize, request: &ResolvedSweep, sectors: usize) -> Self {
         let aligned = aligned_samples(request, sectors);
         let samples =
@@ -29,7 +29,7 @@ impl Discretisation {
         Self { per_revolution: steps, samples }
     }
 
-    /// Samples of a revolution that are the same at every speed, whatever its steps.
+    /// Samples per revolution, the same at every speed whatever its steps.
     pub(super) fn of_every_speed(request: &ResolvedSweep, sectors: usize) -> usize {
         match request.integration.steps_per_revolution {
             AutoOr::Auto => aligned_samples(request, sectors),
@@ -37,13 +37,13 @@ impl Discretisation {
         }
     }
 
-    /// The same steps or a few more, so many samples a revolution.
+    /// Discretisation with `samples` per revolution and the same number of steps or a few more.
     pub(super) fn sampled(&self, samples: usize) -> Self {
         Self { per_revolution: self.per_revolution.next_multiple_of(samples), samples }
     }
 
-    /// At least `steps` per revolution and as many as are sampled, the same for every blade of a wheel of `sectors` and at every
-    /// lobe.
+    /// Discretisation with at least `steps` per revolution and at least the samples, aligned with the blades of a wheel of `sectors` and
+    /// with the lobes.
     pub(super) fn at_least(steps: usize, request: &ResolvedSweep, sectors: usize) -> Self {
         let steps = steps.max(wanted_samples(request));
         // S = decimation · samples, both whole; samples a multiple of N share the casing table.
@@ -53,16 +53,16 @@ impl Discretisation {
     }
 }
 
-/// What samples, and thus steps, are a multiple of: the blades of a wheel of `sectors`, and the lobes as well unless that takes
-/// over a quarter more. Lobes that a blade meets now on a step, now between two, drive orders that are no multiple of their number by some
-/// thousandths of the response.
+/// Divisor that samples, and thus steps, have in common: the number of blades of a wheel of `sectors`, and the lobes as well unless that
+/// adds more than a quarter. Lobes that a blade meets sometimes on a step and sometimes between two drive orders that are no multiple of
+/// their number by some thousandths of the response.
 fn alike(request: &ResolvedSweep, sectors: usize) -> usize {
     let lobes = request.scene.touched_shape().and_then(Shape::repeats).unwrap_or(1);
     let both = sectors * (lobes / gcd(lobes, sectors as u32)) as usize;
     if both <= LEAST_SAMPLES / 4 { both } else { sectors }
 }
 
-/// The fewest samples, and steps, that are the same for every blade and at every lobe: runs with multiples of them share instants.
+/// Fewest samples, and steps, that are aligned with the blades and with the lobes: runs with multiples of them share instants.
 pub(super) fn aligned_samples(request: &ResolvedSweep, sectors: usize) -> usize {
     wanted_samples(request).next_multiple_of(alike(request, sectors))
 }
@@ -71,12 +71,12 @@ fn wanted_samples(request: &ResolvedSweep) -> usize {
     LEAST_SAMPLES.max(SAMPLES_PER_ORDER * request.max_engine_order as usize)
 }
 
-/// The smallest divisor of `steps` that is at least `wanted`; `steps` itself if there is none.
+/// Smallest divisor of `steps` that is at least `wanted`; `steps` itself if there is none.
 fn samples_of(steps: usize, wanted: usize) -> usize {
     (wanted..=steps / 2).find(|samples| steps.is_multiple_of(*samples)).unwrap_or(steps)
 }
 
-/// Upper bound of the samples a revolution of this request records at any speed, on a wheel of `sectors`.
+/// Upper bound of the samples per revolution that this request records at any speed, on a wheel of `sectors`.
 pub(super) fn most_samples(request: &ResolvedSweep, sectors: usize) -> usize {
     let wanted = wanted_samples(request);
     match request.integration.steps_per_revolution {

@@ -1,4 +1,4 @@
-//! Where the wheel is when a run ends: what the next speed of a sweep up or down starts from.
+//! State of the wheel at the end of a run, from which the next speed of a sweep up or down starts.
 //!
 //! Mode shapes change with the speed, so the state is kept in the coordinates of the reduction, which do not:
 //!
@@ -19,11 +19,11 @@ use rubmap_wheel::dynamics::modal_wheel::{ModalWheel, mode_shapes};
 use rubmap_wheel::dynamics::reduction::ReducedWheel;
 use rubmap_wheel::dynamics::schemes::Scheme;
 
-/// The wheel at the end of a run: for every nodal diameter that is simulated q, then q̇, each as real and imaginary parts.
+/// State of the wheel at the end of a run: q, then q̇, of every simulated nodal diameter, each as real and imaginary parts.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct EndState(pub Vec<f64>);
 
-/// Φ of all nodal diameters that are simulated.
+/// Mode shapes Φ of all simulated nodal diameters.
 #[derive(Debug)]
 pub(super) struct Shapes(Vec<Mat<c64>>);
 
@@ -37,17 +37,17 @@ impl Shapes {
         wheel.harmonics.iter().map(|harmonic| of(harmonic.harmonic)).collect::<Result<_, _>>().map(Self)
     }
 
-    /// Those that were found with a wheel.
+    /// Mode shapes that were computed together with a wheel.
     pub(super) fn found(shapes: Vec<Mat<c64>>) -> Self {
         Self(shapes)
     }
 
-    /// Φ of a nodal diameter.
+    /// Mode shapes Φ of a nodal diameter.
     pub(super) fn of_harmonic(&self, harmonic: usize) -> MatRef<'_, c64> {
         self.0[harmonic].as_ref()
     }
 
-    /// Memory of those of a wheel.
+    /// Memory of the mode shapes of a wheel, in bytes.
     pub(super) fn bytes(wheel: &ModalWheel) -> u64 {
         let sizes = wheel.harmonics.iter().map(|harmonic| harmonic.omega.len());
         sizes.map(|size| (size_of::<c64>() * size * size) as u64).sum()
@@ -55,7 +55,7 @@ impl Shapes {
 }
 
 impl EndState {
-    /// From all modes that were integrated on a wheel of these shapes.
+    /// State from all modes that were integrated on a wheel of these shapes.
     pub(super) fn new(modes: &[InitialMode], Shapes(shapes): &Shapes) -> Self {
         let mut numbers = Vec::new();
         for (index, shapes) in shapes.iter().enumerate() {
@@ -72,7 +72,8 @@ impl EndState {
         Self(numbers)
     }
 
-    /// As modes of `wheel`, which has these shapes, those that `scheme` integrates; none if the state is of another reduction.
+    /// State in the modes of `wheel`, which has these shapes: those that `scheme` integrates. None if the state belongs to another
+    /// reduction.
     pub(super) fn modes(
         &self,
         wheel: &ModalWheel,

@@ -12,11 +12,11 @@ use rubmap_wheel::dynamics::nodes::SectorNode;
 pub struct EulerLoad(Vec<f64>);
 
 impl EulerLoad {
-    /// Of a mesh and its nodes in the same order, with so many own DOF; `project` takes a load of them to the unknowns by the basis of nodal
-    /// diameter 0.
+    /// Euler load of a mesh and its nodes in the same order, with this number of own DOF; `project` takes a load on these to the unknowns
+    /// by the basis of nodal diameter 0.
     ///
     /// # Errors
-    /// Those of `project`.
+    /// Errors of `project`.
     pub fn of<E>(
         mesh: &SectorMesh,
         nodes: &[SectorNode],
@@ -28,12 +28,12 @@ impl EulerLoad {
         Ok(Self(load.iter().map(|load| load.re).collect()))
     }
 
-    /// None.
+    /// Zero load.
     pub(crate) fn none() -> Self {
         Self(Vec::new())
     }
 
-    /// Of every unknown, in their order.
+    /// Load on every unknown, in the order of the unknowns.
     pub fn of_unknowns(&self) -> &[f64] {
         &self.0
     }

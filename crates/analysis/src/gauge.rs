@@ -10,18 +10,18 @@ use faer::{Mat, c64};
 
 use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
 
-/// One end of a gauge.
+/// End of a gauge.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct End {
-    /// Its place among the nodes that a wheel has rows of.
+    /// Place of the node among the nodes of which the wheel has rows.
     pub(super) place: usize,
-    /// Whether its rows are those of a low node, which in its place is in the next sector.
+    /// Whether the node lies on the high face: its rows are those of the low node, which belongs to the next sector there.
     pub(super) on_high_face: bool,
-    /// r, θ, z.
+    /// Coordinates r, θ, z.
     pub(super) coordinates: [f64; 3],
 }
 
-/// Puts the strain between two nodes below the nodes of `wheel`, as the first component of one more; returns its place.
+/// Adds the strain between two nodes to the rows of `wheel`, as the first component of one more node; returns the place of that node.
 pub(super) fn add_gauge(wheel: &mut ModalWheel, [a, b]: [End; 2]) -> usize {
     let (from, to) = (cartesian(a.coordinates), cartesian(b.coordinates));
     let apart: [f64; 3] = std::array::from_fn(|d| to[d] - from[d]);

@@ -1,4 +1,4 @@
-//! What happened at one speed of a sweep, simulated again.
+//! Histories of one speed of a sweep, which is simulated again to record them.
 
 use crate::component::{along, direction};
 use crate::effects::casing::convert::{heights_before, lasting_clearance};
@@ -22,7 +22,7 @@ use rubmap_wheel::dynamics::integrate::{Detail, DetailHistory, History, Outcome}
 use rubmap_wheel::dynamics::states::WheelStates;
 use rubmap_wheel::revision::VERSION;
 
-/// The case study of the histories that a sweep asks for, if there is a speed to record, from the points of all its speeds.
+/// Case study for the histories that a sweep asks for, if there is a speed to record, from the points of all its speeds.
 pub fn histories_wanted(sweep: &ResolvedSweep, points: &[Point]) -> Option<ResolvedCaseStudy> {
     let request = sweep.histories()?;
     let speeds = wanted(request, &critical_indices(sweep, points));
@@ -30,8 +30,8 @@ pub fn histories_wanted(sweep: &ResolvedSweep, points: &[Point]) -> Option<Resol
     (!case.speeds.is_empty()).then_some(case)
 }
 
-/// Simulates the speed of this `place` in a case study and records it: the run that the sweep had, to the bit. Of a sweep up or down
-/// the speeds before it are simulated as well. Histories of a speed that was not completed are empty, and its point says why.
+/// Simulates speed `place` of a case study and records it: the same run as in the sweep, to the bit. In a sweep up or down the speeds
+/// before it are simulated as well. Histories of a speed that was not completed are empty, and its point says why.
 ///
 /// # Errors
 /// Cancellation.
@@ -99,7 +99,7 @@ pub fn speed_histories(
                 if let Some(states) = &history.states {
                     let stiffening = sweep.scene.centrifugal_stiffening;
                     let states = WheelStates::of(states, &wheel, &reduced.wheel, stiffening);
-                    // What the wheel was made of a moment ago can be made again.
+                    // This cannot fail: the wheel was made of the same data a moment ago.
                     histories.states = states.ok().map(Box::new);
                 }
                 if let Some(detail) = &history.detail {
@@ -117,7 +117,7 @@ fn whole((from, to): (usize, usize)) -> [u32; 2] {
     [from as u32, to as u32]
 }
 
-/// Where the speed before `index` in a sweep up or down ends.
+/// State at the end of the speed before `index` in a sweep up or down.
 fn state_before(
     reduced: &ReducedSector,
     sweep: &ResolvedSweep,
@@ -152,10 +152,10 @@ fn sensors(
     sweep.sensors.iter().enumerate().map(of).collect()
 }
 
-/// Cosine of the angle to the contact normal up to which a sensor measures the way to the casing: eight degrees.
+/// Least cosine of the angle to the contact normal at which a sensor measures the distance to the casing: eight degrees.
 const OUTWARD: f64 = 0.99;
 
-/// Where a sensor on the contact line stands before the casing, if there is one and it measures the way there.
+/// Position of a sensor on the contact line relative to the casing, if there is one and the sensor measures towards it.
 fn tip(
     (reduced, speed_rad_s): (&ReducedSector, f64),
     sweep: &ResolvedSweep,
@@ -184,7 +184,7 @@ fn tip(
     })
 }
 
-/// Of one part of a wheel that repeats it: what adds up over the wheel is multiplied.
+/// Contact history of the whole wheel from that of one part: sums over the wheel are multiplied by `repeats`.
 fn detail_contact(detail: &DetailHistory, sectors: usize, repeats: usize) -> Option<ContactHistory> {
     if detail.force.is_empty() && detail.nodes_in_contact.is_empty() {
         return None;
@@ -198,7 +198,7 @@ fn detail_contact(detail: &DetailHistory, sectors: usize, repeats: usize) -> Opt
     })
 }
 
-/// Parts that `point` names, of the whole wheel.
+/// Energy history of the whole wheel: the parts of the energy that `point` names.
 fn energy(audits: &[EnergyAudit], point: &Point, repeats: usize) -> Option<EnergyHistory> {
     let (named, first) = (point.energy?, audits.first()?);
     let line = |of: &dyn Fn(&EnergyAudit) -> f64| -> Vec<f64> {

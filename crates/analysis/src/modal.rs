@@ -12,7 +12,7 @@ use rubmap_wheel::dynamics::modal_wheel::RotationEffects;
 use rubmap_wheel::response::campbell::{absolute_frequency, multiples};
 use rubmap_wheel::revision::VERSION;
 
-/// Natural frequencies over speed and the linear criterion.
+/// Computes the natural frequencies over speed and the crossings of the linear criterion.
 pub fn modal_analysis(
     reduced: &ReducedSector,
     request: &ResolvedModalAnalysis,

@@ -1,4 +1,4 @@
-//! A sector on its way in: the facts requests are checked against, and its reduction with a report in words.
+//! Models of sectors: the facts that requests are checked against, and the reduction with a report in words.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -19,28 +19,28 @@ use rubmap_wheel::dynamics::node_rows::NodeRows;
 use rubmap_wheel::dynamics::reduction::ReducedWheel;
 use rubmap_wheel::dynamics::sector::{ContactNode, SectorModel, Units};
 
-/// A reduced sector: all that simulations need of a model. Computed once per (model, `modes_per_speed`) and stored.
+/// Reduced sector: all that simulations need of a model. Computed once per (model, `modes_per_speed`) and stored.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct ReducedSector {
     /// Units of the model.
     pub units: Units,
     /// The reduced wheel.
     pub wheel: Arc<ReducedWheel>,
-    /// What the reduction found and cost.
+    /// Findings and cost of the reduction.
     pub report: ReductionReport,
-    /// Rows of its basis at nodes that are to be read; kept apart from it.
+    /// Rows of the basis at the nodes of sensors; stored beside the reduction.
     #[serde(skip)]
     pub nodes: NodeRows,
-    /// Stress in its coordinates, where that is to be recorded; kept apart from it too.
+    /// Stress in reduced coordinates, where it is to be recorded; stored beside the reduction.
     #[serde(skip)]
     pub stress: Option<Arc<ReducedStress>>,
-    /// Growth of its tips, where clearances are given cold; kept apart from it too.
+    /// Growth of the tips, where clearances are given cold; stored beside the reduction.
     #[serde(skip)]
     pub growth: Option<Arc<TipGrowth>>,
-    /// The Euler force in its coordinates, where the speed changes and that is asked for; kept apart from it too.
+    /// Euler force in reduced coordinates, where the speed changes and it is asked for; stored beside the reduction.
     #[serde(skip)]
     pub euler_load: Option<Arc<EulerLoad>>,
-    /// Whether the rows of its basis at all nodes are known to lie beside it.
+    /// Whether the rows of the basis at all nodes are stored beside the reduction.
     #[serde(skip)]
     pub has_basis: bool,
     /// Thickness of the blade at its tip, [`MeshFacts::tip_thickness`].
@@ -55,7 +55,7 @@ impl ReducedSector {
         nodes.iter().all(|&id| self.nodes.find(id).is_some() || contact(id))
     }
 
-    /// With what the package says of K(Ω) and of its digits.
+    /// Adds the findings of the package about K(Ω) and about its digits to the report.
     pub fn with_findings(mut self, findings: &Findings) -> Self {
         self.report.stiffening = report_with_spin(self.report.stiffening, &findings.spin);
         if let Some(sentence) = findings.digits.and_then(|digits| self.cost_of(digits)) {
@@ -64,7 +64,7 @@ impl ReducedSector {
         self
     }
 
-    /// A sentence about what few digits of the stiffness matrix may change of the lowest frequency at rest, if that can be told.
+    /// Sentence about the error of the lowest frequency at rest that few digits of the stiffness matrix may cause, if it can be estimated.
     pub(crate) fn cost_of(&self, digits: DigitNoise) -> Option<String> {
         if digits.has_all_digits {
             return None;
@@ -77,7 +77,7 @@ impl ReducedSector {
         ))
     }
 
-    /// As a plan takes it while the growth of its tips and the Euler force have still to be found: tips do not grow, and nothing pushes.
+    /// Copy for a plan: where the growth of the tips and the Euler force are not known yet, they are zero.
     pub(crate) fn for_planning(&self) -> Self {
         let still = || Arc::new(TipGrowth::none(self.wheel.contact.len()));
         Self {
@@ -87,73 +87,72 @@ impl ReducedSector {
         }
     }
 
-    /// Whether stress can be told outside this radius about the contact nodes.
+    /// Whether the stress that was read excludes exactly this radius about the contact nodes.
     pub fn tells_stress(&self, excluded_radius: f64) -> bool {
         self.stress.as_ref().is_some_and(|stress| stress.excluded_radius() == excluded_radius)
     }
 }
 
-/// The few facts about a model that requests are checked against.
+/// Facts about a model, against which requests are checked.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct ModelFacts {
-    /// Free text of the user.
+    /// Name of the model, free text of the user.
     pub name: String,
     /// Number of sectors N.
     pub sectors: u32,
     /// Number of contact nodes.
     pub contact_nodes: u32,
-    /// Own DOF of a sector (internal with the low face, and contact).
+    /// Number of own DOF of a sector (internal with the low face, and contact).
     pub own_dofs: u32,
     /// Speeds of the stiffness matrices, rad/s.
     pub speeds_rad_s: Vec<f64>,
-    /// Units.
+    /// Units of the model.
     pub units: Units,
     /// Whether the package has a gyroscopic matrix, so that Coriolis forces can be simulated.
     #[serde(default)]
     pub gyroscopic: bool,
-    /// Largest distance of a contact node from the axis, in the model's unit of length; absent of models that an earlier version
-    /// has kept.
+    /// Largest distance of a contact node from the axis, in the model's unit of length; absent for models stored by an earlier version.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub contact_radius: Option<f64>,
-    /// How far K(Ω) can be trusted, as far as the stiffness matrices tell by themselves; absent of models that an earlier version
-    /// has kept. The verdict is that of a reduction.
+    /// Reliability of K(Ω) between its speeds, as far as the stiffness matrices alone show it; absent for models stored by an earlier
+    /// version. The final verdict comes with a reduction.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stiffening: Option<PreliminaryStiffening>,
-    /// Mean distance of neighbouring contact nodes, in the model's unit of length; absent with a single one, and of models that an
-    /// earlier version has kept.
+    /// Mean distance of neighbouring contact nodes, in the model's unit of length; absent for a model with a single contact node, and for
+    /// models stored by an earlier version.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub contact_spacing: Option<f64>,
-    /// The elements, if the package has them; without them there are no fields of elements and no stress.
+    /// Elements, if the package has them; without them there are no fields of elements and no stress.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mesh: Option<MeshFacts>,
-    /// Size and materials in SI units; absent where a unit is not known, and of models that an earlier version has kept.
+    /// Size and materials in SI units; absent where a unit is not known, and for models stored by an earlier version.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub in_si: Option<InSi>,
-    /// Noise of a stiffness matrix that was written with few digits; absent where it has all.
+    /// Noise of a stiffness matrix that was written with few digits; absent where it has all digits.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub digits: Option<DigitNoise>,
-    /// Sentences about what looks wrong and was accepted.
+    /// Sentences about what looks wrong in the package and was accepted.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub warnings: Vec<String>,
 }
 
-/// What a package says of its elements.
+/// Facts about the elements of a package.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct MeshFacts {
     /// Number of elements of a sector.
     pub elements: u32,
-    /// What its element sets bear, in the order of their names.
+    /// Strengths of the element sets, in the order of their names.
     pub sets: Vec<Strengths>,
-    /// Smallest thickness of the blade at a contact node, across the blade as a straight line just below the tip goes; absent where
+    /// Smallest thickness of the blade at a contact node, measured along a straight line across the blade just below the tip; absent where
     /// no such line leaves the mesh on both sides.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tip_thickness: Option<f64>,
 }
 
 impl MeshFacts {
-    /// The facts of the `mesh` of a sector.
+    /// Facts of the `mesh` of a sector.
     pub fn of(mesh: &SectorMesh, sector: &SectorModel) -> Self {
         Self {
             elements: mesh.elements.len() as u32,
@@ -164,7 +163,7 @@ impl MeshFacts {
 }
 
 impl ModelFacts {
-    /// The facts of `sector`.
+    /// Facts of `sector`.
     pub fn of(sector: &SectorModel) -> Self {
         Self {
             name: sector.name.clone(),
@@ -202,7 +201,7 @@ impl ModelFacts {
         !self.has_stiffening() || omega <= self.highest_speed() * (1.0 + 1e-6)
     }
 
-    /// What to say of a speed that it does not reach.
+    /// Message about a speed beyond the range of K(Ω).
     pub fn not_extrapolated(&self) -> String {
         format!(
             "the model's stiffness is given up to {} rad/s; K(Ω) is not extrapolated: stay below, or export the \
@@ -230,7 +229,7 @@ fn contact_spacing(contact: &[ContactNode]) -> Option<f64> {
 
 #[cfg(test)]
 impl ModelFacts {
-    /// Those of a model of no particular kind.
+    /// Facts of a model of ten sectors and no particular kind.
     pub(crate) fn of_ten_sectors(contact_nodes: u32) -> Self {
         let unit = |name: &str| name.to_owned();
         Self {

@@ -1,15 +1,16 @@
-//! How a computation reports progress and learns that it is no longer wanted.
+//! Progress and cancellation of a computation.
 
-/// Watches one computation. Implementations must be cheap: both methods are called from inner phases.
+/// Receiver of the progress of one computation, which it may cancel. Implementations must be cheap: both methods are called from inner
+/// phases.
 pub trait Monitor: Sync {
-    /// `fraction` (0 to 1) of this computation's work is done; `phase` says in words what runs now.
+    /// Reports that `fraction` (0 to 1) of this computation's work is done; `phase` says in words what runs now.
     fn progress(&self, fraction: f64, phase: &str);
 
     /// Whether the computation should stop at the next opportunity.
     fn is_cancelled(&self) -> bool;
 }
 
-/// Watches nothing, never cancels.
+/// Monitor that ignores progress and never cancels.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Unwatched;
 

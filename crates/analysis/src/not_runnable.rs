@@ -1,4 +1,4 @@
-//! Why a speed cannot be integrated.
+//! Reasons why a speed cannot be integrated.
 
 use crate::request::auto_or::MOST_STEPS;
 use rubmap_wheel::dynamics::contact::coating::CoatingError;
@@ -6,84 +6,84 @@ use rubmap_wheel::dynamics::contact::friction::FrictionError;
 use rubmap_wheel::dynamics::error::ModelError;
 use rubmap_wheel::dynamics::schemes::Scheme;
 
-/// Why a speed cannot be integrated, and what to change. It ends the speed, not the sweep.
+/// Reason why a speed cannot be integrated, and what to change. It ends the speed, not the sweep.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub(crate) enum NotRunnable {
-    /// The reduced sector cannot be evaluated at this speed.
+    /// Model error: the reduced sector cannot be evaluated at this speed.
     #[error(transparent)]
     Model(#[from] ModelError),
-    /// A sensor's node of which no rows of the basis were read.
+    /// Sensor at a node of which no rows of the basis were read.
     #[error("the basis of the reduction was not read at node {id}, where a sensor is")]
     UnreadNode { id: u64 },
-    /// Stress of a reduction beside which it was not read.
+    /// Stress that was not read beside the reduction.
     #[error("the stress of the reduction was not read, and this sweep records it")]
     UnreadStress,
-    /// Clearances given cold of a reduction beside which the growth of its tips was not read.
+    /// Cold clearances without the growth of the tips, which was not read beside the reduction.
     #[error("the growth of the tips was not read, and this scene has its clearances cold")]
     UnreadGrowth,
-    /// The Euler force of a reduction beside which it was not read.
+    /// Euler force that was not read beside the reduction.
     #[error("the Euler force was not read, and this run-up has it")]
     UnreadEulerForce,
-    /// A sensor along the normal of a node that has none.
+    /// Sensor along the normal of a node that has none.
     #[error("node {id}, where a sensor is, has no normal: only contact nodes have")]
     NoNormal { id: u64 },
-    /// The wheel cannot slide.
+    /// Friction error: the wheel cannot slide.
     #[error(transparent)]
     Friction(#[from] FrictionError),
-    /// The coating cannot be simulated.
+    /// Coating that cannot be simulated.
     #[error(transparent)]
     Coating(#[from] CoatingError),
-    /// A fixed step beyond the stability limit.
+    /// Fixed step beyond the stability limit.
     #[error("{steps} steps per revolution are unstable at this speed; at least {smallest} are needed")]
     Unstable { steps: u32, smallest: u64 },
-    /// No step is stable.
+    /// Scheme without any stable step.
     #[error("{}", no_stable_step(*.0))]
     NoStableStep(Scheme),
-    /// A step that carries no mode of a boundary without mass.
+    /// Step that carries no mode of a boundary without mass.
     #[error(
         "{steps} steps per revolution carry no mode of a boundary without mass: take more, or another scheme"
     )]
     NoModeCarried { steps: f64 },
-    /// More steps than a request may ask for.
+    /// Speed that would need more steps than a request may ask for.
     #[error(
         "this speed would need {steps:.1e} steps per revolution, more than {MOST_STEPS}: it is too slow for the highest frequency \
          of the reduced wheel, or the lobes are too narrow"
     )]
     TooManySteps { steps: f64 },
-    /// The heights of the casing at all steps take too much memory.
+    /// Heights of the casing at all steps that take too much memory.
     #[error(
         "the casing's table would take {size} values at {steps} steps per revolution: take fewer steps, a multiple of the \
          {sectors} sectors, or wider lobes"
     )]
     Table { size: usize, steps: usize, sectors: usize },
-    /// The initial mode does not exist.
+    /// Initial mode that does not exist.
     #[error(
         "nodal diameter {nodal_diameter} of the reduced wheel has {families} modal families, not {family}"
     )]
     NoSuchFamily { nodal_diameter: u32, families: usize, family: u32 },
-    /// The initial mode is not kept.
+    /// Initial mode that is not kept.
     #[error(
         "the initial mode is family {family} of nodal diameter {nodal_diameter}, of which {kept_modes} are kept: keep more, or take \
          another scheme"
     )]
     FamilyNotKept { family: u32, nodal_diameter: u32, kept_modes: usize },
-    /// The initial mode is not integrated.
+    /// Initial mode that is not integrated.
     #[error(
         "the initial mode, family {family} of nodal diameter {nodal_diameter}, is too fast for the step and would follow statically: \
          take more steps_per_revolution"
     )]
     FamilyFollows { family: u32, nodal_diameter: u32 },
-    /// The initial mode is too large.
+    /// Initial mode that is too large.
     #[error(
         "the initial mode stands inside the casing at rest: at this speed /scene/initial/amplitude is at most {largest:.6e}"
     )]
     InsideCasing { largest: f64 },
-    /// The state to start from does not fit.
+    /// Initial state that belongs to another reduction.
     #[error("the neighbouring speed ended in a state of another reduction: run the sweep again")]
     OtherReduction,
 }
 
-/// [`NotRunnable::NoStableStep`] in words.
+/// Message of [`NotRunnable::NoStableStep`].
 fn no_stable_step(scheme: Scheme) -> String {
     match scheme {
         Scheme::MasslessBoundary { kept_modes } => format!(

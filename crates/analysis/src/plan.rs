@@ -1,4 +1,4 @@
-//! What a job will do and cost, before it runs.
+//! Plans of jobs: work and cost, before they run.
 
 use std::time::Instant;
 
@@ -28,8 +28,8 @@ use rubmap_wheel::dynamics::casing::RestrictionTable;
 use rubmap_wheel::dynamics::modal_wheel::{ModalWheel, RotationEffects};
 use rubmap_wheel::revision::VERSION;
 
-/// Plans a resolved sweep on `workers` threads; without `reduced`, what can be said without it. The choice, where sensors stand
-/// and which machine was measured are for the caller to add.
+/// Plans a resolved sweep on `workers` threads; without `reduced`, as far as the facts allow. The caller adds the choice, the positions of
+/// the sensors and the measured machine.
 pub fn plan_sweep(
     request: &ResolvedSweep,
     facts: &ModelFacts,
@@ -80,7 +80,7 @@ pub fn plan_sweep(
     }
 }
 
-/// Speeds that are simulated once more for histories that name them by index, when all others are finished; of a chain with all
+/// Speeds that are simulated once more for histories that name them by index, when all others are finished; in a chain with all speeds
 /// before them, one after the other.
 fn recorded_speeds(request: &ResolvedSweep) -> Vec<f64> {
     let Some(HistorySpeeds::Indices(indices)) = request.histories().map(|histories| &histories.speeds) else {
@@ -94,7 +94,7 @@ fn recorded_speeds(request: &ResolvedSweep) -> Vec<f64> {
     indices.iter().flat_map(with_those_before).map(|index| speeds[index as usize]).collect()
 }
 
-/// Pairs of contact node and casing that are simulated.
+/// Number of simulated pairs of contact node and casing.
 pub(crate) fn contact_pairs(scene: &Scene, facts: &ModelFacts) -> u64 {
     match scene.contact {
         Some(_) => u64::from(sectors_simulated(scene, facts)) * u64::from(facts.contact_nodes),
@@ -109,7 +109,7 @@ fn sectors_simulated(scene: &Scene, facts: &ModelFacts) -> u32 {
     }
 }
 
-/// Plans a resolved modal analysis; without `reduced`, what can be said without it. The choice is for the caller to add.
+/// Plans a resolved modal analysis; without `reduced`, as far as the facts allow. The caller adds the choice.
 pub fn plan_modal_analysis(
     request: &ResolvedModalAnalysis,
     facts: &ModelFacts,
@@ -145,7 +145,7 @@ pub fn plan_modal_analysis(
     }
 }
 
-/// About the package, and about K(Ω), if `scene` uses it: what the reduction found, or, while there is none, what the matrices tell.
+/// Warnings about the package, and about K(Ω), if `scene` uses it: those of the reduction, or, while there is none, those of the matrices.
 pub(crate) fn warnings(scene: &Scene, facts: &ModelFacts, reduced: Option<&ReducedSector>) -> Vec<String> {
     let found = reduced.map(|reduced| &reduced.report.stiffening);
     let found = found.map(|found| (found.verdict, &found.message));
@@ -160,12 +160,12 @@ pub(crate) fn warnings(scene: &Scene, facts: &ModelFacts, reduced: Option<&Reduc
     facts.warnings.iter().cloned().chain(digits).chain(stiffening).collect()
 }
 
-/// Whether a reduction is there.
+/// Whether a reduction is stored.
 pub(crate) fn state(reduced: Option<&ReducedSector>) -> ReductionState {
     if reduced.is_some() { ReductionState::Stored } else { ReductionState::ToBeComputed }
 }
 
-/// Real unknowns of the whole reduced wheel, at most.
+/// Upper bound of the real unknowns of the whole reduced wheel.
 pub(crate) fn reduced_unknowns(
     facts: &ModelFacts,
     reduced: Option<&ReducedSector>,
@@ -176,7 +176,7 @@ pub(crate) fn reduced_unknowns(
     reduced.map_or_else(expected, |reduced| reduced.report.wheel_unknowns.into())
 }
 
-/// Disk that the basis of a reduction will take; nothing of one that is left out.
+/// Disk space that the basis of a reduction will take, in bytes; 0 for one that is left out.
 pub(crate) fn basis_bytes(
     facts: &ModelFacts,
     reduced: Option<&ReducedSector>,
@@ -187,7 +187,7 @@ pub(crate) fn basis_bytes(
     is_kept.then(|| most_basis_bytes(facts, modes_per_speed))
 }
 
-/// Most bytes of the basis of a reduction.
+/// Upper bound of the bytes of the basis of a reduction.
 pub fn most_basis_bytes(facts: &ModelFacts, modes_per_speed: u32) -> u64 {
     let columns =
         3 * u64::from(facts.contact_nodes) + facts.speeds_rad_s.len() as u64 * u64::from(modes_per_speed);
@@ -197,7 +197,8 @@ pub fn most_basis_bytes(facts: &ModelFacts, modes_per_speed: u32) -> u64 {
     u64::from(facts.own_dofs) * columns * 16 * harmonics
 }
 
-/// Disk, and memory, that the stress of a reduction will take: single precision, six components at about a node for every three DOF.
+/// Disk space, and memory, that the stress of a reduction will take, in bytes: single precision, six components at about a node for every
+/// three DOF.
 fn stress_bytes(
     facts: &ModelFacts,
     reduced: Option<&ReducedSector>,
@@ -213,17 +214,17 @@ fn stress_bytes(
     stress_numbers(places, unknowns) * size_of::<f32>() as u64
 }
 
-/// Real numbers of the stress of so many unknowns over all nodal diameters.
+/// Count of real numbers of the stress of `unknowns` over all nodal diameters.
 fn stress_numbers(places: u64, unknowns: u64) -> u64 {
     6 * 2 * places * unknowns
 }
 
-/// Memory of the stress of one speed, that of the reduction included: its numbers, the states of the last revolution as they are
-/// recorded and in two other coordinates, and what bounds every place.
+/// Memory of the stress of one speed, in bytes, with that of the reduction: its numbers, the states of the last revolution as they are
+/// recorded and in two other coordinates, and the bounds of every place.
 fn stress_memory(places: u64, wheel: &ModalWheel, stepping: &Stepping) -> u64 {
-    /// Directions of a nodal diameter that bound, about.
+    /// Approximate number of directions of a nodal diameter for the bounds.
     const DIRECTIONS: u64 = 12;
-    /// Bounds and static stress of a place.
+    /// Bytes of the bounds and the static stress of a place.
     const PLACE: u64 = 256;
     if places == 0 {
         return 0;
@@ -234,21 +235,21 @@ fn stress_memory(places: u64, wheel: &ModalWheel, stepping: &Stepping) -> u64 {
     real * stress_numbers(places, modes(wheel)) + states + parts + PLACE * places
 }
 
-/// Nodes of a sector with stress, about; 0 where none is asked for.
+/// Approximate number of nodes of a sector with stress; 0 where stress is not asked for.
 fn stress_places(facts: &ModelFacts, request: &ResolvedSweep) -> u64 {
     request.stress_outside().map_or(0, |_| u64::from(facts.own_dofs).div_ceil(3))
 }
 
-/// Modes of all nodal diameters.
+/// Number of modes of all nodal diameters.
 fn modes(wheel: &ModalWheel) -> u64 {
     wheel.harmonics.iter().map(|harmonic| harmonic.omega.len() as u64).sum()
 }
 
-/// Cubed unknowns over all nodal diameters that a plan solves three times: about a second.
+/// Largest sum of cubed unknowns over all nodal diameters for which a plan solves three eigenproblems: about a second.
 const EIGEN_WORK: f64 = 1e8;
 
-/// Indices of all speeds or of the slowest, the middle and the fastest one, in ascending speed; of the slowest alone where its
-/// eigenproblems of `unknowns` take long.
+/// Indices of all speeds or of the slowest, the middle and the fastest one, in ascending speed; only the slowest where its eigenproblems of
+/// `unknowns` take long.
 fn representatives(speeds: &[f64], unknowns: &[u32]) -> Vec<usize> {
     let mut ascending: Vec<usize> = (0..speeds.len()).collect();
     ascending.sort_by(|&a, &b| speeds[a].total_cmp(&speeds[b]));
@@ -329,12 +330,12 @@ fn plan_point(
     }
 }
 
-/// Contact nodes of a sector that may touch.
+/// Number of contact nodes of a sector that may touch.
 pub(crate) fn touching(reduced: &ReducedSector, request: &ResolvedSweep) -> usize {
     if request.scene.contact.is_some() { reduced.wheel.contact.len() } else { 0 }
 }
 
-/// Memory that a trial holds while it runs, in bytes; 0 where its speed cannot be integrated.
+/// Memory that a trial takes while it runs, in bytes; 0 where its speed cannot be integrated.
 pub fn trial_memory(reduced: &ReducedSector, request: &TrialRequest) -> u64 {
     let sweep = &request.sweep;
     let Ok((wheel, stepping)) = ready(reduced, sweep, request.speed_rad_s()) else { return 0 };
@@ -345,8 +346,8 @@ pub fn trial_memory(reduced: &ReducedSector, request: &TrialRequest) -> u64 {
         + stress_memory(places, &wheel, &stepping)
 }
 
-/// Memory that the speed of this `place` in a case study holds while it is recorded, in bytes: its run, and its histories twice, as
-/// numbers and as text.
+/// Memory that speed `place` of a case study takes while it is recorded, in bytes: its run, and its histories twice, as numbers and as
+/// text.
 pub fn histories_memory(reduced: &ReducedSector, case: &ResolvedCaseStudy, place: usize) -> u64 {
     let sweep = &case.sweep;
     let speed = sweep.speeds.rad_s()[case.speeds[place] as usize];
@@ -356,7 +357,7 @@ pub fn histories_memory(reduced: &ReducedSector, case: &ResolvedCaseStudy, place
     recorded + running_bytes(&wheel, sweep, &stepping, nodes)
 }
 
-/// Histories twice, as numbers and as text.
+/// Memory of histories, in bytes: twice, as numbers and as text.
 fn recorded_bytes(
     record: &Recorded,
     sweep: &ResolvedSweep,
@@ -372,8 +373,8 @@ fn recorded_bytes(
     (NUMBER * lines * stepping.discretisation.samples * (to - from)) as u64
 }
 
-/// What a speed holds while it runs: its modes with what their eigenproblems took, the casing's table, the histories,
-/// what turns one of them into a spectrum, and the spectra, as they are and on their way into the database.
+/// Memory that a speed takes while it runs, in bytes: its modes with the work space of their eigenproblems, the table of the casing, the
+/// histories, the work space of a spectrum, and the spectra, as they are and on their way into the database.
 pub(crate) fn running_bytes(
     wheel: &ModalWheel,
     request: &ResolvedSweep,
@@ -400,7 +401,7 @@ pub(crate) fn running_bytes(
         } else {
             0
         };
-    // What nodes do in the reduced coordinates and in the modes.
+    // Rows of the sensor nodes in the reduced coordinates and in the modes.
     let read = 2 * COMPLEX * 3 * request.sensor_nodes().len() * sizes.clone().sum::<usize>();
     // Normals, tips in three components, sensors.
     let rows = 2 * REAL * (4 * nodes + request.sensors.len()) * sizes.sum::<usize>() + read;
@@ -413,13 +414,13 @@ pub(crate) fn running_bytes(
     (eigen + shapes + table + rows + history + spectrum + spectra) as u64 + search
 }
 
-/// Mass and stiffness of every nodal diameter.
+/// Memory of mass and stiffness of every nodal diameter, in bytes.
 pub(crate) fn reduced_bytes(reduced: &ReducedSector) -> u64 {
     let matrices = 1 + reduced.wheel.speeds_rad_s.len() as u64;
     reduced.report.unknowns.iter().map(|&n| 16 * matrices * u64::from(n).pow(2)).sum()
 }
 
-/// The cost of all `speeds` from that of the `planned` ones, in ascending speed.
+/// Estimate for all `speeds` from the `planned` ones, in ascending speed.
 fn estimate(planned: &[PlannedPoint], speeds: &[f64], workers: usize, kept_bytes: u64) -> Option<Estimate> {
     let known: Vec<(f64, f64, CostRange)> = planned
         .iter()
@@ -450,7 +451,7 @@ fn estimate(planned: &[PlannedPoint], speeds: &[f64], workers: usize, kept_bytes
     })
 }
 
-/// `value` at `speed`, linear in 1/Ω between the `known` ones, as steps per revolution are that resolve a frequency;
+/// Value at `speed`, interpolated between the `known` ones linearly in 1/Ω, as the steps per revolution that resolve a frequency are;
 /// constant beyond them.
 fn interpolate<P: Copy>(known: &[(f64, f64, P)], speed: f64, value: fn(&(f64, f64, P)) -> f64) -> f64 {
     let above = known.partition_point(|point| point.0 < speed);

@@ -1,4 +1,4 @@
-//! The reduction of a sector, with a report.
+//! Reduction of a sector, with a report.
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -16,7 +16,7 @@ use rubmap_wheel::dynamics::reduction::{
 use rubmap_wheel::dynamics::sector::SectorModel;
 use rubmap_wheel::revision::VERSION;
 
-/// Reduces a sector (docs/method.md, Reduction). Deterministic. Takes at most `memory_bytes`, if given; goes on from `checkpoints`.
+/// Reduces a sector (docs/method.md, Reduction). Deterministic. Takes at most `memory_bytes`, if given; continues from `checkpoints`.
 pub fn prepare(
     sector: &SectorModel,
     modes_per_speed: u32,
@@ -86,7 +86,7 @@ fn report(
     }
 }
 
-/// One line per speed, ascending.
+/// Frequency differences, one line per speed, ascending.
 fn frequency_differences(wheel: &ReducedWheel) -> Vec<FrequencyDifference> {
     let mut speeds: Vec<f64> = wheel.comparison.iter().map(|c| c.speed_rad_s).collect();
     speeds.sort_by(f64::total_cmp);

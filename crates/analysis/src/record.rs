@@ -1,4 +1,4 @@
-//! What a run says: credentials, spectra and steady response of one speed.
+//! Results of a run: credentials, spectra and steady response of one speed.
 
 use crate::contact::ContactOf;
 use crate::effects::casing::convert::lasting_clearance;
@@ -23,15 +23,15 @@ use rubmap_wheel::response::settling::judge;
 use rubmap_wheel::response::side_bands::{SideBands, side_bands};
 use rubmap_wheel::response::spectra::{engine_orders, nodal_diameter_amplitudes};
 
-/// What a complete run left beside its point.
+/// Results of a complete run beside its point.
 pub(super) struct Recorded {
     pub(super) spectra: SpeedSpectra,
-    /// Of a scene with contact.
+    /// Contact forces, for a scene with contact.
     pub(super) contact: Option<ContactForces>,
 }
 
-/// Writes a run's credentials into `point`; returns the rest if it is complete. A scene that repeats was run on one part
-/// of the wheel: what adds up over the wheel is multiplied here.
+/// Writes a run's credentials into `point`; returns the other results if it is complete. A scene that repeats was run on one part of the
+/// wheel: sums over the wheel are multiplied here.
 pub(super) fn record_run(
     point: &mut Point,
     run: &Run,
@@ -90,13 +90,13 @@ pub(super) fn record_run(
     Ok(recorded)
 }
 
-/// Steps that the search of a periodic response took.
+/// Number of steps that the search for a periodic response took.
 fn searched(point: &Point, steps_per_revolution: usize) -> u64 {
     let revolutions = point.steady.as_ref().map_or(0.0, |steady| steady.revolutions);
     (revolutions * steps_per_revolution as f64).round() as u64
 }
 
-/// Contact over the window, in short and in full; none of a scene without.
+/// Contact over the window, as a summary and in full; none for a scene without contact.
 fn contact(
     run: &Run,
     request: &ResolvedSweep,
@@ -116,7 +116,7 @@ fn contact(
     Some((of.summary(&forces), forces))
 }
 
-/// Status and words of a run that ended before its end; none of one that did not, or was cancelled.
+/// Status and message of a run that ended early; none for a complete or a cancelled run.
 pub(super) fn cut_short(outcome: &Outcome) -> Option<(PointStatus, String)> {
     match outcome {
         Outcome::Diverged(divergence) => Some((PointStatus::Diverged, describe(divergence))),
@@ -161,7 +161,7 @@ fn spectra(history: &History, request: &ResolvedSweep, wheel: &ModalWheel) -> Sp
     SpeedSpectra { sensors: sensors.collect(), engine_orders }
 }
 
-/// Amplitudes per nodal diameter of the whole wheel from those of one of its parts: the others are at rest.
+/// Amplitudes per nodal diameter of the whole wheel from those of one of its parts; all other nodal diameters are zero.
 fn of_the_wheel(part: Vec<Vec<f64>>, wheel: &ModalWheel) -> Vec<Vec<f64>> {
     if wheel.repeats == 1 {
         return part;
@@ -175,7 +175,7 @@ fn of_the_wheel(part: Vec<Vec<f64>>, wheel: &ModalWheel) -> Vec<Vec<f64>> {
     whole
 }
 
-/// Lines below this share of the largest displacement are round-off: some thousand roundings of it.
+/// Share of the largest displacement below which lines are round-off: some thousand roundings of it.
 const ROUND_OFF: f64 = 1e-12;
 
 fn responses(history: &History, request: &ResolvedSweep, spectra: &SpeedSpectra) -> Vec<SensorResponse> {
@@ -208,14 +208,14 @@ fn responses(history: &History, request: &ResolvedSweep, spectra: &SpeedSpectra)
     request.sensors.iter().enumerate().map(of).collect()
 }
 
-/// Half the way from the lowest to the highest.
+/// Half the difference of the largest and the smallest value.
 pub(super) fn half_peak_to_peak(line: &[f64]) -> f64 {
     let ends = (f64::INFINITY, f64::NEG_INFINITY);
     let (low, high) = line.iter().fold(ends, |(low, high), &x| (low.min(x), high.max(x)));
     0.5 * (high - low)
 }
 
-/// The strongest pair at the sensor with the largest response.
+/// Strongest pair of side bands at the sensor with the largest response.
 fn strongest_side_bands(responses: &[SensorResponse]) -> Option<&SideBands> {
     let loudest = responses.iter().max_by(|a, b| a.rms.total_cmp(&b.rms))?;
     loudest.side_bands.iter().max_by(|a, b| a.weaker().total_cmp(&b.weaker()))

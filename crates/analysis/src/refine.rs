@@ -1,16 +1,16 @@
-//! More speeds around the peaks that the speeds of a sweep do not resolve.
+//! Refinement of a sweep: more speeds around peaks that are not resolved.
 
 use crate::resolved::ResolvedSweep;
 use crate::response_curve::ResponseCurve;
 use crate::result::{Point, Refinement, Unresolvable, Unresolved};
 use rubmap_wheel::response::critical_speed::{ON_BRANCH, Resolution, Wanted, peaks};
 
-/// A sweep gets at most as many added speeds as it had at first, or this many if those were fewer: a rough curve, such
-/// as that of a chaotic response, has new peaks at every scale.
+/// Smallest limit of added speeds. A sweep gets at most as many added speeds as it had at first, or this many if those were fewer: a rough
+/// curve, such as that of a chaotic response, has new peaks at every scale.
 const LEAST_MOST_ADDED: usize = 50;
 
 impl Refinement {
-    /// From the finished speeds, in any order; none if the sweep is not to be refined.
+    /// Refinement of a sweep from the finished speeds, in any order; none if the sweep is not to be refined.
     pub(super) fn of(request: &ResolvedSweep, points: &[Point]) -> Option<Self> {
         if !request.refine {
             return None;
@@ -27,8 +27,8 @@ impl Refinement {
     }
 }
 
-/// The request with one more round of speeds: the middles of the intervals beside the peaks, of any sensor, that are not
-/// resolved, and where the maxima of solved responses are expected. None if there is nothing to add, or no more may be. `points` are those of all speeds, in any order, which
+/// Adds one more round of speeds to the request: the middles of the intervals beside the unresolved peaks of any sensor, and the expected
+/// maxima of solved responses. None if there is nothing to add, or no more may be added. `points` are those of all speeds; their order
 /// makes no difference.
 pub fn refine(request: &ResolvedSweep, points: &[Point]) -> Option<ResolvedSweep> {
     if !request.refine {
@@ -51,7 +51,7 @@ pub fn refine(request: &ResolvedSweep, points: &[Point]) -> Option<ResolvedSweep
     Some(ResolvedSweep { speeds, ..request.clone() })
 }
 
-/// Critical speeds with the index of their sensor and how well they are known.
+/// Critical speeds with the index of their sensor and their resolution.
 fn resolutions(request: &ResolvedSweep, speeds: &[f64], points: &[Point]) -> Vec<(usize, f64, Resolution)> {
     let curve = ResponseCurve::of(speeds, points);
     let mut found = Vec::new();
@@ -65,7 +65,7 @@ fn resolutions(request: &ResolvedSweep, speeds: &[f64], points: &[Point]) -> Vec
     found
 }
 
-/// The speeds that would tell more of a peak of some sensor, ascending.
+/// Speeds that would resolve a peak of some sensor better, ascending.
 fn wanted(request: &ResolvedSweep, speeds: &[f64], points: &[Point]) -> Vec<Wanted> {
     let resolutions = resolutions(request, speeds, points).into_iter();
     let mut wanted: Vec<_> = resolutions.flat_map(|(_, _, resolution)| resolution.wanted).collect();
@@ -75,7 +75,7 @@ fn wanted(request: &ResolvedSweep, speeds: &[f64], points: &[Point]) -> Vec<Want
     wanted
 }
 
-/// The peaks that are not resolved.
+/// Peaks that are not resolved.
 fn unresolved(request: &ResolvedSweep, speeds: &[f64], points: &[Point]) -> Vec<Unresolved> {
     let why = |resolution: &Resolution| {
         if resolution.at_end {
@@ -109,7 +109,7 @@ mod tests {
         ResolvedSpeeds::of(serde_json::from_value(given).unwrap(), 0).unwrap()
     }
 
-    /// A sweep from 900 to 1100 rad/s with two sensors.
+    /// Sweep from 900 to 1100 rad/s with two sensors.
     fn request(count: usize) -> ResolvedSweep {
         let sensor = |contact_node: u32| json!({"contact_node": contact_node, "component": "radial"});
         from_json::sweep(json!({
@@ -118,7 +118,7 @@ mod tests {
         }))
     }
 
-    /// What a run would find where the sensors have these levels; a level that is no number is a run that failed.
+    /// Points of a sweep whose sensors have these levels; a level that is NaN is a run that failed.
     fn points(request: &ResolvedSweep, levels: &dyn Fn(f64) -> [f64; 2]) -> Vec<Point> {
         let point = |(index, speed): (usize, f64)| {
             let levels = levels(speed);
@@ -138,7 +138,7 @@ mod tests {
         request.speeds.rad_s().iter().copied().enumerate().map(point).collect()
     }
 
-    /// The request when nothing is added any more, with what was.
+    /// Refines the request until nothing is added any more; returns it with the refinement.
     fn refined(mut request: ResolvedSweep, levels: &dyn Fn(f64) -> [f64; 2]) -> (ResolvedSweep, Refinement) {
         loop {
             let found = points(&request, levels);
@@ -157,7 +157,7 @@ mod tests {
         1.0 / (1.0 + ((speed - at) / half_bandwidth).powi(2)).sqrt()
     }
 
-    /// Distance of `speed` to the nearest one of a request.
+    /// Distance of `speed` to the nearest speed of a request.
     fn nearest(request: &ResolvedSweep, speed: f64) -> f64 {
         let speeds = request.speeds.rad_s().iter();
         speeds.map(|other| (other - speed).abs()).fold(f64::INFINITY, f64::min)
@@ -249,7 +249,7 @@ mod tests {
         let more = refine(&request, &found).unwrap();
         found.reverse();
         assert_eq!(refine(&request, &found).unwrap(), more);
-        // What a job was refined to, asked for again, is refined no further than it would have been.
+        // A refined request that is asked for again is refined no further.
         let (last, refinement) = refined(request, &levels);
         assert_eq!(refined(last.clone(), &levels), (last, refinement));
         assert_eq!(refine(&ResolvedSweep { refine: false, ..more }, &[]), None);

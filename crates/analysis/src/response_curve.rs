@@ -1,19 +1,19 @@
-//! The response of a sweep over ascending speed.
+//! Response of a sweep over ascending speed.
 
 use crate::result::{Point, PointStatus, Stability};
 use rubmap_wheel::response::critical_speed::Curve;
 
-/// The speeds of a sweep in ascending order.
+/// Speeds of a sweep in ascending order, with their points.
 pub(super) struct ResponseCurve<'a> {
     pub(super) speeds_rad_s: Vec<f64>,
-    /// One for each speed, none where it did not complete.
+    /// Point of each speed, none where it was not completed.
     pub(super) points: Vec<Option<&'a Point>>,
-    /// Whether its numbers are those of a periodic response that was solved for and lasts.
+    /// Whether each point shows a stable periodic response that was solved for.
     solved: Vec<bool>,
 }
 
 impl<'a> ResponseCurve<'a> {
-    /// Of `speeds_rad_s`, in the order of the request, and the finished ones of them, in any order.
+    /// Response curve of `speeds_rad_s`, in the order of the request, and their finished points, in any order.
     pub(super) fn of(speeds_rad_s: &[f64], finished: &'a [Point]) -> Self {
         let mut ascending: Vec<usize> = (0..speeds_rad_s.len()).collect();
         ascending.sort_by(|&a, &b| speeds_rad_s[a].total_cmp(&speeds_rad_s[b]));
@@ -32,12 +32,12 @@ impl<'a> ResponseCurve<'a> {
         }
     }
 
-    /// With values at its speeds.
+    /// Curve of `values` over the speeds.
     pub(super) fn of_values<'b>(&'b self, values: &'b [Option<f64>]) -> Curve<'b> {
         Curve { speeds: &self.speeds_rad_s, values, solved: &self.solved }
     }
 
-    /// Level of one sensor: root mean square about the mean.
+    /// Level of a sensor at each speed: root mean square about the mean.
     pub(super) fn level(&self, sensor: usize) -> Vec<Option<f64>> {
         self.points.iter().map(|point| point.map(|point| point.responses[sensor].rms)).collect()
     }

@@ -1,4 +1,4 @@
-//! The verbs, gathered under one name: what the service may ask of the physics.
+//! Verbs of the analysis under one name: all that the service may ask of the physics.
 
 pub use crate::accuracy::choice::next;
 pub use crate::accuracy::climb::{Next, Resources};

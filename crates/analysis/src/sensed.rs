@@ -1,4 +1,4 @@
-//! The sensors of a request in the terms of the physics.
+//! Sensors of a request as rows of the wheel.
 
 use std::borrow::Cow;
 
@@ -13,7 +13,7 @@ use rubmap_wheel::dynamics::direction::Direction;
 use rubmap_wheel::dynamics::integrate::SensorRow;
 use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
 
-/// `wheel` with the nodes and gauges that sensors of `request` name, and the sensors.
+/// Adds to `wheel` the nodes and gauges that sensors of `request` name; returns it with the sensors.
 pub(super) fn sensed<'a>(
     reduced: &ReducedSector,
     wheel: &'a ModalWheel,
@@ -59,7 +59,7 @@ fn row(
     Ok(SensorRow { direction, sector: (sensor.sector as usize + usize::from(turned)) % wheel.sectors })
 }
 
-/// Where the node `id` is read; a contact node gives the same numbers as by its place among them.
+/// Place of the rows of node `id`; a contact node gives the same numbers as by its index.
 fn find(reduced: &ReducedSector, id: u64) -> Result<End, NotRunnable> {
     let contact = &reduced.wheel.contact;
     if let Some(place) = contact.iter().position(|node| node.id == id) {

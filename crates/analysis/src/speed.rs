@@ -73,7 +73,7 @@ pub fn run_speed(
     Ok(SpeedResult { point, spectra, wear, contact, end_state })
 }
 
-/// Writes into `point` what a complete run says of stress and of the theory itself.
+/// Writes the stress and the validity of linear theory into `point`, from a complete run.
 pub(super) fn judge_run(
     point: &mut Point,
     run: &Run,
@@ -104,7 +104,7 @@ pub(super) fn judge_run(
     point.validity = Some(validity::judge(&history.excursion, point.stress.as_ref(), reduced, request));
 }
 
-/// The wheel of a scene at a speed, and how it is stepped; or why it cannot be.
+/// Wheel of a scene at a speed, with its stepping; or why it cannot be run.
 pub(super) fn ready(
     reduced: &ReducedSector,
     request: &ResolvedSweep,
@@ -115,18 +115,18 @@ pub(super) fn ready(
     Ok((wheel, stepping))
 }
 
-/// What a run starts from.
+/// State from which a run starts.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Start<'a> {
-    /// Rest, or what the scene says.
+    /// Initial state of the scene: rest, or the initial mode.
     Scene,
-    /// The same, but for a tiny perturbation of every nodal diameter.
+    /// Initial state of the scene with a tiny perturbation of every nodal diameter.
     Perturbed,
-    /// The end of the neighbouring speed.
+    /// End of the neighbouring speed.
     After(&'a EndState),
 }
 
-/// What the next speed of a chain starts from, if the sweep is one and this speed was integrated to its end.
+/// State from which the next speed of a chain starts, if the sweep is a chain and this speed was integrated to its end.
 fn end_state_of(
     run: &Run,
     reduced: &ReducedWheel,
@@ -195,7 +195,7 @@ pub(super) fn empty_point(
     }
 }
 
-/// What a run records beside what every run does.
+/// Additional recording of a run.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Recording {
     /// Details of chosen revolutions.
@@ -205,13 +205,13 @@ pub(super) struct Recording {
 }
 
 impl Recording {
-    /// What every speed of a sweep needs: the last revolution, if stress is to be told.
+    /// Recording at every speed of a sweep: the last revolution, if stress is asked for.
     pub(super) fn of(request: &ResolvedSweep) -> Self {
         Self { detail: None, states: request.stress_outside().map(|_| Revolutions::Last(1)) }
     }
 }
 
-/// Runs a scene on `wheel`; or says why it cannot be.
+/// Runs a scene on `wheel`; or says why it cannot be run.
 pub(super) fn simulate(
     sector: &ReducedSector,
     wheel: &ModalWheel,
@@ -241,14 +241,14 @@ pub(super) fn simulate(
         if matches!(start, Start::Perturbed) {
             initial = perturbed(initial, wheel, casing);
         }
-        // What breaks a symmetry must not have to grow out of round-off where a march ends early.
+        // Where a march ends early, a motion that breaks the symmetry must not have to grow out of round-off first.
         let aside = (casing.is_some() && repeats.is_some_and(|repeats| repeats.symmetry > 1))
             .then(|| perturbed(initial.clone(), wheel, casing));
         let Recording { detail, states } = recording;
         let simulation = Simulation { initial: &initial, repeats, detail, states, ..staged };
         if let Some(aside) = aside {
             let simulated = run_steady(&Simulation { initial: &aside, ..simulation }, request, watch);
-            // What never touches breaks no symmetry, and shows nothing but where it began.
+            // A run without contact breaks no symmetry, and would show only its initial perturbation.
             if simulated.run.statistics.contact_share() > 0.0 {
                 return Ok(simulated);
             }
@@ -257,7 +257,8 @@ pub(super) fn simulate(
     })?
 }
 
-/// What `act` makes of the simulation of a scene from rest, of which nothing more is recorded than its sensors; or why there is none.
+/// Calls `act` with the simulation of a scene from rest that records only its sensors and returns its result; or says why the scene cannot
+/// be run.
 pub(super) fn staged<T>(
     sector: &ReducedSector,
     wheel: &ModalWheel,

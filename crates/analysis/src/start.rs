@@ -1,4 +1,4 @@
-//! The motion that a speed begins with.
+//! Initial motion of a speed.
 
 use crate::effects::initial::start::initial_mode;
 use crate::effects::probe::start::{asymmetry, lowest_modes, wheel_reach};
@@ -11,7 +11,7 @@ use rubmap_wheel::dynamics::initial::InitialMode;
 use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
 use rubmap_wheel::dynamics::sector::ContactNode;
 
-/// The modes that a scene starts with.
+/// Modes of the initial state of a scene.
 pub(super) fn initial(
     request: &ResolvedSweep,
     wheel: &ModalWheel,
@@ -29,7 +29,7 @@ pub(super) fn initial(
 /// Amplitude of the perturbation that a twin starts from, relative to the reach of the wheel.
 const PERTURBATION: f64 = 1e-7;
 
-/// `modes` with a tiny perturbation of the lowest mode of every nodal diameter.
+/// Adds a tiny perturbation of the lowest mode of every nodal diameter to `modes`.
 pub(super) fn perturbed(
     mut modes: Vec<InitialMode>,
     wheel: &ModalWheel,

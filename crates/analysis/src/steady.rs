@@ -1,4 +1,4 @@
-//! The steady response of a speed: marched to, or solved for.
+//! Steady response of a speed: marched to, or solved for.
 
 use crate::effects::casing::shape::Shape;
 use crate::effects::damping::convert::modal_damping;
@@ -16,10 +16,10 @@ use rubmap_wheel::dynamics::steady::periodic::{MOST_BEYOND, NotFound};
 use rubmap_wheel::dynamics::steady::response::{self, LEAST_REVOLUTIONS, Response, Sought, record, seek};
 use rubmap_wheel::dynamics::steady::stability::Floquet;
 
-/// Most revolutions of a search, and of a march that controls it, as a multiple of those that are asked for.
+/// Limit of a search, and of a march that controls it, as a multiple of the revolutions asked for.
 const LIMIT: u32 = 4;
 
-/// Most revolutions of a search.
+/// Largest number of revolutions of a search.
 pub(super) fn most_revolutions(request: &ResolvedSweep) -> usize {
     (LIMIT * request.integration.revolutions()) as usize
 }
@@ -54,7 +54,7 @@ pub(super) fn revolutions_taken(request: &ResolvedSweep) -> [u64; 2] {
     }
 }
 
-/// Whether the march of a scene may end once it repeats.
+/// Conditions under which the march of a scene may end early, once its motion repeats; none if it may not.
 pub(super) fn repeats(request: &ResolvedSweep, detail: Option<Detail>, sectors: usize) -> Option<Repeats> {
     let Integration { revolutions: AutoOr::Auto, settled_to, .. } = request.integration else { return None };
     if goes_on(request).is_some() {
@@ -72,7 +72,7 @@ pub(super) fn repeats(request: &ResolvedSweep, detail: Option<Detail>, sectors: 
     Some(Repeats { share: settled_to, least: asked.max(recorded).unwrap_or(0), symmetry })
 }
 
-/// Why a march of a scene does not end before its limit.
+/// Reason why the march of a scene does not end before its limit; none if it may.
 fn goes_on(request: &ResolvedSweep) -> Option<&'static str> {
     if request.is_worn() {
         return Some("a coating that wears changes the motion for as long as it is touched");
@@ -80,7 +80,7 @@ fn goes_on(request: &ResolvedSweep) -> Option<&'static str> {
     (request.scene.symmetry == Symmetry::Probe).then_some("a probe of the symmetry takes all revolutions")
 }
 
-/// Why the motion of a scene never comes to what repeats.
+/// Reason why the motion of a scene can never repeat; none if it may.
 fn keeps_moving(request: &ResolvedSweep, run: &Run) -> Option<&'static str> {
     let damping = modal_damping(request);
     let ratios =
@@ -91,7 +91,7 @@ fn keeps_moving(request: &ResolvedSweep, run: &Run) -> Option<&'static str> {
     )
 }
 
-/// How long a complete run was marched, where it was to end once it repeats.
+/// Report about the length of a march, for a complete run that was to end once it repeats.
 pub(super) fn marched(
     request: &ResolvedSweep,
     run: &Run,
@@ -125,7 +125,7 @@ pub(super) fn marched(
     })
 }
 
-/// Memory that the search of a speed holds beside its run, in bytes.
+/// Memory that the search of a speed takes beside its run, in bytes.
 pub(super) fn memory(request: &ResolvedSweep, unknowns: usize, pairs: usize) -> u64 {
     match request.integration.steady {
         SteadyChoice::March => 0,
@@ -136,13 +136,13 @@ pub(super) fn memory(request: &ResolvedSweep, unknowns: usize, pairs: usize) -> 
     }
 }
 
-/// A run, and what is known of the periodic response if it was asked for.
+/// Run, with the report about the periodic response if that was asked for.
 pub(super) struct Simulated {
     pub(super) run: Run,
     pub(super) steady: Option<SteadyReport>,
 }
 
-/// Runs `simulation` as `request` says.
+/// Runs `simulation` by a march or a search, as `request` asks.
 pub(super) fn run_steady(
     simulation: &Simulation<'_>,
     request: &ResolvedSweep,
@@ -182,7 +182,7 @@ fn march(simulation: &Simulation<'_>, report: SteadyReport, watch: &dyn Fn(f64) 
     Simulated { run: simulation.run(watch), steady: Some(report) }
 }
 
-/// Why the periodic response is not what the speed tells.
+/// Reason why the periodic response is not taken as the result of the speed; none if it is.
 fn why_not(choice: SteadyChoice, response: &Response, run: &Run) -> Option<String> {
     if !matches!(run.outcome, Outcome::Completed(_) | Outcome::Cancelled) {
         return Some("the periodic response could not be followed for a revolution".to_owned());
@@ -251,7 +251,7 @@ pub(super) fn multiplier(
     }
 }
 
-/// Of every sensor.
+/// Amplitudes of every sensor.
 fn amplitudes(run: &Run) -> Vec<f64> {
     let Outcome::Completed(history) = &run.outcome else { return Vec::new() };
     history.displacement.iter().map(|line| half_peak_to_peak(line)).collect()

@@ -1,4 +1,4 @@
-//! Which scheme steps a speed, with how many steps per revolution, and why.
+//! Choice of the time-stepping scheme of a speed and of its steps per revolution, with reasons.
 
 use std::f64::consts::TAU;
 
@@ -15,7 +15,7 @@ use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
 use rubmap_wheel::dynamics::schemes::{Scheme, central_differences, exact_modal, massless_boundary};
 use rubmap_wheel::dynamics::sector::ContactNode;
 
-/// How one speed is stepped.
+/// Scheme and steps of one speed.
 pub(super) struct Stepping {
     pub(super) scheme: Scheme,
     /// Smallest stable number of steps per revolution.
@@ -26,31 +26,31 @@ pub(super) struct Stepping {
     pub(super) report: SchemeReport,
 }
 
-/// `"auto"` never steps over more than a tenth of a degree of contact: it begins and ends within a step.
+/// Least steps per revolution of `"auto"` with contact: a tenth of a degree, since contact begins and ends within a step.
 const LEAST_AUTO_STEPS: f64 = 3600.0;
 
-/// The scheme `auto` resolves every mode as long as that takes no more than this many times the steps that contact needs.
+/// Largest ratio of steps at which scheme `auto` resolves every mode: the steps for that over those that contact needs.
 const PRICE_OF_STIFFNESS: f64 = 10.0;
 
-/// A boundary without mass integrates the modes up to this many times the highest frequency asked for, if it can.
+/// Multiple of the highest frequency asked for up to which a boundary without mass integrates the modes, if it can.
 const REACH: f64 = 2.0;
 
-/// `"auto"` stays this far below a stability limit.
+/// Factor by which `"auto"` stays below a stability limit.
 pub(super) const SAFETY: f64 = 0.8;
 
-/// Steps per revolution that `"auto"` gives contact, and why: as many as the effect that wants most.
+/// Steps per revolution that `"auto"` takes for contact, with the reason: the most that any effect wants.
 pub(super) fn steps_for_contact(request: &ResolvedSweep) -> WantedSteps {
     let least = (LEAST_AUTO_STEPS, "contact begins and ends within a tenth of a degree");
     let wanted = named(&request.scene).filter_map(|effect| effect.steps).map(|steps| steps(&request.scene));
     wanted.fold(least, |most, steps| if steps.0 > most.0 { steps } else { most })
 }
 
-/// Steps per revolution at `speed_rad_s` from which on no mode follows statically under `exact_modal`.
+/// Least steps per revolution at `speed_rad_s` with which no mode follows statically under `exact_modal`.
 fn resolving_steps(wheel: &ModalWheel, speed_rad_s: f64) -> f64 {
     (TAU * wheel.largest_frequency() / (speed_rad_s * exact_modal::FOLLOWS)).ceil()
 }
 
-/// [`Scheme::smallest_stable_steps`] of the wheel and, if it is elastic, its casing.
+/// Smallest stable steps of the scheme ([`Scheme::smallest_stable_steps`]) for the wheel and, if it is elastic, its casing.
 fn smallest_stable_steps(
     scheme: Scheme,
     wheel: &ModalWheel,
@@ -76,7 +76,7 @@ pub(super) fn touching<'a>(contact_nodes: &'a [ContactNode], request: &ResolvedS
     if request.scene.contact.is_some() { contact_nodes } else { &[] }
 }
 
-/// A scheme with the steps it wants.
+/// Proposed scheme, with the steps it wants.
 struct Proposal {
     scheme: Scheme,
     least_steps: f64,
@@ -84,10 +84,10 @@ struct Proposal {
     why_steps: String,
 }
 
-/// A speed with what its scheme depends on.
+/// Wheel at a speed, with all that its scheme depends on.
 struct Scope<'a> {
     wheel: &'a ModalWheel,
-    /// Empty if nothing may touch.
+    /// Contact nodes that may touch; empty without contact.
     contact_nodes: &'a [ContactNode],
     request: &'a ResolvedSweep,
     /// Steps per revolution given by the request.
@@ -109,7 +109,7 @@ impl Stepping {
         Self::among(wheel, nodes, request, (is_driven(&request.scene), !nodes.is_empty()))
     }
 
-    /// The same for a run that is taken in parts, with the Euler force or without.
+    /// Resolves scheme and step for a run that is taken in parts, with the Euler force or without; the error says what to change.
     pub(super) fn choose_for_parts(
         wheel: &ModalWheel,
         contact_nodes: &[ContactNode],
@@ -121,7 +121,8 @@ impl Stepping {
         Self::among(wheel, nodes, request, (driven, driven || !nodes.is_empty()))
     }
 
-    /// Of a wheel with these nodes that may touch, which is `driven` or not, and whose fast modes `follow` or not.
+    /// Resolves scheme and step of a wheel with these nodes that may touch; `driven`: forces act on its modes, `follow`: its fast modes
+    /// follow statically.
     fn among(
         wheel: &ModalWheel,
         contact_nodes: &[ContactNode],
@@ -146,7 +147,7 @@ impl Stepping {
         scope.settle(proposal)
     }
 
-    /// A wheel that is stepped so.
+    /// Wheel with this stepping, as the schemes take it.
     pub(super) fn of<'a>(
         &self,
         request: &'a ResolvedSweep,
@@ -159,8 +160,8 @@ impl Stepping {
 }
 
 impl Scope<'_> {
-    /// Resolves every mode if that price is bearable at the slowest speed, so that a sweep keeps to one scheme; otherwise
-    /// lets the boundary go without mass.
+    /// Proposes to resolve every mode if that is affordable at the slowest speed, so that a sweep keeps to one scheme; otherwise a boundary
+    /// without mass.
     fn automatic(&self) -> Proposal {
         let slowest = self.request.speeds.rad_s().iter().copied().fold(self.wheel.speed_rad_s, f64::min);
         let stiffest = resolving_steps(self.wheel, slowest);
@@ -187,7 +188,7 @@ impl Scope<'_> {
         }
     }
 
-    /// A scheme with a stability limit.
+    /// Proposes a scheme with a stability limit.
     fn bounded(&self, scheme: Scheme) -> Proposal {
         let (contact, why) = steps_for_contact(self.request);
         let smallest = self.smallest_stable_steps(scheme);
@@ -201,7 +202,7 @@ impl Scope<'_> {
         }
     }
 
-    /// Every mode by its exact propagator.
+    /// Proposes the exact propagator for every mode.
     fn exact(&self) -> Proposal {
         let why_scheme = if self.driven {
             "every mode is advanced exactly but for the forces on it, which are of second order".to_owned()
@@ -218,8 +219,7 @@ impl Scope<'_> {
         Proposal { scheme, least_steps: contact, why_scheme, why_steps: set_so_that(why) }
     }
 
-    /// A boundary without mass, with as many modes as the step for contact carries, but enough for the engine orders
-    /// asked for.
+    /// Proposes a boundary without mass, with as many modes as the step for contact carries, but enough for the engine orders asked for.
     fn massless(&self) -> Result<Proposal, NotRunnable> {
         let carried = |steps: f64| {
             massless_boundary::most_kept_modes(self.wheel, self.contact_nodes, (SAFETY * steps) as u64)
@@ -250,18 +250,18 @@ impl Scope<'_> {
         smallest_stable_steps(scheme, self.wheel, self.contact_nodes, self.request)
     }
 
-    /// Of the highest engine order asked for, rad/s.
+    /// Frequency of the highest engine order asked for, rad/s.
     fn highest_frequency(&self) -> f64 {
         f64::from(self.request.max_engine_order) * self.wheel.speed_rad_s
     }
 
-    /// Modes per nodal diameter up to `omega` in every one of them.
+    /// Number of modes per nodal diameter that reaches `omega` in every one of them.
     fn modes_reaching(&self, omega: f64) -> usize {
         let below = self.wheel.harmonics.iter().map(|h| h.omega.partition_point(|&mode| mode < omega) + 1);
         below.max().unwrap_or(1)
     }
 
-    /// Steps and report of a proposal, if it can be had.
+    /// Steps and report of a proposal, if it is possible.
     fn settle(&self, proposal: Proposal) -> Result<Stepping, NotRunnable> {
         let smallest = self.smallest_stable_steps(proposal.scheme);
         if smallest == u64::MAX {

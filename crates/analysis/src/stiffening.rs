@@ -1,11 +1,11 @@
-//! How far K(Ω) can be trusted between the speeds at which it is given, in words.
+//! Reliability of K(Ω) between the speeds at which it is given, in words.
 
 use crate::result::{PreliminaryStiffening, StiffeningReport, StiffeningVerdict};
 use rubmap_wheel::dynamics::findings::{SpinAtSpeed, SpinFinding};
 use rubmap_wheel::dynamics::reduction::{InterpolationCheck, InterpolationVerdict, MatrixRatios};
 use rubmap_wheel::dynamics::sector::SectorModel;
 
-/// What to do about matrices of the deformed geometry.
+/// Advice about matrices of the deformed geometry.
 const EXPORT_ADVICE: &str = "Export K(Ω) = K_e + K_σ(Ω) − Ω²M_spin on the undeformed geometry instead (linear static pre-stress, no \
                              geometrically non-linear step).";
 
@@ -84,13 +84,13 @@ pub(super) fn stiffening_report(check: &InterpolationCheck, sector: &SectorModel
     StiffeningReport { verdict, linear_ratio, quadratic_ratio, frequency_error, message }
 }
 
-/// Joins what mass and positions say of K(Ω).
+/// Adds the findings from mass and positions to those about K(Ω).
 pub(super) fn with_spin(mut found: PreliminaryStiffening, spin: &[SpinAtSpeed]) -> PreliminaryStiffening {
     (found.verdict, found.message) = judged(found.verdict, found.message, spin);
     found
 }
 
-/// Joins what mass and positions say of K(Ω) to the report of a reduction.
+/// Adds the findings from mass and positions about K(Ω) to the report of a reduction.
 pub(super) fn report_with_spin(mut found: StiffeningReport, spin: &[SpinAtSpeed]) -> StiffeningReport {
     (found.verdict, found.message) = judged(found.verdict, found.message, spin);
     found

@@ -1,4 +1,4 @@
-//! What the speeds of a sweep say together: the interaction map and the critical speeds.
+//! Results of all speeds of a sweep: the interaction map and the critical speeds.
 
 use std::collections::BTreeSet;
 use std::f64::consts::TAU;
@@ -21,7 +21,7 @@ use rubmap_wheel::response::critical_speed::{Resolution, peaks};
 use rubmap_wheel::response::spectra::engine_orders;
 use rubmap_wheel::revision::VERSION;
 
-/// The row that one speed contributes to the map of `sensor` (index into the request's sensors).
+/// Row that one speed contributes to the map of `sensor` (index into the request's sensors).
 pub fn map_row(spectra: &SpeedSpectra, sensor: usize, nodal_diameter: Option<u32>) -> Option<&[f64]> {
     let spectrum = spectra.sensors.get(sensor)?;
     match nodal_diameter {
@@ -35,17 +35,17 @@ pub fn map_engine_orders(request: &ResolvedSweep) -> Vec<f64> {
     engine_orders(request.integration.window_revolutions, request.max_engine_order)
 }
 
-/// Multiples of the rotational frequency at which the fixed frame sees the lines of a sweep's maps, of a wheel of so many nodal
-/// diameters, 0 among them.
+/// Multiples of the rotational frequency at which the fixed frame sees the lines of a sweep's maps, 0 among them, for a wheel with this
+/// number of nodal diameters.
 pub fn fixed_frame_orders(request: &ResolvedSweep, nodal_diameters: usize) -> Vec<f64> {
     let highest = request.max_engine_order + nodal_diameters.saturating_sub(1) as u32;
     engine_orders(request.integration.window_revolutions, highest)
 }
 
-/// The row that one speed contributes to the map of `sensor` in the fixed frame, over [`fixed_frame_orders`].
+/// Row that one speed contributes to the map of `sensor` in the fixed frame, over [`fixed_frame_orders`].
 ///
 /// A wave of nodal diameter n at engine order k of the rotating frame is seen at k + n if it travels with the rotation, at |k − n| if
-/// against it (Eq. 11); amplitudes do not tell which, so that it is at both. Of lines at one place the largest counts, of the
+/// against it (Eq. 11); amplitudes do not tell which, so that it counts at both. Of several lines at one order the largest counts, of the
 /// wheel's components in all nodal diameters or in one.
 pub fn fixed_frame_row(
     spectra: &SpeedSpectra,
@@ -70,8 +70,7 @@ pub fn fixed_frame_row(
     Some(seen)
 }
 
-/// The interaction map of `sensor` from the speeds finished so far, in any order, each with its [`map_row`]; the plan is for
-/// the caller to add.
+/// Interaction map of `sensor` from the speeds finished so far, in any order, each with its [`map_row`]; the caller adds the plan.
 pub fn interaction_map(
     request: &ResolvedSweep,
     units: &Units,
@@ -108,7 +107,7 @@ pub fn interaction_map(
     }
 }
 
-/// How all speeds ended, in words, if none of them was completed.
+/// Summary in words of how all speeds ended, if none of them was completed.
 pub fn nothing_completed(points: &[Point]) -> Option<String> {
     if points.iter().any(|point| point.status == PointStatus::Completed) {
         return None;
@@ -125,12 +124,12 @@ pub fn nothing_completed(points: &[Point]) -> Option<String> {
     ))
 }
 
-/// Families and superharmonic numbers of the linear prediction beside a sweep: those the paper looks at.
+/// Number of families of the linear prediction beside a sweep, and its superharmonics: those of the paper.
 const PREDICTED_FAMILIES: usize = 2;
 const PREDICTED_SUPERHARMONICS: [u32; 3] = [1, 2, 3];
 
-/// Critical speeds of a sweep, one table per sensor, beside the linear prediction; from the points of all speeds and their `errors`
-/// if they were estimated. The plan is for the caller to add.
+/// Critical speeds of a sweep, one table per sensor, beside the linear prediction; from the points of all speeds and their `errors` if they
+/// were estimated. The caller adds the plan.
 pub fn critical_speeds(
     reduced: &ReducedSector,
     request: &ResolvedSweep,
@@ -211,7 +210,7 @@ fn response_peaks(
     critical.collect()
 }
 
-/// What linear theory expects over the range of a sweep.
+/// Prediction of linear theory over the range of a sweep.
 struct Prediction {
     linear: Vec<Crossing>,
     driven: Vec<DrivenCrossing>,

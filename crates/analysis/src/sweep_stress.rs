@@ -6,7 +6,7 @@ use crate::result::point::Point;
 use crate::result::sweep_stress::{SpeedStress, SweepStress};
 use rubmap_wheel::revision::VERSION;
 
-/// Stress of those of the points that have any; the model's facts say what its materials bear.
+/// Stress of the points that have any; the facts of the model give the strengths of its materials.
 pub fn sweep_stress(request: &ResolvedSweep, facts: &ModelFacts, points: &[Point]) -> SweepStress {
     SweepStress {
         speeds: points.iter().filter_map(SpeedStress::of).collect(),

@@ -1,19 +1,19 @@
-//! How far the tips move outwards as the wheel turns: its static solution under the centrifugal load (docs/method.md, Casing and gap).
+//! Outward growth of the tips with speed: the static solution under the centrifugal load (docs/method.md, Casing and gap).
 
 use crate::stress::StaticWheel;
 use rubmap_wheel::dynamics::reduction::StaticSpan;
 use rubmap_wheel::dynamics::sector::ContactNode;
 
-/// n·u of the contact nodes under the centrifugal load.
+/// Outward displacement n·u of the contact nodes under the centrifugal load.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TipGrowth {
-    /// `[contact node][given speed]`: of the solutions at the given speeds per unit Ω².
+    /// Displacement `[contact node][given speed]`: that of the solutions at the given speeds per unit Ω².
     outward: Vec<f64>,
     span: StaticSpan,
 }
 
 impl TipGrowth {
-    /// Of the wheel of a reduction with these contact nodes.
+    /// Growth of the wheel of a reduction with these contact nodes.
     pub fn of(fixed: &StaticWheel, contact: &[ContactNode]) -> Self {
         let span = fixed.stress.span.clone();
         let speeds = span.speeds_rad_s.len();
@@ -26,12 +26,12 @@ impl TipGrowth {
         Self { outward: outward.collect(), span }
     }
 
-    /// None, of so many contact nodes.
+    /// Zero growth of this number of contact nodes.
     pub(crate) fn none(contact_nodes: usize) -> Self {
         Self { outward: vec![0.0; contact_nodes], span: StaticSpan::at_rest() }
     }
 
-    /// Of every contact node at a speed, length; negative where a tip moves away from the casing.
+    /// Growth of every contact node at a speed, in the unit of length; negative where a tip moves away from the casing.
     pub fn at(&self, speed_rad_s: f64, stiffening: bool) -> Vec<f64> {
         let shares = self.span.at(speed_rad_s, stiffening);
         let of = |node: &[f64]| shares.iter().zip(node).map(|(share, outward)| share * outward).sum();

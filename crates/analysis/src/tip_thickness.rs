@@ -7,18 +7,18 @@ use rubmap_solid::mesh::SectorMesh;
 use rubmap_solid::skin::skin;
 use rubmap_wheel::dynamics::sector::ContactNode;
 
-/// Depth below the tip at which the thickness is measured, in distances of neighbouring contact nodes: not on the edge, and not so far that a
-/// blade that leans has left the normal.
+/// Depth below the tip at which the thickness is measured, in distances of neighbouring contact nodes: not on the edge, and not so deep
+/// that a leaning blade is off the normal.
 const BELOW: f64 = 0.02;
 
-/// Distance of the blade from the point below a contact node, in distances of neighbouring contact nodes, up to which the node is on that
-/// blade: a line on an edge of the tip may lie outside of a flank that leans or bends.
+/// Distance of the blade from the point below a contact node, in distances of neighbouring contact nodes, up to which the node belongs to
+/// that blade: a line on an edge of the tip may lie outside a flank that leans or bends.
 const BESIDE: f64 = 0.1;
 
-/// Shortest way through material that is no round-off of a ray that grazes an edge, in distances of neighbouring contact nodes.
+/// Shortest length through material that is not the round-off of a ray that grazes an edge, in distances of neighbouring contact nodes.
 const GRAZE: f64 = 1e-6;
 
-/// Smallest thickness over the contact nodes, but for the first and the last, which stand on the ends of the blade: the way through the
+/// Smallest thickness over the contact nodes, without the first and the last, which stand on the ends of the blade: the length through the
 /// material along the line across the contact line and the normal, wherever on the tip the contact line runs, its edges included. `None`
 /// with fewer than three contact nodes, or where no such line passes through the mesh.
 pub(super) fn tip_thickness(mesh: &SectorMesh, contact: &[ContactNode]) -> Option<f64> {
@@ -49,8 +49,8 @@ pub(super) fn tip_thickness(mesh: &SectorMesh, contact: &[ContactNode]) -> Optio
     inner.filter_map(|k| thickness(k, &contact[k])).reduce(f64::min)
 }
 
-/// Length of the way through material along the line through `from` in the direction of the unit vector `across`, at `from` or nearest to
-/// it; `None` if no material is within [`BESIDE`] of it. `triangles` are the skin, counter-clockwise seen from outside.
+/// Length through material along the line through `from` in the direction of the unit vector `across`, at `from` or nearest to it; `None`
+/// if no material is within [`BESIDE`] of it. `triangles` are the skin, counter-clockwise seen from outside.
 fn through(
     from: Vector3<f64>,
     across: Vector3<f64>,
@@ -69,7 +69,7 @@ fn through(
     (away((enter, leave)) <= BESIDE * spacing).then_some(leave - enter)
 }
 
-/// Place where a line passes through the skin.
+/// Point where a line passes through the skin.
 struct Crossing {
     /// Distance from the line's origin, negative behind it.
     at: f64,

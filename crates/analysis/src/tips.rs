@@ -1,4 +1,4 @@
-//! The tips of the whole wheel: which one moves most, and at which speeds that is dangerous.
+//! Tips of the whole wheel: the one that moves most, and the speeds at which that is dangerous.
 
 use crate::request::{Component, Sensor};
 use crate::resolved::ResolvedSweep;
@@ -15,7 +15,7 @@ use rubmap_wheel::response::critical_speed::{Peak, Resolution, peaks};
 /// Components in the order of the wheel's motions.
 const IN_ORDER: [Component; COMPONENTS] = [Component::Radial, Component::Tangential, Component::Axial];
 
-/// The tip with the largest root mean square, the first of equal ones.
+/// Tip with the largest root mean square, the first of equal ones.
 pub(super) fn largest_tip(
     history: &History,
     clearance: Option<&[f64]>,

@@ -1,4 +1,4 @@
-//! Whether linear theory still holds at a speed: what moved, turned and strained, over what it must stay small against.
+//! Validity of linear theory at a speed: ratios of displacement, rotation and strain to their limits.
 
 use crate::effects::casing::shape::Shape;
 use crate::model::ReducedSector;
@@ -7,18 +7,20 @@ use crate::result::{PointStress, Validity, ValidityCheck, ValidityLack, Validity
 use rubmap_wheel::dynamics::casing::arc_lengths;
 use rubmap_wheel::dynamics::integrate::Excursion;
 
-/// A plate that bends by half its thickness carries some tenths of its load as a membrane, which linear bending does not know; by its
-/// thickness about as much as by bending.
+/// Limits of displacement over thickness. A plate that bends by half its thickness carries some tenths of its load as a membrane, which
+/// linear bending neglects; by its thickness about as much as by bending.
 const OVER_THICKNESS: [f64; 2] = [0.5, 1.0];
-/// A cantilever that deflects by a twentieth of its length is right to a fraction of a percent, by a tenth to about one.
+/// Limits of displacement over chord. A cantilever that deflects by a twentieth of its length is right to a fraction of a percent, by a
+/// tenth to about one percent.
 const OVER_CHORD: [f64; 2] = [0.05, 0.1];
-/// rad: small rotations add strains of φ²/2, 0.5 % and 2 %, more than any elastic strain of a metal.
+/// Limits of rotation, rad: small rotations add strains of φ²/2, 0.5 % and 2 %, more than any elastic strain of a metal.
 const ROTATION: [f64; 2] = [0.1, 0.2];
-/// Materials are linear up to about nine tenths of the yield strength, and not beyond it.
+/// Limits of stress over yield strength. Materials are linear up to about nine tenths of the yield strength, and not beyond it.
 const OVER_YIELD: [f64; 2] = [0.9, 1.0];
-/// At 1 neighbouring tips meet, and nothing here stops them.
+/// Limits of the approach of neighbouring tips: at 1 they meet, and no contact between them is simulated.
 const APPROACH: [f64; 2] = [0.5, 1.0];
-/// The casing is looked up where a tip would be at rest: a twentieth of a lobe is 18° of its phase, a seventh 51°.
+/// Limits of tangential displacement over lobe: the casing is evaluated where a tip would be at rest; a twentieth of a lobe is 18° of its
+/// phase, a seventh 51°.
 const OVER_LOBE: [f64; 2] = [0.05, 1.0 / 7.0];
 
 /// Judges a completed run by the `excursion` of its tips over the window and, if it was recorded, its stress.
@@ -67,8 +69,8 @@ pub(super) fn judge(
     Validity { verdict, checks, lacking: lacking(reduced.tip_thickness, chord, stress, asked) }
 }
 
-/// What decides and is not known, given the thickness of the blade at its tip, the length of the contact line, and the stress, if it was
-/// `asked` for.
+/// Decisive quantities that are not known, given the thickness of the blade at its tip, the length of the contact line, and the stress, if
+/// it was `asked` for.
 fn lacking(
     thickness: Option<f64>,
     chord: Option<f64>,

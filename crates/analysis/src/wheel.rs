@@ -1,4 +1,4 @@
-//! The wheel of a scene.
+//! Wheel of a scene.
 
 use crate::effects::symmetry::repeats::repeats;
 use crate::effects::symmetry::request::Symmetry;
@@ -7,12 +7,12 @@ use rubmap_wheel::dynamics::error::ModelError;
 use rubmap_wheel::dynamics::modal_wheel::{ModalWheel, RotationEffects};
 use rubmap_wheel::dynamics::reduction::ReducedWheel;
 
-/// What rotation does to the modes of the wheel.
+/// Effects of rotation on the modes of the wheel.
 pub(super) fn rotation(scene: &Scene) -> RotationEffects {
     RotationEffects { stiffening: scene.centrifugal_stiffening, coriolis: scene.coriolis }
 }
 
-/// The wheel of a scene at a speed, or the part of it that the scene repeats.
+/// Wheel of a scene at a speed, or the part of it that the scene repeats.
 pub(super) fn wheel_of(
     scene: &Scene,
     reduced: &ReducedWheel,

@@ -1,12 +1,12 @@
-//! Numbers for wide vectors.
+//! Cache-aligned storage of numbers for wide vectors.
 
 use std::ops::{Deref, DerefMut};
 
 /// Bytes of a cache line and of the widest vector.
 const LINE: usize = 64;
 
-/// Numbers of which the first lies at the start of a cache line: a wide vector never straddles two lines, which would halve
-/// the bandwidth of a product.
+/// Numbers that start at the beginning of a cache line, so that a wide vector never straddles two lines, which would halve the bandwidth of
+/// a product.
 #[derive(Debug)]
 pub struct Aligned {
     values: Vec<f64>,
@@ -14,7 +14,7 @@ pub struct Aligned {
 }
 
 impl Aligned {
-    /// `length` zeros.
+    /// Storage of `length` zeros.
     pub fn zeros(length: usize) -> Self {
         let mut values = vec![0.0; length + LINE / size_of::<f64>()];
         let start = values.as_ptr().align_offset(LINE).min(LINE / size_of::<f64>());

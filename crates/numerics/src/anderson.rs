@@ -1,22 +1,22 @@
 //! Anderson acceleration of fixed-point iterations x ← P(x) (Walker and Ni, SIAM J. Numer. Anal. 49, 2011).
 //!
-//! With residuals f = P(x) − x, the next iterate is what the last ones, taken as linear, say of the fixed point:
+//! With residuals f = P(x) − x, the next iterate is the fixed point of a linear model through the last ones:
 //!
 //! ```text
 //! x⁺ = P(x) − Σ_j γ_j ΔP_j,   γ = argmin ‖f − Σ_j γ_j Δf_j‖
 //! ```
 //!
-//! over the differences of consecutive iterates. Where some of them say the same, to a tolerance, only part of them is used.
+//! over the differences of consecutive iterates. Where some are linearly dependent, to a tolerance, only part of them is used.
 
 use std::collections::VecDeque;
 
 use faer::prelude::SolveLstsq;
 use faer::{Mat, MatRef};
 
-/// Diagonal entry of R, over the largest, from which on a difference says what those before it did.
+/// Diagonal entry of R, relative to the largest, from which on a difference counts as dependent on those before it.
 const SAME: f64 = 1e-10;
 
-/// The last iterates.
+/// Accelerator of a fixed-point iteration, with its last iterates.
 #[derive(Debug, Clone)]
 pub struct Anderson {
     depth: usize,
@@ -33,7 +33,7 @@ struct Iterate {
 }
 
 impl Anderson {
-    /// That looks back at `depth` differences.
+    /// Creates an accelerator that uses the last `depth` differences.
     pub fn new(depth: usize) -> Self {
         Self { depth, last: None, differences: VecDeque::with_capacity(depth) }
     }
@@ -44,7 +44,7 @@ impl Anderson {
         self.differences.clear();
     }
 
-    /// What to map next, `x` having been mapped to `image`.
+    /// Next iterate to map, after `x` was mapped to `image`.
     pub fn next(&mut self, x: &[f64], image: &[f64]) -> Vec<f64> {
         let residual: Vec<f64> = image.iter().zip(x).map(|(image, x)| image - x).collect();
         let this = Iterate { residual, image: image.to_vec() };
@@ -65,7 +65,7 @@ impl Anderson {
         next
     }
 
-    /// γ.
+    /// Weights γ of the differences.
     fn weights(&self, residual: &[f64]) -> Vec<f64> {
         let count = self.differences.len();
         let lengths: Vec<f64> = self.differences.iter().map(|one| length(&one.residual)).collect();
@@ -93,7 +93,7 @@ fn length(values: &[f64]) -> f64 {
     values.iter().map(|value| value * value).sum::<f64>().sqrt()
 }
 
-/// Least-squares weights of those columns that say something of their own, with their numbers.
+/// Least-squares weights of the linearly independent columns, with the numbers of these columns.
 fn independent(columns: MatRef<'_, f64>, wanted: &[f64]) -> Vec<(usize, f64)> {
     if columns.ncols() == 0 {
         return Vec::new();
@@ -120,7 +120,7 @@ mod tests {
         }
     }
 
-    /// x ← A x + b, A being these numbers between two rotations.
+    /// Map x ← A x + b, A being these numbers between two rotations.
     fn affine(stretches: &[f64]) -> impl Fn(&[f64]) -> Vec<f64> {
         move |x| {
             let mut image = x.to_vec();
@@ -141,7 +141,7 @@ mod tests {
         length(&off) / length(&x)
     }
 
-    /// As many differences as unknowns solve a linear problem, also where iterating alone runs away.
+    /// Linear problems are solved by as many differences as unknowns, also where iterating alone runs away.
     #[test]
     fn a_linear_map_is_solved_in_as_many_steps_as_it_has_unknowns() {
         for stretches in [[0.9, 0.5, -0.7, 0.1, -0.95], [3.0, -2.0, 0.5, 1.5, -0.1]] {
@@ -156,7 +156,7 @@ mod tests {
         assert!(iterate(|_| vec![1.0, 2.0], 2, 3, 6) == 0.0);
     }
 
-    /// cos x = x, and x = ½(x + 2/x).
+    /// Scalar equations cos x = x, and x = ½(x + 2/x).
     #[test]
     fn scalar_equations_are_solved() {
         assert!(iterate(|x| vec![x[0].cos(), 0.5 * (x[1] + 2.0 / x[1].max(0.1))], 2, 2, 20) < 1e-12);

@@ -2,22 +2,22 @@
 
 use faer::{Mat, c64};
 
-/// Products between two looks at what has been found.
+/// Products between two checks of convergence.
 const LOOKS: usize = 5;
 
 /// An eigenvalue with its vector, of length 1.
 #[derive(Debug, Clone)]
 pub struct Pair {
-    /// λ
+    /// Eigenvalue λ.
     pub value: c64,
-    /// v
+    /// Eigenvector v.
     pub vector: Vec<c64>,
-    /// ‖A v − λ v‖, as the recursion has it.
+    /// Residual ‖A v − λ v‖, as the recursion has it.
     pub residual: f64,
 }
 
-/// The `count` eigenvalues that are largest (one more, where the last would be half a pair), the largest first, once
-/// `enough(place, value, residual)` says so of each; after `most` products as they are then.
+/// Finds the `count` largest eigenvalues (one more where the last would be half of a conjugate pair), largest first. Ends once
+/// `enough(place, value, residual)` holds for each of them, or after `most` products with the pairs as they are then.
 pub fn largest(
     mut product: impl FnMut(&[f64]) -> Vec<f64>,
     start: &[f64],
@@ -64,11 +64,11 @@ pub fn largest(
     }
 }
 
-/// What the projection on the basis says.
+/// Eigenpairs of the projection on the basis.
 struct Ritz {
     values: Vec<c64>,
     vectors: Mat<c64>,
-    /// Length of what the last product adds to the basis.
+    /// Length of the part of the last product that lies outside the basis.
     left: f64,
 }
 
@@ -86,7 +86,7 @@ impl Ritz {
         }
     }
 
-    /// Indices of the `count` largest, and of what is conjugate to the last.
+    /// Indices of the `count` largest eigenvalues, and of the conjugate of the last.
     fn told(&self, count: usize) -> Vec<usize> {
         let mut order: Vec<usize> = (0..self.values.len()).collect();
         order.sort_by(|&a, &b| self.values[b].norm().total_cmp(&self.values[a].norm()));
@@ -124,7 +124,7 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 mod tests {
     use super::*;
 
-    /// Blocks r (cos φ, −sin φ; sin φ, cos φ) with r = 1, 0.99, 0.98 …, coupled to the block after.
+    /// Product with blocks r (cos φ, −sin φ; sin φ, cos φ) with r = 1, 0.99, 0.98 …, coupled to the block after.
     fn product(x: &[f64]) -> Vec<f64> {
         let mut y = vec![0.0; x.len()];
         for k in 0..x.len() / 2 {

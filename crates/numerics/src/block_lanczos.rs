@@ -9,11 +9,11 @@ use super::vector_block::VectorBlock;
 /// Ritz pairs, largest θ first.
 #[derive(Debug, Clone)]
 pub struct Ritz {
-    /// θ.
+    /// Ritz values θ.
     pub values: Vec<f64>,
     /// Coefficients in the basis, one pair a column.
     pub coefficients: Mat<c64>,
-    /// ‖A y − θ y‖/θ of each pair.
+    /// Relative errors ‖A y − θ y‖/θ of each pair.
     pub errors: Vec<f64>,
 }
 
@@ -38,7 +38,7 @@ impl BlockLanczos {
         Self { block, vectors, projected: Mat::new(), remainder: None }
     }
 
-    /// Vectors of the basis.
+    /// Number of vectors in the basis.
     pub fn columns(&self) -> usize {
         self.block * self.vectors.len()
     }
@@ -48,7 +48,7 @@ impl BlockLanczos {
         self.columns() + self.block > self.last_block().size()
     }
 
-    /// The vectors whose image is due.
+    /// Block of the vectors whose image is due.
     pub fn last_block(&self) -> &VectorBlock {
         &self.vectors[self.vectors.len() - 1]
     }
@@ -68,8 +68,8 @@ impl BlockLanczos {
 
     /// Records the image of the last block.
     ///
-    /// In exact arithmetic it reaches back two blocks only; these are taken out first, so that one pass over the whole
-    /// basis leaves it orthogonal to round-off.
+    /// In exact arithmetic the image reaches back two blocks only; these are taken out first, so that one pass over the whole basis leaves
+    /// it orthogonal to round-off.
     pub fn absorb(&mut self, mut image: VectorBlock) {
         let recent = self.vectors.len().saturating_sub(2);
         let first = take_out(&mut image, &self.vectors[recent..]);
@@ -234,7 +234,7 @@ mod tests {
         }
     }
 
-    /// Two unknowns are all that the start reaches: whatever follows must be other directions.
+    /// Start that reaches two unknowns only: whatever follows must be other directions.
     #[test]
     fn goes_on_beyond_an_invariant_subspace() {
         let value = |i: usize| if i < 2 { 3.0 - i as f64 } else { 1.0 };

@@ -1,13 +1,13 @@
 //! The order at which a quantity converges, from the differences between its values at three levels.
 
-/// Orders that are looked for.
+/// Range of orders that are searched.
 const LOWEST: f64 = 0.05;
 const HIGHEST: f64 = 12.0;
 
-/// Differences of quantities of size 1 below this are round-off.
+/// Difference of quantities of size 1 below which it is round-off.
 const ROUND_OFF: f64 = 1e-12;
 
-/// The order p at which the differences between successive levels fall, where the step is 1/n and `n` ascends.
+/// Order p at which the differences between successive levels fall, where the step is 1/n and `n` ascends.
 ///
 /// With Q(h) = Q₀ + C hᵖ the differences d₀ = |Q(1/n₀) − Q(1/n₁)| and d₁ = |Q(1/n₁) − Q(1/n₂)| fulfil
 /// d₀/d₁ = (n₀⁻ᵖ − n₁⁻ᵖ)/(n₁⁻ᵖ − n₂⁻ᵖ), which grows with p. None where they are round-off or fall at no such order.

@@ -6,27 +6,27 @@
 
 use statrs::distribution::{Continuous, ContinuousCDF, Normal};
 
-/// What cases say of a threshold.
+/// Result of fitting a fragility curve to cases in which a condition held or did not.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Fragility {
-    /// It holds in all cases.
+    /// Condition that held in all cases.
     Always,
-    /// It holds in none.
+    /// Condition that held in no case.
     Never,
     /// Cases that held and cases that did not lie apart: all thresholds may be the same, anywhere between these two.
     Apart {
-        /// Largest x of those below.
+        /// Largest x of the cases below.
         below: f64,
-        /// Smallest x of those above.
+        /// Smallest x of the cases above.
         above: f64,
-        /// Whether it holds above.
+        /// Whether the condition holds above.
         rising: bool,
     },
-    /// They overlap.
+    /// Curve of cases that overlap: some that held lie among those that did not.
     Curve(Curve),
 }
 
-/// P(x) = Φ(a + bx), about the mean of the cases.
+/// Fragility curve P(x) = Φ(a + bx), about the mean of the cases.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Curve {
     center: f64,
@@ -36,21 +36,21 @@ pub struct Curve {
     covariance: (f64, f64, f64),
 }
 
-/// Where a curve has a probability.
+/// Point at which a curve has a given probability.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Crossing {
-    /// x; infinite where the curve does not change.
+    /// Position x; infinite where the curve does not change.
     pub x: f64,
-    /// Between which the true x lies with the confidence that was asked for, by Fieller's theorem; an end is infinite where the cases
+    /// Interval in which the true x lies with the confidence that was asked for, by Fieller's theorem; an end is infinite where the cases
     /// do not bound it.
     pub interval: (f64, f64),
 }
 
-/// Fisher scoring stops when no coefficient changes by more than this share of its standard error.
+/// Change of a coefficient, as a share of its standard error, below which for all of them Fisher scoring stops.
 const CONVERGED: f64 = 1e-10;
 const MOST_ITERATIONS: usize = 100;
 
-/// Fits the cases (x, whether it holds). None without cases, and where arithmetic overflows.
+/// Fits the cases (x, whether the condition holds). None without cases, and where arithmetic overflows.
 pub fn fit(cases: &[(f64, bool)]) -> Option<Fragility> {
     let xs = |wanted: bool| cases.iter().filter(move |(_, holds)| *holds == wanted).map(|(x, _)| *x);
     let ends =
@@ -71,11 +71,12 @@ pub fn fit(cases: &[(f64, bool)]) -> Option<Fragility> {
     maximum_likelihood(cases).map(Fragility::Curve)
 }
 
-/// Between which x the probability may be met of cases that lie apart ([`Fragility::Apart`]), with this `confidence`; an end is infinite where
-/// there are too few.
+/// Interval of x in which the probability may be met, for cases that lie apart ([`Fragility::Apart`]), with this `confidence`; an end is
+/// infinite where there are too few.
 ///
-/// Were the probability less than p at some x, so it would be at all x before, and n cases there would all hold with a chance of less than
-/// pⁿ; beyond the n-th that held, where this is half of what the confidence leaves, it is no less. The same for those that did not hold.
+/// Were the probability less than p at some x, it would be so at all x before, and n cases there would all hold with a chance of less than
+/// pⁿ; beyond the n-th that held, where this is half of what the confidence leaves, it is no less than p. Cases that did not hold bound the
+/// other end alike.
 pub fn open_of_apart(cases: &[(f64, bool)], rising: bool, probability: f64, confidence: f64) -> (f64, f64) {
     let chance = 0.5 * (1.0 - confidence);
     let needed = |p: f64| (chance.ln() / p.ln()).ceil().max(1.0) as usize;
@@ -153,12 +154,12 @@ fn maximum_likelihood(cases: &[(f64, bool)]) -> Option<Curve> {
 }
 
 impl Curve {
-    /// P(x).
+    /// Probability P(x).
     pub fn probability(&self, x: f64) -> f64 {
         Normal::standard().cdf(self.a + self.b * (x - self.center))
     }
 
-    /// Whether P grows with x.
+    /// Whether the probability grows with x.
     pub fn is_rising(&self) -> bool {
         self.b > 0.0
     }
@@ -168,7 +169,7 @@ impl Curve {
         (self.center - self.a / self.b, 1.0 / self.b.abs())
     }
 
-    /// Where P is `probability`, with an interval of confidence `confidence`; both within (0, 1).
+    /// Point at which P is `probability`, with an interval of confidence `confidence`; both within (0, 1).
     ///
     /// The interval holds every x at which the cases leave open whether P(x) is more or less than `probability`: |Φ⁻¹(p) − a − bx| is no
     /// more than z of its standard errors (Fieller, 1954); all x where that is no interval.
@@ -240,7 +241,7 @@ mod tests {
         assert!((many.0 - mean).abs() < 0.01 && (many.1 - deviation).abs() < 0.01, "{many:?}");
     }
 
-    /// Three of four at x = 0, one of four at 1: two parameters meet two shares exactly.
+    /// Groups with three of four at x = 0 and one of four at 1: two parameters meet two shares exactly.
     #[test]
     fn two_groups_are_met_exactly() {
         let group = |x: f64, held: usize| (0..4).map(move |case| (x, case < held));
@@ -265,7 +266,7 @@ mod tests {
         assert_eq!(super::fit(&[]), None);
     }
 
-    /// To say 90 % with a confidence of 95 %, 36 must have held (0.9³⁶ < 0.025 < 0.9³⁵) and two not (0.1² < 0.025 < 0.1).
+    /// Cases needed to say 90 % with a confidence of 95 %: 36 that held (0.9³⁶ < 0.025 < 0.9³⁵) and two that did not (0.1² < 0.025 < 0.1).
     #[test]
     fn cases_apart_say_as_much_as_they_are() {
         let case = |x: i32| (f64::from(x), x > 0);

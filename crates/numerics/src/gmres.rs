@@ -1,17 +1,17 @@
 //! Linear systems of which only products are known (Saad and Schultz, SIAM J. Sci. Stat. Comput. 7, 1986), without restarts.
 
-/// A solution and what is left of the right side.
+/// Solution of a linear system, with its residual.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Solution {
-    /// x
+    /// Solution x.
     pub x: Vec<f64>,
-    /// ‖b − A x‖ / ‖b‖, as the recursion has it.
+    /// Relative residual ‖b − A x‖ / ‖b‖, as the recursion has it.
     pub residual: f64,
-    /// Products that were asked for.
+    /// Number of products that were asked for.
     pub products: usize,
 }
 
-/// x with ‖b − A x‖ ≤ `tolerance` ‖b‖, or the best of `most` products.
+/// Solves for x with ‖b − A x‖ ≤ `tolerance` ‖b‖, or the best of `most` products.
 pub fn solve(
     mut product: impl FnMut(&[f64]) -> Vec<f64>,
     b: &[f64],
@@ -82,7 +82,7 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 mod tests {
     use super::*;
 
-    /// Not symmetric, with eigenvalues on both sides of zero.
+    /// Product with a matrix that is not symmetric, with eigenvalues on both sides of zero.
     fn product(x: &[f64]) -> Vec<f64> {
         let n = x.len();
         let row = |i: usize| {

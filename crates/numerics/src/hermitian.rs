@@ -5,13 +5,13 @@ use faer::traits::ComplexField;
 use faer::traits::ext::ComplexFieldExt;
 use faer::{Mat, MatRef, Par, Side};
 
-/// Why a pencil has no decomposition.
+/// Reason why a pencil has no decomposition.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum EigenError {
-    /// M is not positive definite.
+    /// Mass matrix M that is not positive definite.
     #[error("the mass matrix is not positive definite")]
     MassNotPositiveDefinite,
-    /// The iteration of the dense solver did not converge.
+    /// Iteration of the dense solver that did not converge.
     #[error("the dense eigenvalue iteration did not converge")]
     NotConverged,
 }
@@ -19,9 +19,9 @@ pub enum EigenError {
 /// Eigenpairs: λ ascending, eigenvectors orthonormal (for a pencil, in the mass inner product: Xᴴ M X = I).
 #[derive(Debug, Clone)]
 pub struct Eigenpairs<T> {
-    /// λ_m, ascending.
+    /// Eigenvalues λ_m, ascending.
     pub values: Vec<f64>,
-    /// `n × n`, one eigenvector a column.
+    /// Eigenvectors, `n × n`, one a column.
     pub vectors: Mat<T>,
 }
 
@@ -55,7 +55,7 @@ fn scaled<T: ComplexField<Real = f64>>(a: MatRef<'_, T>, factor: f64) -> Mat<T> 
 
 /// All eigenpairs of K x = λ M x, both `n × n` Hermitian, M positive definite.
 ///
-/// Through M = L Lᴴ to the standard problem L⁻¹ K L⁻ᴴ; several times cheaper than QZ and keeps λ real.
+/// Uses M = L Lᴴ to reach the standard problem L⁻¹ K L⁻ᴴ; several times cheaper than QZ and keeps λ real.
 pub fn generalised_eigenpairs<T: ComplexField<Real = f64>>(
     k: MatRef<'_, T>,
     m: MatRef<'_, T>,
@@ -75,7 +75,7 @@ pub fn generalised_eigenvalues<T: ComplexField<Real = f64>>(
     eigenvalues(standard.as_ref())
 }
 
-/// (L, L⁻¹ K L⁻ᴴ) with M = L Lᴴ.
+/// Matrices (L, L⁻¹ K L⁻ᴴ) with M = L Lᴴ.
 fn standard_form<T: ComplexField<Real = f64>>(
     k: MatRef<'_, T>,
     m: MatRef<'_, T>,
@@ -113,7 +113,7 @@ mod tests {
         assert_eq!(generalised_eigenvalues(k.as_ref(), m.as_ref()).unwrap().len(), 5);
     }
 
-    /// Rank-one coupling of an arithmetic sequence, large enough for divide and conquer; tiny and huge norms.
+    /// Matrices of rank-one coupling of an arithmetic sequence, large enough for divide and conquer; tiny and huge norms.
     #[test]
     fn is_accurate_at_any_scale() {
         let n = 300;

@@ -1,4 +1,4 @@
-//! Linear algebra, transforms and statistics; nothing here has heard of a rotor.
+//! Linear algebra, transforms and statistics; nothing here knows of rotors.
 //!
 //! faer is built without its thread pool: every call runs on the calling thread, so results do not depend on how
 //! many threads a machine has.

@@ -20,7 +20,7 @@ impl From<&Mat<c64>> for Flat {
     }
 }
 
-/// Numbers that do not fill the matrix.
+/// Error: the numbers do not fill the matrix.
 #[derive(Debug, thiserror::Error)]
 #[error("{values} values of a {rows} × {columns} matrix")]
 struct WrongShape {
@@ -53,7 +53,7 @@ pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Mat<c64
     Flat::deserialize(deserializer)?.try_into().map_err(D::Error::custom)
 }
 
-/// The same for a matrix that may be absent.
+/// Serde form of a matrix that may be absent.
 pub mod option {
     use super::*;
 
@@ -69,7 +69,7 @@ pub mod option {
     }
 }
 
-/// The same for a list of matrices.
+/// Serde form of a list of matrices.
 pub mod list {
     use super::*;
 

@@ -1,18 +1,17 @@
 //! Whether a small matrix is a P-matrix: all its principal minors positive.
 //!
-//! Recursively (Tsatsomeros and Li, BIT Numerical Mathematics 40, 2000): A is one if and only if its first diagonal entry is
-//! positive, and A without its first index and the Schur complement of that entry are P-matrices. That takes 2ⁿ short
-//! eliminations instead of 2ⁿ determinants.
+//! Recursively (Tsatsomeros and Li, BIT Numerical Mathematics 40, 2000): A is a P-matrix if and only if its first diagonal entry is positive, and A
+//! without its first index and the Schur complement of that entry are P-matrices. That takes 2ⁿ short eliminations instead of 2ⁿ determinants.
 
 use faer::{Mat, MatRef};
 
 /// Largest matrix of which all principal minors are examined.
 pub const MOST_INDICES: usize = 12;
 
-/// A pivot below this share of the largest diagonal entry is round-off.
+/// Share of the largest diagonal entry below which a pivot is round-off.
 const ROUND_OFF: f64 = 1e-13;
 
-/// An index set of `a` whose principal minor is not positive, by its last index; none was found in a P-matrix.
+/// Index set of `a` whose principal minor is not positive, by its last index; none was found in a P-matrix.
 ///
 /// Examines all sets of up to [`MOST_INDICES`] indices; of a larger matrix all runs of as many consecutive indices.
 pub fn non_positive_minor(a: MatRef<'_, f64>) -> Option<usize> {
@@ -29,7 +28,7 @@ pub fn non_positive_minor(a: MatRef<'_, f64>) -> Option<usize> {
     }
 }
 
-/// All sets of the indices from `first`; `a` is what the elimination of those chosen before has left of them.
+/// Searches all sets of the indices from `first`; `a` is the Schur complement after eliminating the indices chosen before.
 fn any_set(a: MatRef<'_, f64>, least: f64, first: usize) -> Option<usize> {
     let n = a.nrows();
     if n == 0 {
@@ -42,7 +41,7 @@ fn any_set(a: MatRef<'_, f64>, least: f64, first: usize) -> Option<usize> {
     any_set(without, least, first + 1).or_else(|| any_set(eliminated(a).as_ref(), least, first + 1))
 }
 
-/// The sets {first}, {first, first + 1}, …: one elimination serves them all.
+/// Searches the sets {first}, {first, first + 1}, …: one elimination serves them all.
 fn run_from(a: MatRef<'_, f64>, least: f64, first: usize) -> Option<usize> {
     let mut rest = a.to_owned();
     for index in first..first + a.nrows() {
@@ -54,7 +53,7 @@ fn run_from(a: MatRef<'_, f64>, least: f64, first: usize) -> Option<usize> {
     None
 }
 
-/// A value that is no number is not above anything.
+/// Whether a value is at most `limit`, or not a number.
 fn is_not_above(value: f64, limit: f64) -> bool {
     value.is_nan() || value <= limit
 }
@@ -98,7 +97,7 @@ mod tests {
         }
     }
 
-    /// One bad pair among more indices than are examined one and all.
+    /// Matrix with one bad pair among more than [`MOST_INDICES`] indices.
     #[test]
     fn finds_bad_neighbours_in_a_large_matrix() {
         let n = MOST_INDICES + 8;

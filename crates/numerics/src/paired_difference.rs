@@ -2,27 +2,27 @@
 
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
-/// The mean of differences and how well it is known.
+/// Mean of differences and its uncertainty.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PairedDifference {
-    /// How many pairs.
+    /// Number of pairs.
     pub pairs: usize,
     /// Mean of the differences.
     pub mean: f64,
-    /// Its standard error and the interval in which the true mean lies with the confidence asked for, by Student's t; of one pair there are none.
+    /// Standard error of the mean and the interval in which the true mean lies with the confidence asked for, by Student's t; none for one pair.
     pub error: Option<MeanError>,
 }
 
-/// How well a mean is known.
+/// Uncertainty of a mean.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MeanError {
-    /// Standard error.
+    /// Standard error of the mean.
     pub standard: f64,
-    /// Ends of the interval.
+    /// Ends of the interval in which the true mean lies with the confidence asked for.
     pub interval: (f64, f64),
 }
 
-/// The mean of `differences`, one per pair, taken for independent and normally distributed; none without pairs, and where one is not finite.
+/// Mean of `differences`, one per pair, taken for independent and normally distributed; none without pairs, and where one is not finite.
 ///
 /// # Panics
 /// If `confidence` is not between 0 and 1.
@@ -48,7 +48,8 @@ pub fn paired_difference(differences: &[f64], confidence: f64) -> Option<PairedD
 mod tests {
     use super::*;
 
-    /// Student, Biometrika 6 (1908): hours of sleep gained by ten patients with one drug and with another; t = 4.06 as it has been quoted since.
+    /// Example of Student, Biometrika 6 (1908): hours of sleep gained by ten patients with one drug and with another; t = 4.06 as it has
+    /// been quoted since.
     #[test]
     fn students_own_pairs() {
         let differences = [1.2, 2.4, 1.3, 1.3, 0.0, 1.0, 1.8, 0.8, 4.6, 1.4];

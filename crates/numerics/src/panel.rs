@@ -1,4 +1,4 @@
-//! Vectors side by side.
+//! Real vectors side by side.
 
 use pulp::{Arch, Simd, WithSimd};
 
@@ -10,8 +10,8 @@ const LANES: usize = Panel::LANES;
 /// read in long runs.
 const TILE: usize = 1024;
 
-/// Some real vectors over the same unknowns: all values of one unknown lie together, one for each vector, so that whatever
-/// is done to an unknown is done to wide registers.
+/// Several real vectors over the same unknowns: all values of one unknown lie together, one for each vector, so that whatever is done to an
+/// unknown is done to wide registers.
 #[derive(Debug, Clone)]
 pub struct Panel {
     width: usize,
@@ -21,21 +21,21 @@ pub struct Panel {
 }
 
 impl Panel {
-    /// Vectors that an unknown has room for come in multiples of this many, which fill whole registers of any processor.
+    /// Number of vectors of which the room for an unknown is a multiple, so that it fills whole registers of any processor.
     pub const LANES: usize = 8;
 
-    /// `width` vectors of `size` zeros.
+    /// Panel of `width` vectors of `size` zeros.
     pub fn zeros(width: usize, size: usize) -> Self {
         let stride = width.next_multiple_of(LANES);
         Self { width, stride, size, values: Aligned::zeros(size * stride) }
     }
 
-    /// Vectors.
+    /// Number of vectors.
     pub fn width(&self) -> usize {
         self.width
     }
 
-    /// Unknowns.
+    /// Number of unknowns.
     pub fn size(&self) -> usize {
         self.size
     }
@@ -52,24 +52,24 @@ impl Panel {
         &mut self.values[row * self.stride..][..self.width]
     }
 
-    /// xᵀ y for every vector x of every panel and every vector y of this one: of each panel a row per vector of this one,
-    /// with a number per vector that the panel has room for.
+    /// Products xᵀ y for every vector x of every panel and every vector y of this one: of each panel a row per vector of this one, with a
+    /// number per vector that the panel has room for.
     pub(super) fn products(&self, panels: &[&Panel]) -> Vec<Vec<f64>> {
         Arch::new().dispatch(Products { panels, with: self })
     }
 
-    /// y ← y + Σ C_xy x over all vectors x of every panel, for every vector y of this one: `coefficients` of each panel have a row per
+    /// Adds y ← y + Σ C_xy x over all vectors x of every panel, for every vector y of this one: `coefficients` of each panel have a row per
     /// vector that it has room for, with a number per vector that this one has room for.
     pub(super) fn add(&mut self, panels: &[&Panel], coefficients: &[Vec<f64>]) {
         Arch::new().dispatch(Add { panels, coefficients, to: self });
     }
 
-    /// Vectors there is room for.
+    /// Number of vectors there is room for.
     pub(super) fn room(&self) -> usize {
         self.stride
     }
 
-    /// Registers that hold one unknown.
+    /// Number of registers that hold one unknown.
     pub(super) fn registers<S: Simd>(&self) -> usize {
         self.stride / S::F64_LANES
     }
@@ -166,7 +166,7 @@ impl WithSimd for Add<'_> {
     }
 }
 
-/// `R` sums over the unknowns of `x`, of one group of `G` of their registers each: Σ_k `factors`_ki x_k; `N` = `R` `G`.
+/// Sums over the unknowns of `x`, `R` of them, of one group of `G` of their registers each: Σ_k `factors`_ki x_k; `N` = `R` `G`.
 #[inline(always)]
 pub(super) fn sums<'a, S: Simd, const R: usize, const G: usize, const N: usize>(
     simd: S,

@@ -2,14 +2,14 @@
 
 use std::f64::consts::TAU;
 
-/// What one column of the basis belongs to.
+/// Wave that one column of the basis belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Wave {
-    /// The only wave of harmonic 0, or of N/2 for even N.
+    /// Single wave of harmonic 0, or of N/2 for even N.
     Single,
-    /// cos(i s α): pairs with the real part of a complex amplitude.
+    /// Wave cos(i s α): pairs with the real part of a complex amplitude.
     Cosine,
-    /// −sin(i s α): pairs with the imaginary part, since Re(x e^{jisα}) = Re x cos − Im x sin.
+    /// Wave −sin(i s α): pairs with the imaginary part, since Re(x e^{jisα}) = Re x cos − Im x sin.
     NegativeSine,
 }
 
@@ -34,7 +34,7 @@ pub enum Wave {
 pub struct SectorFourier {
     sectors: usize,
     columns: Vec<(usize, Wave)>,
-    /// Row-major `[sector][column]`.
+    /// Values of the basis, row-major `[sector][column]`.
     table: Vec<f64>,
 }
 
@@ -70,7 +70,7 @@ impl SectorFourier {
         Self { sectors, columns, table }
     }
 
-    /// N.
+    /// Number N of sectors.
     pub fn sectors(&self) -> usize {
         self.sectors
     }

@@ -1,13 +1,13 @@
-//! How much of the variance of a number each of its independent inputs accounts for: Sobol's first-order and total indices.
+//! Sobol's first-order and total indices: how much of the variance of a number each of its independent inputs accounts for.
 
 use crate::sampling::sobol_point;
 
-/// A design for indices: `base` blocks of points in so many dimensions. A block has a point of A, then for every dimension the same point
-/// with that coordinate of B, then the point of B; A and B are the two halves of Sobol points in twice as many dimensions (Saltelli et al.,
-/// Computer Physics Communications 181, 2010, 259–270). Blocks are in order, so that a longer design begins with a shorter one.
+/// Design of experiments for indices: `base` blocks of points in `dimensions` dimensions. A block has a point of A, then for every dimension the
+/// same point with that coordinate of B, then the point of B; A and B are the two halves of Sobol points in twice as many dimensions (Saltelli et
+/// al., Computer Physics Communications 181, 2010, 259–270). Blocks are in order, so that a longer design begins with a shorter one.
 ///
 /// # Panics
-/// Beyond the points and dimensions of [`sobol_point`], of which this takes twice as many dimensions.
+/// Beyond the points and dimensions of [`sobol_point`], which is asked for twice as many dimensions.
 pub fn design(base: usize, dimensions: usize, seed: u32) -> Vec<Vec<f64>> {
     let block = |index| {
         let both = sobol_point(index, 2 * dimensions, seed);
@@ -25,7 +25,7 @@ pub fn design(base: usize, dimensions: usize, seed: u32) -> Vec<Vec<f64>> {
     (0..base).flat_map(block).collect()
 }
 
-/// Points of a block of a [`design`].
+/// Number of points in a block of a [`design`].
 pub fn block_len(dimensions: usize) -> usize {
     dimensions + 2
 }
@@ -33,9 +33,9 @@ pub fn block_len(dimensions: usize) -> usize {
 /// A number with its standard error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Estimate {
-    /// The number.
+    /// Estimate itself.
     pub value: f64,
-    /// Its standard error.
+    /// Standard error of the estimate.
     pub standard_error: f64,
 }
 
@@ -44,29 +44,29 @@ pub struct Estimate {
 pub struct Indices {
     /// Share of the variance that would be gone, on average, if the input were known: V(E(f|xᵢ))/V.
     pub first_order: Estimate,
-    /// Share that would be left, on average, if all others were known: E(V(f|x₋ᵢ))/V.
+    /// Share of the variance that would be left, on average, if all other inputs were known: E(V(f|x₋ᵢ))/V.
     pub total: Estimate,
 }
 
 /// Mean, variance and indices of what was computed on a [`design`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct Decomposition {
-    /// Mean.
+    /// Mean of the values.
     pub mean: f64,
-    /// Variance.
+    /// Variance of the values.
     pub variance: f64,
-    /// One per input.
+    /// Indices of every input.
     pub inputs: Vec<Indices>,
-    /// Blocks that count.
+    /// Number of blocks that count.
     pub blocks: usize,
 }
 
-/// Sums of what one block adds: enough for all estimates, and to leave a block out again.
+/// Sums over blocks: enough for all estimates, and to leave a block out again.
 #[derive(Debug, Clone)]
 struct Sums {
     values: f64,
     squares: f64,
-    /// Per input: f(B)·(f(ABᵢ) − f(A)), and (f(A) − f(ABᵢ))²/2.
+    /// Products per input: f(B)·(f(ABᵢ) − f(A)), and (f(A) − f(ABᵢ))²/2.
     products: Vec<(f64, f64)>,
 }
 
@@ -90,7 +90,7 @@ impl Sums {
         }
     }
 
-    /// Variance, then first-order and total index per input, of so many blocks.
+    /// Variance, then first-order and total index per input, of `blocks` blocks.
     fn indices(&self, blocks: f64) -> (f64, Vec<(f64, f64)>) {
         let mean = self.values / (2.0 * blocks);
         let variance = self.squares / (2.0 * blocks) - mean * mean;
@@ -151,7 +151,7 @@ mod tests {
         decompose(&values, dimensions).unwrap()
     }
 
-    /// Ishigami and Homma (1990): sin x₁ + 7 sin² x₂ + 0.1 x₃⁴ sin x₁ over (−π, π)³.
+    /// Test function of Ishigami and Homma (1990): sin x₁ + 7 sin² x₂ + 0.1 x₃⁴ sin x₁ over (−π, π)³.
     fn ishigami(u: &[f64]) -> f64 {
         let [x, y, z] = [u[0], u[1], u[2]].map(|u| PI * (2.0 * u - 1.0));
         x.sin() + 7.0 * y.sin().powi(2) + 0.1 * z.powi(4) * x.sin()
@@ -203,8 +203,8 @@ mod tests {
         }
     }
 
-    /// With independent blocks the jackknife must be what it says: the true index is within so many standard errors as often as of a
-    /// normal distribution. Sobol points of different seeds, of each its first block alone, are independent.
+    /// Standard errors of the jackknife over independent blocks: the true index is within so many of them as often as of a normal
+    /// distribution. Sobol points of different seeds, of each its first block alone, are independent.
     #[test]
     fn standard_errors_are_honest() {
         let (blocks, trials) = (200, 150);

@@ -18,7 +18,7 @@ use faer::{Conj, MatMut, Par, Side};
 
 use super::nested_dissection::nested_dissection;
 
-/// The matrix is not positive definite.
+/// Error: the matrix is not positive definite.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("the matrix is not positive definite")]
 pub struct NotPositiveDefinite;
@@ -26,9 +26,9 @@ pub struct NotPositiveDefinite;
 /// Fill-reducing order and symbolic factor of one sparsity pattern, reused for every matrix with that pattern.
 #[derive(Debug)]
 pub struct SymbolicFactor {
-    /// `forward[new] = old`.
+    /// Order of elimination: `forward[new] = old`.
     forward: Vec<usize>,
-    /// `inverse[old] = new`.
+    /// Inverse of the order: `inverse[old] = new`.
     inverse: Vec<usize>,
     symbolic: SymbolicCholesky<usize>,
 }
@@ -57,12 +57,12 @@ impl SymbolicFactor {
         Self { forward, inverse, symbolic }
     }
 
-    /// Rows and columns of the matrices this factor is for.
+    /// Number of rows and columns of the matrices this factor is for.
     pub fn size(&self) -> usize {
         self.forward.len()
     }
 
-    /// P A Pᵀ: `a` (same size, any pattern) with rows and columns in elimination order.
+    /// Permutes to P A Pᵀ: `a` (same size, any pattern) with rows and columns in elimination order.
     pub fn permute<T: ComplexField>(&self, a: &SparseColMat<usize, T>) -> SparseColMat<usize, T> {
         let n = self.size();
         let triplets: Vec<_> = a
@@ -80,7 +80,7 @@ impl SymbolicFactor {
     }
 }
 
-/// The numeric factor L of one matrix.
+/// Numeric factor L of one matrix.
 #[derive(Debug)]
 pub struct SparseCholesky<'s, T> {
     symbolic: &'s SymbolicFactor,
@@ -116,7 +116,7 @@ impl<'s, T: ComplexField> SparseCholesky<'s, T> {
         self.symbolic
     }
 
-    /// x ← A⁻¹ x for every column of `x`, in the matrix's own row order.
+    /// Solves x ← A⁻¹ x for every column of `x`, in the matrix's own row order.
     pub fn solve_in_place(&self, x: MatMut<'_, T>) {
         let mut permuted = self.gather(x.as_ref());
         self.lower_solve_in_place(permuted.as_mut());
@@ -124,24 +124,24 @@ impl<'s, T: ComplexField> SparseCholesky<'s, T> {
         self.scatter(permuted.as_ref(), x);
     }
 
-    /// y ← L⁻¹ y, rows in elimination order.
+    /// Solves y ← L⁻¹ y, rows in elimination order.
     pub fn lower_solve_in_place(&self, y: MatMut<'_, T>) {
         let mut scratch = self.scratch(y.ncols());
         self.factor().l_solve_with_conj(Conj::No, y, Par::Seq, MemStack::new(&mut scratch));
     }
 
-    /// y ← L⁻ᴴ y, rows in elimination order.
+    /// Solves y ← L⁻ᴴ y, rows in elimination order.
     pub fn lower_adjoint_solve_in_place(&self, y: MatMut<'_, T>) {
         let mut scratch = self.scratch(y.ncols());
         self.factor().l_transpose_solve_with_conj(Conj::Yes, y, Par::Seq, MemStack::new(&mut scratch));
     }
 
-    /// Rows of `x` into elimination order.
+    /// Brings rows of `x` into elimination order.
     fn gather(&self, x: faer::MatRef<'_, T>) -> faer::Mat<T> {
         faer::Mat::from_fn(x.nrows(), x.ncols(), |new, j| x[(self.symbolic.forward[new], j)].clone())
     }
 
-    /// Rows of `y` from elimination order back into the matrix's own.
+    /// Brings rows of `y` from elimination order back into the matrix's own.
     pub fn scatter(&self, y: faer::MatRef<'_, T>, mut x: MatMut<'_, T>) {
         for j in 0..y.ncols() {
             for (new, &old) in self.symbolic.forward.iter().enumerate() {

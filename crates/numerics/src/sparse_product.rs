@@ -5,7 +5,7 @@ use pulp::{Simd, WithSimd};
 
 use super::panel::Panel;
 
-/// xᵀ A for a sparse A (`n × n`) and every vector of `x`: A x where A is symmetric, −A x where it is skew-symmetric.
+/// Product xᵀ A for a sparse A (`n × n`) and every vector of `x`: A x where A is symmetric, −A x where it is skew-symmetric.
 ///
 /// Every entry of A is read once per group of vectors and meets contiguous memory (some ten times faster than a product
 /// column by column on the matrices of a sector).
@@ -62,8 +62,8 @@ impl WithSimd for Product<'_> {
     }
 }
 
-/// Σ_i a_i x_i over `C` columns of A with entries in the same `rows`, as those of a node have, for `G` registers: `N` = `C` `G` sums, all
-/// in registers.
+/// Sums Σ_i a_i x_i over `C` columns of A with entries in the same `rows`, as those of a node have, for `G` registers: `N` = `C` `G` sums,
+/// all in registers.
 #[inline(always)]
 fn columns<S: Simd, const G: usize, const C: usize, const N: usize>(
     simd: S,

@@ -7,7 +7,7 @@ use rustfft::num_complex::Complex;
 use rustfft::{Fft, FftPlanner};
 
 thread_local! {
-    /// The last plan: making one takes longer than using it, and the windows of a run are equally long.
+    /// Last plan, reused: making one takes longer than using it, and the windows of a run are equally long.
     static PLAN: RefCell<Option<Arc<dyn Fft<f64>>>> = const { RefCell::new(None) };
 }
 

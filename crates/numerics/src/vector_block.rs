@@ -4,8 +4,7 @@ use faer::{Mat, MatMut, MatRef, c64};
 
 use super::panel::Panel;
 
-/// Some complex vectors as a panel of real ones, real parts before imaginary parts; vectors known to be real have no
-/// imaginary parts.
+/// Several complex vectors as a panel of real ones, real parts before imaginary parts; vectors known to be real have no imaginary parts.
 #[derive(Debug, Clone)]
 pub struct VectorBlock {
     count: usize,
@@ -14,12 +13,12 @@ pub struct VectorBlock {
 }
 
 impl VectorBlock {
-    /// `count` vectors of `size` zeros.
+    /// Block of `count` vectors of `size` zeros.
     pub fn zeros(count: usize, size: usize, real: bool) -> Self {
         Self { count, real, panel: Panel::zeros(if real { count } else { 2 * count }, size) }
     }
 
-    /// The columns of `vectors`; their real parts where they are known to be `real`.
+    /// Block of the columns of `vectors`; of their real parts where they are known to be `real`.
     pub fn of(vectors: MatRef<'_, c64>, real: bool) -> Self {
         let mut block = Self::zeros(vectors.ncols(), vectors.nrows(), real);
         for row in 0..vectors.nrows() {
@@ -30,27 +29,27 @@ impl VectorBlock {
         block
     }
 
-    /// Vectors.
+    /// Number of vectors.
     pub fn count(&self) -> usize {
         self.count
     }
 
-    /// Unknowns.
+    /// Number of unknowns.
     pub fn size(&self) -> usize {
         self.panel.size()
     }
 
-    /// Whether they are known to be real.
+    /// Whether the vectors are known to be real.
     pub fn is_real(&self) -> bool {
         self.real
     }
 
-    /// Their parts.
+    /// Real and imaginary parts of the vectors.
     pub fn parts(&self) -> &Panel {
         &self.panel
     }
 
-    /// Their parts.
+    /// Real and imaginary parts of the vectors, to be changed.
     pub fn parts_mut(&mut self) -> &mut Panel {
         &mut self.panel
     }
@@ -90,7 +89,7 @@ impl VectorBlock {
         }
     }
 
-    /// Xᴴ Y for the vectors X of all `blocks` and these Y.
+    /// Products Xᴴ Y for the vectors X of all `blocks` and Y of this one.
     pub fn products(&self, blocks: &[Self]) -> Mat<c64> {
         let panels: Vec<&Panel> = blocks.iter().map(|block| &block.panel).collect();
         let mut products = Mat::zeros(blocks.iter().map(|block| block.count).sum(), self.count);
@@ -117,7 +116,7 @@ impl VectorBlock {
         products
     }
 
-    /// Y ← Y + X C for the vectors X of all `blocks`, all real or none, as these Y are.
+    /// Adds Y ← Y + X C for the vectors X of all `blocks`, all real or none, as the vectors Y of this one are.
     pub fn add(&mut self, blocks: &[Self], coefficients: MatRef<'_, c64>) {
         debug_assert!(blocks.iter().all(|block| block.real == self.real));
         let room = self.panel.room();

@@ -1,11 +1,11 @@
-//! Axes: from values to places, and where to put ticks.
+//! Axes: scales from values to positions in the drawing, and their ticks.
 
-/// A linear or logarithmic map from values to places.
+/// Linear or logarithmic map from values to positions in the drawing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Scale {
     /// Values at the two ends.
     pub(super) values: (f64, f64),
-    /// Places of the two ends.
+    /// Positions of the two ends in the drawing.
     places: (f64, f64),
     logarithmic: bool,
 }
@@ -15,12 +15,12 @@ impl Scale {
         Self { values, places, logarithmic: false }
     }
 
-    /// Both values must be positive.
+    /// Builds a logarithmic scale; both values must be positive.
     pub(super) fn logarithmic(values: (f64, f64), places: (f64, f64)) -> Self {
         Self { values, places, logarithmic: true }
     }
 
-    /// Where a value lies between the ends: 0 at the first, 1 at the second.
+    /// Relative position of a value between the ends: 0 at the first, 1 at the second.
     pub(super) fn share(&self, value: f64) -> f64 {
         let (low, high) = self.values;
         if self.logarithmic { (value / low).ln() / (high / low).ln() } else { (value - low) / (high - low) }
@@ -30,7 +30,7 @@ impl Scale {
         self.places.0 + self.share(value) * (self.places.1 - self.places.0)
     }
 
-    /// The value at a place of a linear scale.
+    /// Value at a position on a linear scale.
     pub(super) fn value(&self, place: f64) -> f64 {
         let share = (place - self.places.0) / (self.places.1 - self.places.0);
         self.values.0 + share * (self.values.1 - self.values.0)
@@ -69,7 +69,7 @@ pub(super) fn logarithmic_ticks((low, high): (f64, f64)) -> Vec<(f64, String)> {
         .collect()
 }
 
-/// [`logarithmic_ticks`]; only the powers of ten where that makes more than `most`.
+/// Ticks as of [`logarithmic_ticks`], or at the powers of ten alone where those would be more than `most`.
 pub(super) fn decades(range: (f64, f64), most: usize) -> Vec<(f64, String)> {
     let mut ticks = logarithmic_ticks(range);
     if ticks.len() > most {
@@ -78,12 +78,12 @@ pub(super) fn decades(range: (f64, f64), most: usize) -> Vec<(f64, String)> {
     ticks
 }
 
-/// Eighths of a circle, in degrees.
+/// Ticks at the eighths of a circle, in degrees.
 pub(super) fn eighths() -> Vec<(f64, String)> {
     (0..=8).map(|i| (45.0 * f64::from(i), format!("{}°", 45 * i))).collect()
 }
 
-/// A number with commas between thousands.
+/// Formats a number with commas between thousands.
 pub(super) fn label(value: f64, decimals: usize) -> String {
     let text = format!("{:.decimals$}", value.abs());
     let (whole, rest) = text.split_once('.').map_or((text.as_str(), None), |(w, r)| (w, Some(r)));
@@ -104,7 +104,7 @@ pub(super) fn label(value: f64, decimals: usize) -> String {
     out
 }
 
-/// A value to three significant digits.
+/// Formats a value to three significant digits.
 pub(super) fn significant(value: f64) -> String {
     let power = value.abs().log10().floor();
     match power {

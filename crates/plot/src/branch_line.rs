@@ -1,24 +1,25 @@
-//! A branch as lines: of what kind they are, and where that changes.
+//! Lines of a branch: which stretches are stable, unstable or undecided, and where that changes.
 
 use rubmap_analysis::result::Stability;
 
-/// A place in the diagram, in the units of its axes.
+/// Position in the diagram, in the units of its axes.
 pub(super) type Place = (f64, f64);
 
-/// How much less of a detour a stretch must be on which nothing changes, to have a bifurcation on it.
+/// Penalty on stretches whose two ends have the same stability: a bifurcation lies on one only if its detour there is this many times
+/// smaller.
 const UNCHANGED: f64 = 10.0;
 
-/// Below this, of the size of a diagram, detours are alike.
+/// Detour, relative to the size of the diagram, below which detours count as equal.
 const NO_DETOUR: f64 = 1e-6;
 
-/// What is known of a response, the worse the later.
+/// Stability of a response as far as it is known, worst last.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Fate {
-    /// It lasts.
+    /// Stable response.
     Stable,
-    /// It does not.
+    /// Unstable response.
     Unstable,
-    /// It could not be told.
+    /// Response whose stability is undecided.
     Undecided,
 }
 
@@ -44,17 +45,17 @@ impl Fate {
     }
 }
 
-/// A line of one kind.
+/// Line of one stability.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Run {
     pub(super) fate: Fate,
-    /// Its corners, each with the index of its point; a bifurcation has none.
+    /// Corners of the line, each with the index of its point; a bifurcation has no index.
     pub(super) corners: Vec<(Place, Option<usize>)>,
 }
 
-/// The lines of a branch through its points, interrupted where one is missing. Each of the `bends` (bifurcations) lies between the two
-/// points that have the least detour over it, those first between which something changes; there the kind of the line changes. Where
-/// none explains a change, the stretch is of the worse kind. `scale`: width and height of the diagram, in its units.
+/// Lines of a branch through its points, interrupted where one is missing. Each of the `bends` (bifurcations) lies between the two points
+/// that have the least detour over it, preferably two of different stability; there the stability of the line changes. A stretch whose
+/// change no bifurcation explains takes the worse stability of its two ends. `scale`: width and height of the diagram, in its units.
 pub(super) fn runs(points: &[Option<(Place, Fate)>], bends: &[Place], scale: (f64, f64)) -> Vec<Run> {
     let stretches = || points.windows(2).enumerate().filter_map(|(k, pair)| Some((k, pair[0]?, pair[1]?)));
     let distance = |a: Place, b: Place| f64::hypot((a.0 - b.0) / scale.0, (a.1 - b.1) / scale.1);
@@ -93,13 +94,13 @@ pub(super) fn runs(points: &[Option<(Place, Fate)>], bends: &[Place], scale: (f6
     runs
 }
 
-/// Goes on to a corner, by another line if it is to be of another kind.
+/// Continues to a corner, on a new line if the stability differs.
 fn extend(runs: &mut Vec<Run>, fate: Fate, corner: (Place, Option<usize>)) {
     let Some(last) = runs.last_mut() else { return };
     if last.fate == fate {
         last.corners.push(corner);
     } else if let [alone] = last.corners[..] {
-        // A line of its own would have no length.
+        // A line with one corner would have no length.
         *last = Run { fate, corners: vec![alone, corner] };
     } else {
         let from = last.corners[last.corners.len() - 1];
@@ -134,11 +135,11 @@ mod tests {
                 (Unstable, vec![(1.25, 0.225), (2.0, 0.3), (3.0, 0.4)])
             ]
         );
-        // What is not explained is not called stable.
+        // A change without a bifurcation is not drawn as stable.
         assert_eq!(drawn(&points, &[])[0].1, [(0.0, 0.1), (1.0, 0.2)]);
     }
 
-    /// The branch turns back beyond all of its points, after the one of the largest value.
+    /// Branch that turns back beyond all of its points, after the one of largest value.
     #[test]
     fn a_fold_lies_beyond_the_points_beside_it() {
         let points = [(1.0, 0.1, Stable), (2.0, 0.2, Stable), (2.4, 0.3, Stable), (2.2, 0.4, Unstable)];

@@ -1,4 +1,4 @@
-//! Branches of periodic responses: amplitude over what changes along them, with what happens on the way.
+//! Branches of periodic responses: amplitude over the continuation parameter, with bifurcations, maxima and ends.
 
 use super::axis::{label, significant, ticks};
 use super::branch_line::{Fate, Place, Run, runs};
@@ -20,19 +20,21 @@ const WIDTH: f64 = 1180.0;
 const LEFT: f64 = 92.0;
 const SIZE: (f64, f64) = (800.0, 560.0);
 
-/// Points of all branches together beyond which those that cannot be told apart are left out.
+/// Number of points of all branches together beyond which indistinguishable ones are left out.
 const MANY: usize = 4_000;
 
-/// How near, of the size of the diagram, points cannot be told apart.
+/// Distance, relative to the size of the diagram, below which points are indistinguishable.
 const NEAR: f64 = 5e-4;
 
-/// Said where there is no point.
+/// Message where there is no point.
 pub(super) const NONE: &str = "no point of a branch can be drawn";
 
-/// What changes along the branches is drawn over at least this part of what was asked for, as long as they are being followed.
+/// Least part of the requested range that branches must cover for the whole range to be drawn; branches still being followed always show
+/// it.
 const LEAST_PART: f64 = 0.3;
 
-/// Draws the amplitude of a sensor along branches, stable and unstable, with bifurcations and maxima; `marched`: speeds of a sweep, as dots.
+/// Draws the amplitude of a sensor along branches, stable and unstable, with bifurcations and maxima; `marched`: speeds of a sweep, as
+/// dots.
 pub fn branches(branches: &Branches, sensor: usize, marched: &[Point]) -> String {
     let title = title(branches, sensor);
     let (heading, bottom) = heading::heading(LEFT, &title, &words(branches));
@@ -42,7 +44,7 @@ pub fn branches(branches: &Branches, sensor: usize, marched: &[Point]) -> String
     document(&title, WIDTH, view.diagram.bottom() + 64.0, content)
 }
 
-/// What the branches are of.
+/// Title: the parameter of the branches and the sensor.
 pub(super) fn title(branches: &Branches, sensor: usize) -> String {
     let over = match branches.head.parameter {
         BranchParameter::Speed => "speed",
@@ -56,7 +58,7 @@ pub(super) fn title(branches: &Branches, sensor: usize) -> String {
     }
 }
 
-/// What stands below the title.
+/// Paragraphs below the title: numbers of points, branches and bifurcations, and how branches end.
 pub(super) fn words(branches: &Branches) -> Vec<String> {
     let head = &branches.head;
     let counted =
@@ -78,7 +80,7 @@ pub(super) fn words(branches: &Branches) -> Vec<String> {
     [words.join(" · ")].into_iter().chain((!ends.is_empty()).then_some(ends)).collect()
 }
 
-/// Why branches end, in words.
+/// Reasons why branches end, in words.
 fn ends(branches: &Branches) -> String {
     let mut words = Vec::new();
     if !branches.complete {
@@ -101,22 +103,22 @@ fn ends(branches: &Branches) -> String {
     words.join(" · ")
 }
 
-/// What changes, as it is drawn.
+/// Continuation parameter of the branches, in the unit in which it is drawn.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Over(BranchParameter);
 
 impl Over {
-    /// Of these branches.
+    /// Reads the continuation parameter of branches.
     pub(super) fn of(branches: &Branches) -> Self {
         Self(branches.head.parameter)
     }
 
-    /// A value, or how far off one may be, in the unit of the axis.
+    /// Converts a value, or the error of one, to the unit of the axis.
     pub(super) fn drawn(self, value: f64) -> f64 {
         if self.0 == BranchParameter::Speed { rpm(value) } else { value }
     }
 
-    /// Title of the axis.
+    /// Title of the parameter axis.
     pub(super) fn axis(self) -> &'static str {
         match self.0 {
             BranchParameter::Speed => "rotational speed Ω, rpm",
@@ -126,12 +128,12 @@ impl Over {
         }
     }
 
-    /// Unit of the axis.
+    /// Unit of the parameter axis.
     pub(super) fn unit(self) -> &'static str {
         if self.0 == BranchParameter::Speed { "rpm" } else { "1" }
     }
 
-    /// A value in words.
+    /// Words for a value of the parameter.
     fn words(self, value: f64) -> String {
         let drawn = self.drawn(value);
         match self.0 {
@@ -140,7 +142,7 @@ impl Over {
         }
     }
 
-    /// A value with how far off it may be.
+    /// Words for a value of the parameter with its error bound.
     fn known(self, value: f64, error: f64) -> String {
         let (drawn, error) = (self.drawn(value), self.drawn(error).abs());
         let (before, after) = if self.0 == BranchParameter::Speed { ("", " rpm") } else { ("× ", "") };
@@ -153,7 +155,7 @@ impl Over {
     }
 }
 
-/// A branch as it is drawn.
+/// Branch as it is drawn.
 #[derive(Debug)]
 pub(super) struct Curve<'a> {
     pub(super) branch: &'a BranchTrack,
@@ -167,7 +169,7 @@ impl Curve<'_> {
     }
 }
 
-/// Colour of a branch: that of the first is nobody else's.
+/// Colour of a branch; no other branch has that of the first.
 fn colour(branch: &BranchTrack) -> &'static str {
     match branch.track.branch as usize {
         0 => DISTINCT[0],
@@ -175,7 +177,7 @@ fn colour(branch: &BranchTrack) -> &'static str {
     }
 }
 
-/// What is marked on a branch.
+/// Mark on a branch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Mark {
     Bifurcation(BifurcationKind),
@@ -194,7 +196,7 @@ impl Mark {
         Self::End,
     ];
 
-    /// What it is called.
+    /// Name of the mark.
     pub(super) fn words(self) -> &'static str {
         match self {
             Self::Bifurcation(BifurcationKind::Fold) => "fold",
@@ -206,7 +208,7 @@ impl Mark {
         }
     }
 
-    /// The same with what it means.
+    /// Name of the mark with its meaning, for the key.
     fn meaning(self) -> &'static str {
         match self {
             Self::Bifurcation(BifurcationKind::Fold) => "fold: it turns back",
@@ -243,7 +245,7 @@ impl Mark {
     }
 }
 
-/// A mark with its place and its words.
+/// Mark with its position and its words.
 #[derive(Debug)]
 pub(super) struct Marked {
     pub(super) mark: Mark,
@@ -253,7 +255,7 @@ pub(super) struct Marked {
     label: Option<String>,
 }
 
-/// What is seen of branches.
+/// Branches at one sensor, as the drawing shows them.
 pub(super) struct View<'a> {
     pub(super) branches: &'a Branches,
     pub(super) sensor: Option<&'a Sensor>,
@@ -267,7 +269,7 @@ pub(super) struct View<'a> {
 }
 
 impl<'a> View<'a> {
-    /// Whose frame begins at the height `top`.
+    /// Lays out the branches in a frame that begins at the height `top`.
     pub(super) fn new(branches: &'a Branches, index: usize, marched: &[Point], top: f64) -> Self {
         let sensor = branches.head.sensors.get(index);
         let unit = sensor.map_or("", |sensor| sensor.unit(&branches.head.units));
@@ -285,12 +287,12 @@ impl<'a> View<'a> {
         view
     }
 
-    /// Whether there is nothing to draw.
+    /// Whether there is no line to draw.
     pub(super) fn is_empty(&self) -> bool {
         self.curves.iter().all(|curve| curve.runs.is_empty())
     }
 
-    /// Where a response is, if it is anywhere.
+    /// Position of a response, if both its values are finite.
     fn place(&self, value: f64, half_peak_to_peak: &[f64]) -> Option<Place> {
         let place = (self.over.drawn(value), *half_peak_to_peak.get(self.index)?);
         (place.0.is_finite() && place.1.is_finite()).then_some(place)
@@ -304,7 +306,7 @@ impl<'a> View<'a> {
         })
     }
 
-    /// What was asked for; of branches that are complete and only a part of it, that part.
+    /// Range of the parameter axis: the requested one, or that of the points where complete branches cover little of it.
     fn range(&self) -> (f64, f64) {
         let along = self.branches.head.settings.along;
         let asked = (self.over.drawn(along.from), self.over.drawn(along.to));
@@ -318,7 +320,7 @@ impl<'a> View<'a> {
         (low - room, high + room)
     }
 
-    /// From none, unless all amplitudes are much alike.
+    /// Range of the amplitude axis: from 0, unless all amplitudes are nearly equal.
     fn heights(&self) -> (f64, f64) {
         let maxima = self.maxima().filter_map(|(_, one)| self.maximum(one)).map(|place| place.1);
         let dots = self.dots.iter().map(|dot| dot.place.1);
@@ -328,7 +330,7 @@ impl<'a> View<'a> {
                 let room = (0.12 * (high - low)).max(1e-3 * high);
                 (low - room, high + room)
             }
-            // Above the highest there is a label.
+            // Room for the label above the highest mark.
             true => (0.0, 1.1 * high),
             false => (0.0, 1.0),
         }
@@ -371,7 +373,7 @@ impl<'a> View<'a> {
         self.branches.branches.iter().map(curve).collect()
     }
 
-    /// A branch in words.
+    /// Words for a branch.
     fn name(&self, branch: &BranchTrack) -> String {
         let track = &branch.track;
         let mut words = format!("branch {}", track.branch + 1);
@@ -384,7 +386,7 @@ impl<'a> View<'a> {
         words
     }
 
-    /// A point in words.
+    /// Words for a point.
     pub(super) fn point_words(&self, branch: &BranchTrack, point: &BranchPoint) -> String {
         let amplitude = point.half_peak_to_peak.get(self.index).copied().unwrap_or(f64::NAN);
         let leading = point.multipliers.first();
@@ -436,7 +438,7 @@ impl<'a> View<'a> {
         self.branches.branches.iter().flat_map(of).chain(maxima).collect()
     }
 
-    /// A bifurcation in words.
+    /// Words for a bifurcation.
     pub(super) fn bifurcation_words(&self, found: &Bifurcation) -> String {
         let mark = Mark::Bifurcation(found.kind);
         let mut words = format!("{} at {}", mark.meaning(), self.over.known(found.value, found.error));
@@ -452,11 +454,11 @@ impl<'a> View<'a> {
         words
     }
 
-    /// Where a branch is not followed to the end of the range.
+    /// Marks at the ends of a branch that stops within the range.
     fn ended(&self, branch: &'a BranchTrack) -> Vec<Marked> {
         let points = &branch.points;
         let (Some(first), Some(last)) = (points.first(), points.last()) else { return Vec::new() };
-        // One that ends once begins elsewhere: where it was sought, or at the end of the range.
+        // A branch with one end begins elsewhere: at its starting point, or at the end of the range.
         let along = self.branches.head.settings.along;
         let at: &[&BranchPoint] = match branch.ends.len() {
             1 if branch.track.branch == 0 && last.value == along.to => &[first],
@@ -488,7 +490,7 @@ impl<'a> View<'a> {
             let place = diagram.inside(dot.place.0, dot.place.1)?;
             Some(marched::mark(place, dot.settled).title(&dot.title))
         }));
-        // The first branch lies over those that leave it.
+        // The first branch lies over those that start from it.
         content.extend(self.curves.iter().rev().map(|curve| self.curve(curve)));
         content.push(self.marks());
         let nothing = if self.sensor.is_none() { "there is no such sensor" } else { NONE };
@@ -500,7 +502,7 @@ impl<'a> View<'a> {
         content
     }
 
-    /// Title of the axis upwards.
+    /// Title of the amplitude axis.
     pub(super) fn height(&self) -> String {
         match self.unit {
             "" => "half peak to peak".to_owned(),
@@ -521,7 +523,7 @@ impl<'a> View<'a> {
         group().set("class", "branch").children(drawn).title(&curve.name)
     }
 
-    /// Places of the drawing close together along all lines.
+    /// Positions in the drawing, close together, along all lines.
     fn traced(&self) -> Vec<Place> {
         let runs = self.curves.iter().flat_map(|curve| &curve.runs);
         let lines = runs.map(|run| run.corners.iter().map(|((x, y), _)| self.diagram.point(*x, *y)));
@@ -554,7 +556,7 @@ impl<'a> View<'a> {
     }
 
     fn key(&self) -> Element {
-        /// More branches than this are named under the pointer only.
+        /// Largest number of branches that the key names; more are named under the pointer only.
         const MOST: usize = 10;
         let middle = (0.5 * MARK_WIDTH, 0.0);
         let mut key = Key::new(self.diagram.right() + 24.0, self.diagram.top + 8.0);
@@ -596,7 +598,7 @@ fn bounds(values: impl Iterator<Item = f64>) -> (f64, f64) {
     values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)))
 }
 
-/// Leaves out corners that cannot be told apart from the one before; the ends stay.
+/// Leaves out corners that are indistinguishable from the one before; the ends stay.
 fn thin(corners: &mut Vec<(Place, Option<usize>)>, scale: (f64, f64)) {
     let Some((&last, before)) = corners.split_last() else { return };
     let mut kept: Vec<(Place, Option<usize>)> = Vec::new();
@@ -629,7 +631,7 @@ fn pen(stroke: Element, branch: &BranchTrack, fate: Fate) -> Element {
     }
 }
 
-/// Stability in words.
+/// Words for a stability.
 pub(super) fn stability(stability: Stability) -> &'static str {
     match stability {
         Stability::Stable => "stable",

@@ -1,4 +1,4 @@
-//! A campaign: severity over speed and a parameter, and what its variance comes from.
+//! Campaign: severity over speed and a parameter, and the sensitivities of its variance to the parameters.
 
 use super::axis::{Scale, significant, ticks};
 use super::cells::{cells, extent};
@@ -16,14 +16,14 @@ const PLOT_WIDTH: f64 = 920.0;
 const MAP_HEIGHT: f64 = 420.0;
 const BAR_HEIGHT: f64 = 34.0;
 
-/// Colours of what a parameter accounts for alone, and with others.
+/// Colour of the share of variance that a parameter accounts for alone; `WITH_OTHERS`: together with others.
 const ALONE: &str = "#1f4e79";
 const WITH_OTHERS: &str = "#9db8d2";
 
-/// Most parameters whose sensitivities are drawn: those that account for most.
+/// Largest number of parameters whose sensitivities are drawn: those that account for most.
 const MOST_BARS: usize = 20;
 
-/// A value of the parameter and the stretch of its axis that it stands for.
+/// Value of the parameter and the stretch of its axis that it covers.
 pub(super) struct Row {
     pub(super) value: f64,
     from: f64,
@@ -98,12 +98,12 @@ pub fn campaign(campaign: &Campaign, parameter: usize) -> String {
     document(&title, WIDTH, height, content)
 }
 
-/// What the map is of.
+/// Title: the severity and the parameter.
 pub(super) fn title(campaign: &Campaign, parameter: usize) -> String {
     format!("Campaign: {} over speed and {}", severity_words(campaign), name(campaign, parameter))
 }
 
-/// What stands below the title.
+/// Paragraphs below the title: designs, simulations, and the messages of threshold and comparison.
 pub(super) fn words(campaign: &Campaign, parameter: usize) -> Vec<String> {
     let outcomes = campaign.designs.iter().map(|design| &design.outcome).chain(campaign.compared());
     let finished: u32 = outcomes.clone().map(|outcome| outcome.finished).sum();
@@ -134,21 +134,21 @@ fn severity_words(campaign: &Campaign) -> &'static str {
     }
 }
 
-/// What the bar of colours says.
+/// Title of the colour bar: the severity with its unit.
 pub(super) fn short(campaign: &Campaign) -> String {
     let unit = severity_unit(campaign.settings.severity, &campaign.units);
     let words = campaign.settings.severity.as_str().replace('_', " ");
     if unit.is_empty() { words } else { format!("{words}, {unit}") }
 }
 
-/// The most severe of all; 1 where nothing is known.
+/// Largest severity of all designs and speeds; 1 where none is known.
 pub(super) fn loudest(campaign: &Campaign) -> f64 {
     let all = campaign.designs.iter().flat_map(|design| design.outcome.by_speed.iter().flatten());
     let loudest = all.copied().filter(|severity| severity.is_finite()).fold(0.0, f64::max);
     if loudest > 0.0 { loudest } else { 1.0 }
 }
 
-/// Where the limit is met, if this is the parameter asked about: the value, then the ends of its interval.
+/// Value of the parameter at which the limit is met, then the ends of its interval; none if another parameter was asked about.
 pub(super) fn met(campaign: &Campaign, parameter: usize) -> Option<(f64, [Option<f64>; 2])> {
     let threshold = campaign.threshold.as_ref()?;
     (threshold.parameter == name(campaign, parameter))
@@ -175,7 +175,7 @@ fn threshold(campaign: &Campaign, parameter: usize, diagram: &Diagram) -> Option
     Some(group().children(value).children(ends))
 }
 
-/// Those that are drawn, the one that accounts for most first.
+/// Sensitivities that are drawn, largest total first.
 pub(super) fn shown(campaign: &Campaign) -> Vec<&ParameterSensitivity> {
     let all = campaign.sensitivities.as_ref().map(|sensitivities| sensitivities.parameters.as_slice());
     let mut all: Vec<&ParameterSensitivity> = all.unwrap_or_default().iter().collect();
@@ -184,7 +184,7 @@ pub(super) fn shown(campaign: &Campaign) -> Vec<&ParameterSensitivity> {
     all
 }
 
-/// A sensitivity in words.
+/// Words for a sensitivity.
 pub(super) fn told(of: &ParameterSensitivity) -> String {
     format!(
         "{}: alone {} ± {}, with others {} ± {}",

@@ -1,4 +1,4 @@
-//! How the model that is compared differs, over speed: mean differences of the severity with their intervals.
+//! Differences of the compared model from the first one over speed: mean differences of severity with their intervals.
 
 use super::axis::{significant, ticks};
 use super::cells::rpm;
@@ -17,18 +17,18 @@ pub(super) const VERDICTS: [(DifferenceVerdict, &str, &str); 3] = [
     (DifferenceVerdict::Undecided, "no larger than its errors", "#808080"),
 ];
 
-/// Differences by speed in rpm, where there are any.
+/// Known differences, each with its speed in rpm.
 pub(super) fn known(comparison: &Comparison, speeds_rad_s: &[f64]) -> Vec<(f64, Difference)> {
     let speeds = speeds_rad_s.iter().zip(&comparison.by_speed);
     speeds.filter_map(|(speed, difference)| Some((rpm(*speed), (*difference)?))).collect()
 }
 
-/// Where a difference is open: its interval, or no more than its mean.
+/// Ends of a difference: its interval, or its mean where no interval is known.
 pub(super) fn ends(of: &Difference) -> (f64, f64) {
     (of.from.unwrap_or(of.mean), of.to.unwrap_or(of.mean))
 }
 
-/// A difference in words.
+/// Words for a difference.
 pub(super) fn told(speed_rpm: f64, of: &Difference) -> String {
     let between = match (of.from, of.to) {
         (Some(from), Some(to)) => format!(", between {} and {}", significant(from), significant(to)),
@@ -37,7 +37,7 @@ pub(super) fn told(speed_rpm: f64, of: &Difference) -> String {
     format!("{} rpm: {}{between}, {} pairs", significant(speed_rpm), significant(of.mean), of.pairs)
 }
 
-/// A diagram of the differences from `top` on, at the places `x` of the map above, and where it ends; nothing where nothing is compared.
+/// Diagram of the differences from `top` on, with the speeds `x` of the map above, and where it ends; nothing where nothing is compared.
 pub(super) fn panel(
     of: &Campaign,
     (left, width, right): (f64, f64, f64),

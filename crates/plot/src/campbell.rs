@@ -1,4 +1,4 @@
-//! The Campbell diagram in the rotating frame.
+//! Campbell diagram in the rotating frame.
 
 use super::axis::ticks;
 use super::cells::{range, rpm};
@@ -15,10 +15,10 @@ const HEIGHT: f64 = 760.0;
 const CORNER: (f64, f64) = (84.0, 86.0);
 const SIZE: (f64, f64) = (820.0, 606.0);
 
-/// Engine orders beyond this crowd the corner of slow speeds; their rays and what they drive are left out.
+/// Highest engine order that is drawn: higher ones crowd the corner of slow speeds, so their rays and driven crossings are left out.
 pub(super) const HIGHEST_ORDER: u32 = 30;
 
-/// Line styles of the families; those beyond look like the last.
+/// Line styles of the families; further families look like the last.
 const DASHES: [&str; 4] = ["", "9 4", "2 3", "9 3 2 3"];
 
 /// Draws natural frequencies over speed with engine orders and both kinds of crossings.
@@ -40,7 +40,7 @@ pub fn campbell(campbell: &Campbell) -> String {
     document("Campbell diagram", WIDTH, HEIGHT, content)
 }
 
-/// The empty diagram.
+/// Empty Campbell diagram, with axes that hold all speeds and frequencies.
 pub(super) fn diagram(campbell: &Campbell) -> Diagram {
     let branches = campbell.branches();
     let frequencies = branches.iter().flat_map(|(_, table)| table.iter().flatten().flatten()).copied();
@@ -56,24 +56,24 @@ pub(super) fn counts(campbell: &Campbell) -> (usize, usize) {
     (first.map_or(0, Vec::len), families.unwrap_or(0))
 }
 
-/// The frequency of a mode over speed.
+/// Natural frequency of a mode over speed.
 pub(super) struct Curve {
     pub(super) nodal_diameter: usize,
-    /// From 0.
+    /// Index of the family, from 0.
     pub(super) family: usize,
     pub(super) wave: Option<Wave>,
-    /// rpm and Hz at each speed.
+    /// Speed in rpm and frequency in Hz at each speed.
     pub(super) places: Vec<Option<(f64, f64)>>,
 }
 
 impl Curve {
-    /// The mode in words.
+    /// Words for the mode.
     pub(super) fn words(&self) -> String {
         marks::mode(self.nodal_diameter as u32, self.family as u32 + 1, self.wave)
     }
 }
 
-/// All curves of a diagram.
+/// Natural frequencies of all modes over speed.
 pub(super) fn curves(campbell: &Campbell) -> Vec<Curve> {
     let (harmonics, families) = counts(campbell);
     let mut curves = Vec::new();
@@ -106,25 +106,25 @@ fn stroke_width(wave: Option<Wave>) -> &'static str {
     if wave == Some(Wave::Forward) { "0.9" } else { "1.8" }
 }
 
-/// The highest engine order that has a ray: that of a crossing, unless it is beyond those drawn.
+/// Highest engine order that has a ray: that of the highest crossing, at most [`HIGHEST_ORDER`].
 fn drawn_orders(campbell: &Campbell) -> u32 {
     let driven = campbell.driven_crossings.iter().map(|crossing| crossing.engine_order);
     let linear = campbell.crossings.iter().map(|crossing| crossing.nodal_diameter * crossing.superharmonic);
     driven.chain(linear).max().unwrap_or(0).min(HIGHEST_ORDER)
 }
 
-/// A ray f = kΩ/2π within the diagram.
+/// Ray f = kΩ/2π of engine order k within the diagram.
 pub(super) struct Ray {
     pub(super) order: u32,
-    /// Whether the lobes excite it.
+    /// Whether the lobes excite the engine order.
     pub(super) excited: bool,
-    /// Whether there is room for its number, if they do.
+    /// Whether the ray has its number: the lobes excite it and there is room.
     pub(super) numbered: bool,
-    /// rpm and Hz where it begins and where it leaves.
+    /// Ends of the ray, where it enters and where it leaves the diagram, in rpm and Hz.
     pub(super) ends: [(f64, f64); 2],
 }
 
-/// Rays of every order that a crossing needs.
+/// Rays of all engine orders up to the highest one with a crossing.
 pub(super) fn rays(campbell: &Campbell, diagram: &Diagram) -> Vec<Ray> {
     let lobes = campbell.settings.lobes.max(1);
     let (slow, fast) = diagram.x.values;
@@ -143,7 +143,7 @@ pub(super) fn rays(campbell: &Campbell, diagram: &Diagram) -> Vec<Ray> {
     (1..=drawn_orders(campbell)).filter_map(ray).collect()
 }
 
-/// The same drawn, those of the lobes darker, labelled where they leave.
+/// Draws the rays of the engine orders: those that the lobes excite darker, with their numbers where they leave the diagram.
 fn engine_orders(campbell: &Campbell, diagram: &Diagram) -> Element {
     let mut rays = group();
     for Ray { order, excited, numbered, ends } in self::rays(campbell, diagram) {
@@ -154,7 +154,7 @@ fn engine_orders(campbell: &Campbell, diagram: &Diagram) -> Element {
             let (x, y, anchor) = if to.1 <= diagram.top + 0.5 {
                 (to.0, to.1 - 6.0, "middle")
             } else {
-                // Right of the frame are the numbers of the lines.
+                // The numbers of the natural frequencies are right of the frame.
                 (to.0 - 12.0, to.1 - 4.0, "end")
             };
             let label = text(x, y, anchor, &format!("{order}")).set("font-size", "11").set("fill", "#555555");
@@ -164,7 +164,7 @@ fn engine_orders(campbell: &Campbell, diagram: &Diagram) -> Element {
     rays
 }
 
-/// Nodal diameters at the ends of their lines, apart where the lines are not; none of so many that they have no room.
+/// Nodal diameters at the right ends of the natural frequencies, moved apart where lines are close; none where there is no room for all.
 fn numbers(campbell: &Campbell, diagram: &Diagram) -> Element {
     const SPACING: f64 = 12.0;
     let (harmonics, families) = counts(campbell);
@@ -182,7 +182,7 @@ fn numbers(campbell: &Campbell, diagram: &Diagram) -> Element {
     ends.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut heights: Vec<f64> = ends.iter().map(|(y, _)| *y).collect();
     for _ in 0..60 {
-        // Neighbours push each other away, half the lack each.
+        // Neighbours push each other away, each by half the missing distance.
         for pair in 1..heights.len() {
             let lack = SPACING - (heights[pair] - heights[pair - 1]);
             if lack > 0.0 {
@@ -202,7 +202,7 @@ fn numbers(campbell: &Campbell, diagram: &Diagram) -> Element {
     }))
 }
 
-/// Crossings that are driven and in the drawing, with their places.
+/// Crossings that the lobes drive, up to [`HIGHEST_ORDER`] and within the diagram, with their positions.
 pub(super) fn driven<'a>(
     campbell: &'a Campbell,
     diagram: &'a Diagram,
@@ -213,7 +213,7 @@ pub(super) fn driven<'a>(
     })
 }
 
-/// Those of the linear criterion.
+/// Crossings of the linear criterion within the diagram, with their positions.
 pub(super) fn linear<'a>(
     campbell: &'a Campbell,
     diagram: &'a Diagram,
@@ -223,7 +223,7 @@ pub(super) fn linear<'a>(
     })
 }
 
-/// Both kinds of crossings, with (i, j, n) and (i, j) where there is room.
+/// Draws crossings of the linear criterion and driven ones, with (i, j, n) and (i, j) where there is room.
 fn crossings(campbell: &Campbell, diagram: &Diagram) -> Element {
     let mut labels = Labels::inside(diagram);
     let places =
@@ -245,7 +245,7 @@ fn crossings(campbell: &Campbell, diagram: &Diagram) -> Element {
     drawn
 }
 
-/// What stands below the title.
+/// Paragraphs below the title: modes per speed, lobes, model, and a warning about K(Ω) if there is one.
 pub(super) fn words(campbell: &Campbell) -> Vec<String> {
     let settings = &campbell.settings;
     let model: String = settings.model.chars().take(12).collect();
@@ -261,7 +261,7 @@ fn heading(campbell: &Campbell) -> Element {
     heading::heading(CORNER.0, "Campbell diagram", &words(campbell)).0
 }
 
-/// The engine orders of the lobes.
+/// Words for the engine orders of the lobes.
 pub(super) fn excited_words(campbell: &Campbell) -> String {
     let lobes = campbell.settings.lobes.max(1);
     if drawn_orders(campbell) >= 2 * lobes {
@@ -272,7 +272,7 @@ pub(super) fn excited_words(campbell: &Campbell) -> String {
 }
 
 fn legend(campbell: &Campbell, diagram: &Diagram, x: f64) -> Element {
-    /// More nodal diameters than this are named at the ends only.
+    /// Largest number of nodal diameters that the key names; more are named at the ends of their lines only.
     const MOST: usize = 16;
     let (harmonics, families) = counts(campbell);
     let mut key = Key::new(x, CORNER.1 + 8.0);

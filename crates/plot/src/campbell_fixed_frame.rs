@@ -1,4 +1,4 @@
-//! The Campbell diagram as it is seen from beside the wheel: the paper's Figs 5 and 11.
+//! Campbell diagram as seen from beside the wheel: the paper's Figs 5 and 11.
 
 use std::f64::consts::TAU;
 
@@ -17,12 +17,12 @@ const HEIGHT: f64 = 800.0;
 const LEFT: f64 = 84.0;
 const PLOT_WIDTH: f64 = 800.0;
 
-/// Dashes of the waves that a superharmonic makes beside those of n = 1.
+/// Dashes of the waves that a superharmonic produces, beside those of n = 1.
 const SUPERHARMONIC: [&str; 3] = ["6 3", "2 3", "7 3 2 3"];
 
-/// Draws the frequencies at which waves of the wheel are seen from beside it, over speed: f + iΩ/2π of those that travel with the
-/// rotation, |f − iΩ/2π| of those against it, and |f − i·n·Ω/2π| of the superharmonics n of Eq. 11. Where a line comes down to zero the
-/// wave stands still before the casing: the linear criterion's critical speeds.
+/// Draws the frequencies at which waves of the wheel are seen from beside it, over speed: f + iΩ/2π of those that travel with the rotation,
+/// |f − iΩ/2π| of those against it, and |f − i·n·Ω/2π| of the superharmonics n of Eq. 11. Where a line falls to zero the wave stands still
+/// before the casing: the linear criterion's critical speeds.
 pub fn campbell_fixed_frame(campbell: &Campbell) -> String {
     let title = TITLE;
     let (heading, bottom) = heading::heading(LEFT, title, &words(campbell));
@@ -44,10 +44,10 @@ pub fn campbell_fixed_frame(campbell: &Campbell) -> String {
     document(title, WIDTH, HEIGHT, content)
 }
 
-/// What the diagram is.
+/// Title of the diagram.
 pub(super) const TITLE: &str = "Campbell diagram in the fixed frame";
 
-/// What stands below the title.
+/// Paragraphs below the title: modes per speed, lobes, model, and a warning about K(Ω) if there is one.
 pub(super) fn words(campbell: &Campbell) -> Vec<String> {
     let words = format!(
         "{} modes per speed · {} lobes · {}",
@@ -59,19 +59,19 @@ pub(super) fn words(campbell: &Campbell) -> Vec<String> {
     [words].into_iter().chain(warning).collect()
 }
 
-/// What is seen of a mode.
+/// Wave of a mode, as seen in the fixed frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Seen {
-    /// f + iΩ/2π.
+    /// Wave that travels with the rotation, seen at f + iΩ/2π.
     Forward,
-    /// |f − iΩ/2π|.
+    /// Wave that travels against the rotation, seen at |f − iΩ/2π|.
     Backward,
-    /// |f − i·n·Ω/2π|.
+    /// Wave of superharmonic n, seen at |f − i·n·Ω/2π|.
     Superharmonic(u32),
 }
 
 impl Seen {
-    /// What it is, in words.
+    /// Words for the wave.
     pub(super) fn words(self) -> String {
         match self {
             Self::Backward => "against the rotation: |f − iΩ/2π|".to_owned(),
@@ -81,17 +81,17 @@ impl Seen {
     }
 }
 
-/// One line of the diagram.
+/// Line of the diagram: a wave of one mode.
 pub(super) struct Curve {
     pub(super) nodal_diameter: usize,
     pub(super) harmonics: usize,
     family: usize,
     pub(super) seen: Seen,
-    /// Hz at each speed.
+    /// Frequency in Hz at each speed.
     hz: Vec<Option<f64>>,
 }
 
-/// All lines.
+/// Lines of all waves of all modes.
 pub(super) fn curves(campbell: &Campbell) -> Vec<Curve> {
     let branches = campbell.branches();
     let table = |wanted: Wave| {
@@ -133,13 +133,13 @@ pub(super) fn curves(campbell: &Campbell) -> Vec<Curve> {
 }
 
 impl Curve {
-    /// rpm and Hz along the line, with the places at which it comes down to zero.
+    /// Speed in rpm and frequency in Hz along the line, with the points where it falls to zero.
     pub(super) fn places(&self, campbell: &Campbell) -> Vec<Option<(f64, f64)>> {
         let mut points = Vec::new();
         let mut before: Option<(f64, f64)> = None;
         for (speed, hz) in campbell.speeds_rad_s.iter().zip(&self.hz) {
             let now = hz.map(|hz| (rpm(*speed), hz));
-            // |f − kΩ/2π| comes down to zero between two speeds whose sum it falls or rises by.
+            // |f − kΩ/2π| falls to zero between two speeds if its two values add up to the change of kΩ/2π.
             if let (Some(from), Some(to), true) = (before, now, self.seen != Seen::Forward) {
                 points.extend(self.foot(from, to).map(|rpm| Some((rpm, 0.0))));
             }
@@ -162,8 +162,7 @@ impl Curve {
             .title(&self.words())
     }
 
-    /// The speed at which the line touches zero between two points: where going straight through zero fits its slope better than
-    /// staying above.
+    /// Speed at which the line touches zero between two points: where going straight through zero fits its slope better than staying above.
     fn foot(&self, from: (f64, f64), to: (f64, f64)) -> Option<f64> {
         let order = match self.seen {
             Seen::Superharmonic(n) => f64::from(n) * self.nodal_diameter as f64,
@@ -183,7 +182,7 @@ impl Curve {
         }
     }
 
-    /// What is seen of which mode, in words.
+    /// Words for the mode and the wave of the line.
     pub(super) fn words(&self) -> String {
         let (i, family) = (self.nodal_diameter, self.family + 1);
         match self.seen {
@@ -194,14 +193,14 @@ impl Curve {
     }
 }
 
-/// The empty diagram, from `top` downwards.
+/// Empty diagram, from `top` downwards.
 pub(super) fn diagram(campbell: &Campbell, curves: &[Curve], top: f64) -> Diagram {
     let highest = curves
         .iter()
         .filter(|curve| curve.seen != Seen::Forward)
         .flat_map(|curve| curve.hz.iter().flatten().copied())
         .filter(|hz| hz.is_finite());
-    // Forward waves leave through the top: what matters comes down.
+    // The axis may cut off forward waves: the lines that fall to zero matter.
     let at_rest = curves.iter().filter_map(|curve| curve.hz.first().copied().flatten()).fold(0.0, f64::max);
     let highest = highest.fold(0.0, f64::max).min(if at_rest > 0.0 { 1.6 * at_rest } else { f64::INFINITY });
     let speeds = range(&campbell.speeds_rad_s);
@@ -209,7 +208,7 @@ pub(super) fn diagram(campbell: &Campbell, curves: &[Curve], top: f64) -> Diagra
     Diagram::new((LEFT, top), size, speeds, (0.0, if highest > 0.0 { 1.05 * highest } else { 1.0 }))
 }
 
-/// Where a wave stands still, on the line of zero frequency, and the nodal diameters at the lines of n = 1.
+/// Marks where a wave stands still, on the line of zero frequency, and the nodal diameters at the lines of n = 1.
 fn labels_and_crossings(campbell: &Campbell, curves: &[Curve], diagram: &Diagram) -> Element {
     let mut labels = Labels::inside(diagram);
     let mut drawn = group();
@@ -235,7 +234,7 @@ fn labels_and_crossings(campbell: &Campbell, curves: &[Curve], diagram: &Diagram
 }
 
 fn key(campbell: &Campbell, curves: &[Curve], diagram: &Diagram) -> Element {
-    /// More nodal diameters than this are named at the ends only.
+    /// Largest number of nodal diameters that the key names; more are named at the ends of their lines only.
     const MOST: usize = 16;
     let mut key = Key::new(diagram.right() + 30.0, diagram.top + 8.0);
     let stroke = |colour: &str, width: &str, dashes: &str| {

@@ -1,13 +1,13 @@
-//! The stretch of the speed axis that each speed of a sweep stands for.
+//! Stretch of the speed axis that each speed of a sweep covers.
 
 use std::f64::consts::TAU;
 
-/// rad/s to revolutions per minute.
+/// Converts rad/s to revolutions per minute.
 pub(super) fn rpm(speed_rad_s: f64) -> f64 {
     speed_rad_s * 60.0 / TAU
 }
 
-/// One speed and its stretch, in rpm: halfway to its neighbours, at the ends as far outwards as inwards.
+/// Speed and the stretch it covers, in rpm: halfway to its neighbours, at the ends as far outwards as inwards.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Cell {
     /// Index of the speed in the sweep.
@@ -23,7 +23,7 @@ pub(super) fn cells(speeds_rad_s: &[f64]) -> Vec<Cell> {
     sorted.sort_by(|a, b| a.1.total_cmp(&b.1));
     let last = sorted.len().saturating_sub(1);
     let cell = |(place, &(index, rpm)): (usize, &(usize, f64))| {
-        // A sweep of one speed still has a width.
+        // A sweep of one speed still needs a width.
         let alone = 0.01 * rpm.max(1.0);
         let below = (place > 0).then(|| 0.5 * (rpm - sorted[place - 1].1));
         let above = (place < last).then(|| 0.5 * (sorted[place + 1].1 - rpm));
@@ -34,7 +34,7 @@ pub(super) fn cells(speeds_rad_s: &[f64]) -> Vec<Cell> {
     sorted.iter().enumerate().map(cell).collect()
 }
 
-/// The lowest and the highest of some speeds, in rpm; from standstill where all are one.
+/// Lowest and highest of some speeds, in rpm; from standstill where all are equal.
 pub(super) fn range(speeds_rad_s: &[f64]) -> (f64, f64) {
     let speeds = speeds_rad_s.iter().map(|speed| rpm(*speed));
     let (slow, fast) =

@@ -28,7 +28,7 @@ pub(super) fn amplitude(share: f64) -> [u8; 3] {
     polynomial(&INFERNO, share)
 }
 
-/// Colour of a share of a scale on surfaces: none is black, where light and shade would not be seen.
+/// Colour of a share of a scale on surfaces, lighter than black at 0 so that light and shade show.
 pub(super) fn level(share: f64) -> [u8; 3] {
     polynomial(&VIRIDIS, share)
 }

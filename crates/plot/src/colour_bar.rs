@@ -1,4 +1,4 @@
-//! What the colours of a map mean.
+//! Colour bar of a map: colours with ticks and a title.
 
 use super::axis::Scale;
 use super::colour;
@@ -6,7 +6,7 @@ use super::svg::{Element, INK, group, line, rectangle, text, text_width, upright
 
 const WIDTH: f64 = 16.0;
 
-/// A bar of the colours of `amplitudes` from `left` on, as high as its places, with ticks and a title.
+/// Draws a bar of the colours of `amplitudes` from `left` on, as high as the scale, with ticks and a title.
 pub(super) fn draw(amplitudes: &Scale, left: f64, ticks: &[(f64, String)], title: &str) -> Element {
     const STOPS: u32 = 32;
     let share = |i: u32| f64::from(i) / f64::from(STOPS);
@@ -14,7 +14,7 @@ pub(super) fn draw(amplitudes: &Scale, left: f64, ticks: &[(f64, String)], title
     draw_colours(stops, amplitudes, left, ticks, title)
 }
 
-/// A bar of colours at ascending shares of a scale.
+/// Draws a bar of colours at ascending shares of a scale.
 pub(super) fn draw_colours(
     colours: impl IntoIterator<Item = (f64, [u8; 3])>,
     amplitudes: &Scale,
@@ -24,7 +24,7 @@ pub(super) fn draw_colours(
 ) -> Element {
     let stops: Vec<(String, String)> =
         colours.into_iter().map(|(share, rgb)| (format!("{share:.4}"), colour::hex(rgb))).collect();
-    // Drawings share a page: what has another name is another bar, what has the same is the same.
+    // Drawings share a page, so a name must identify one bar: equal colours, equal name.
     let bytes = stops.iter().flat_map(|(share, colour)| share.bytes().chain(colour.bytes()));
     let sum = bytes.fold(0u32, |sum, byte| sum.wrapping_mul(31).wrapping_add(u32::from(byte)));
     let id = format!("scale-{sum:x}");

@@ -1,4 +1,4 @@
-//! Critical speeds beside what a linear calculation says.
+//! Critical speeds beside the linear prediction.
 
 use super::axis::{label, significant, ticks};
 use super::cells::rpm;
@@ -15,14 +15,14 @@ const PLOT_WIDTH: f64 = 740.0;
 const PEAKS_HEIGHT: f64 = 330.0;
 const ROW_HEIGHT: f64 = 34.0;
 
-/// What is said where there are no peaks.
+/// Message where there are no peaks.
 pub(super) const NONE: &str = "no critical speed stands out of the response";
 
 const PEAK: &str = "#1f4e79";
 const NEAREST: &str = "#d62728";
 
-/// Draws the peaks of the response over speed, with how far off they may be, and below them the crossings of the linear calculation, a
-/// row for each superharmonic; each peak is tied to the crossing nearest to it.
+/// Draws the peaks of the response over speed with their errors, and below them the crossings of the linear prediction, a row for each
+/// superharmonic; each peak is tied to the crossing nearest to it.
 pub fn critical_speeds(critical: &CriticalSpeeds) -> String {
     let title = title(critical);
     let (heading, bottom) = heading::heading(LEFT, &title, &words(critical));
@@ -32,12 +32,12 @@ pub fn critical_speeds(critical: &CriticalSpeeds) -> String {
     document(&title, WIDTH, view.rows.bottom() + 66.0, content)
 }
 
-/// What the table is of.
+/// Title: the sensor of the critical speeds.
 pub(super) fn title(critical: &CriticalSpeeds) -> String {
     format!("Critical speeds: {}", critical.sensor)
 }
 
-/// What stands below the title.
+/// Paragraphs below the title: peaks, missing speeds, origin, and a warning about K(Ω) if there is one.
 pub(super) fn words(critical: &CriticalSpeeds) -> Vec<String> {
     let found = critical.critical_speeds.len();
     let mut words = vec![match found {
@@ -52,26 +52,26 @@ pub(super) fn words(critical: &CriticalSpeeds) -> Vec<String> {
     [words.join(" · ")].into_iter().chain(warning).collect()
 }
 
-/// A row of crossings: its name, and of each crossing its speed and its words, in few and in more.
+/// Row of crossings of one kind, with its name.
 pub(super) struct Row {
     pub(super) name: String,
     pub(super) kind: Kind,
     pub(super) marks: Vec<Mark>,
 }
 
-/// Whose crossings are in a row.
+/// Kind of crossings in a row.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Kind {
-    /// Of the linear criterion.
+    /// Crossings of the linear criterion.
     Linear,
-    /// Of what the lobes drive.
+    /// Crossings that the lobes drive.
     Driven,
-    /// Of waves of an elastic casing.
+    /// Crossings with waves of an elastic casing.
     Casing,
 }
 
 impl Kind {
-    /// What the marks of a row are.
+    /// Words for the marks of a row.
     pub(super) fn words(self) -> &'static str {
         match self {
             Self::Linear => "linear criterion, (i, j, n)",
@@ -125,7 +125,7 @@ impl<'a> View<'a> {
         };
         let tops = peaks.map(|peak| peak.rms * (1.0 + peak.amplitude_error.unwrap_or(0.0)));
         let highest = tops.filter(|top| top.is_finite()).fold(0.0, f64::max);
-        // The labels stand above the peaks; one with a utilisation is longer.
+        // Labels stand above the peaks; one with a utilisation is longer.
         let used = critical.critical_speeds.iter().any(|peak| peak.utilisation.is_some());
         let room = if used { 2.2 } else { 1.7 };
         let highest = if highest > 0.0 { room * highest } else { 1.0 };
@@ -153,7 +153,7 @@ impl<'a> View<'a> {
         content
     }
 
-    /// From a peak down to the crossing that is nearest to it.
+    /// Draws the tie of a peak: down to the axis, and from there to the nearest crossing.
     fn tie(&self, peak: &CriticalSpeed) -> Option<Element> {
         let nearest = peak.nearest_crossing.as_ref()?;
         let row = self.lines.iter().position(|row| row.name == linear_row(nearest.superharmonic))?;
@@ -166,7 +166,7 @@ impl<'a> View<'a> {
         Some(tie.title(&nearest_words(peak)?))
     }
 
-    /// The middle of a row.
+    /// Height of the middle of a row.
     fn height(&self, row: usize) -> f64 {
         self.rows.top + ROW_HEIGHT * (row as f64 + 0.5)
     }
@@ -210,7 +210,7 @@ impl<'a> View<'a> {
         group().children(drawn)
     }
 
-    /// How far the peak may be off, in speed and in amplitude.
+    /// Draws the error bars of a peak, in speed and in amplitude.
     fn bars(&self, peak: &CriticalSpeed) -> Element {
         let speed =
             |off: f64| rpm(peak.speed_rad_s + off).clamp(self.peaks.x.values.0, self.peaks.x.values.1);
@@ -272,7 +272,7 @@ impl<'a> View<'a> {
     }
 }
 
-/// A peak in words.
+/// Words for a peak.
 pub(super) fn peak_words(peak: &CriticalSpeed) -> String {
     let order = marks::engine_order(peak);
     let star = if peak.settling == Verdict::NotSettled { " *" } else { "" };
@@ -280,7 +280,7 @@ pub(super) fn peak_words(peak: &CriticalSpeed) -> String {
     format!("{} rpm · EO {order}{used}{star}", label(rpm(peak.speed_rad_s), 0))
 }
 
-/// The crossing nearest to a peak, in words.
+/// Words for the crossing nearest to a peak.
 pub(super) fn nearest_words(peak: &CriticalSpeed) -> Option<String> {
     let nearest = peak.nearest_crossing.as_ref()?;
     let distance = peak
@@ -289,12 +289,13 @@ pub(super) fn nearest_words(peak: &CriticalSpeed) -> Option<String> {
     Some(format!("nearest linear crossing: {}{distance}", marks::triple(nearest)))
 }
 
-/// The name of the row of a superharmonic.
+/// Name of the row of a superharmonic.
 pub(super) fn linear_row(superharmonic: u32) -> String {
     format!("linear, n = {superharmonic}")
 }
 
-/// Rows of crossings: of the linear criterion one for each superharmonic.
+/// Rows of crossings: one for each superharmonic of the linear criterion, then the driven ones and those of an elastic casing if there are
+/// any.
 pub(super) fn rows(critical: &CriticalSpeeds) -> Vec<Row> {
     let mut orders: Vec<u32> =
         critical.linear_crossings.iter().map(|crossing| crossing.superharmonic).collect();
@@ -335,7 +336,7 @@ fn square((x, y): (f64, f64)) -> Element {
     rectangle(x - 4.0, y - 4.0, 8.0, 8.0).set("fill", "#9ec9a5").set("stroke", "black")
 }
 
-/// The end of an error bar.
+/// End of an error bar.
 fn cap((x, y): (f64, f64), upright: bool) -> Element {
     if upright { line((x, y - 3.5), (x, y + 3.5)) } else { line((x - 3.5, y), (x + 3.5, y)) }
 }

@@ -1,12 +1,12 @@
-//! The rectangle of a diagram: frame, ticks and axis titles.
+//! Rectangle of a diagram: frame, ticks and axis titles.
 
 use super::axis::Scale;
 use super::svg::{Element, INK, group, line, rectangle, text, upright};
 
-/// Least size of a diagram whose axes have one scale.
+/// Least size of a diagram with equal scales on both axes.
 const SMALLEST: (f64, f64) = (320.0, 240.0);
 
-/// A rectangle with a horizontal and a vertical axis.
+/// Rectangle with a horizontal and a vertical axis.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Diagram {
     pub(super) left: f64,
@@ -18,18 +18,18 @@ pub(super) struct Diagram {
 }
 
 impl Diagram {
-    /// With linear axes.
+    /// Builds a diagram with linear axes.
     pub(super) fn new(corner: (f64, f64), size: (f64, f64), x: (f64, f64), y: (f64, f64)) -> Self {
         Self::with_scales(corner, size, |places| Scale::linear(x, places), |places| Scale::linear(y, places))
     }
 
-    /// With logarithmic axes; all values must be positive.
+    /// Builds a diagram with logarithmic axes; all values must be positive.
     pub(super) fn logarithmic(corner: (f64, f64), size: (f64, f64), x: (f64, f64), y: (f64, f64)) -> Self {
         let scale = Scale::logarithmic;
         Self::with_scales(corner, size, |places| scale(x, places), |places| scale(y, places))
     }
 
-    /// With a linear axis to the right and a logarithmic one upwards, whose values must be positive.
+    /// Builds a diagram with a linear horizontal and a logarithmic vertical axis, whose values must be positive.
     pub(super) fn upwards_logarithmic(
         corner: (f64, f64),
         size: (f64, f64),
@@ -40,7 +40,7 @@ impl Diagram {
         Self::with_scales(corner, size, |places| Scale::linear(x, places), logarithmic)
     }
 
-    /// With a logarithmic axis to the right, whose values must be positive, and a linear one upwards.
+    /// Builds a diagram with a logarithmic horizontal axis, whose values must be positive, and a linear vertical one.
     pub(super) fn rightwards_logarithmic(
         corner: (f64, f64),
         size: (f64, f64),
@@ -51,8 +51,8 @@ impl Diagram {
         Self::with_scales(corner, size, logarithmic, |places| Scale::linear(y, places))
     }
 
-    /// With linear axes of one scale about all places, with some room; no wider and no higher than there is something to see, and at
-    /// most of the size `within`.
+    /// Builds a diagram with linear axes of equal scale about all points, with some room; no wider and no higher than the points need, and
+    /// at most of the size `within`.
     pub(super) fn of_one_scale(places: &[(f64, f64)], corner: (f64, f64), within: (f64, f64)) -> Self {
         let ends = |values: &mut dyn Iterator<Item = f64>| {
             values
@@ -66,7 +66,7 @@ impl Diagram {
         let (x, y) = if x.0 <= x.1 && y.0 <= y.1 { (x, y) } else { ((0.0, 1.0), (0.0, 1.0)) };
         let spans = (1.16 * (x.1 - x.0), 1.16 * (y.1 - y.0));
         let per_unit = f64::max(spans.0 / within.0, spans.1 / within.1);
-        // A single place still has surroundings.
+        // A single point still needs surroundings.
         let per_unit = if per_unit > 0.0 { per_unit } else { 1.0 / within.0 };
         let about = |(low, high): (f64, f64), size: f64| {
             let (middle, half) = (0.5 * (low + high), 0.5 * size * per_unit);
@@ -100,7 +100,7 @@ impl Diagram {
         (self.x.place(x), self.y.place(y))
     }
 
-    /// The point, if it lies inside.
+    /// Position of a point, if it lies in the diagram.
     pub(super) fn inside(&self, x: f64, y: f64) -> Option<(f64, f64)> {
         (self.x.contains(x) && self.y.contains(y)).then(|| self.point(x, y))
     }
@@ -110,7 +110,7 @@ impl Diagram {
         (self.left..=self.right()).contains(&x) && (self.top..=self.bottom()).contains(&y)
     }
 
-    /// The straight line between two points of linear axes, cut off at the frame; nothing if it lies outside.
+    /// Straight line between two points of linear axes, cut off at the frame; nothing if it lies outside.
     pub(super) fn clipped(&self, from: (f64, f64), to: (f64, f64)) -> Option<[(f64, f64); 2]> {
         let mut span = (0.0, 1.0);
         let delta = (to.0 - from.0, to.1 - from.1);
@@ -129,7 +129,7 @@ impl Diagram {
         (span.0 < span.1).then(|| [at(span.0), at(span.1)])
     }
 
-    /// A region of this name that ends at the frame, for `clip-path`.
+    /// Clipping region of this name that ends at the frame, for `clip-path`.
     pub(super) fn region(&self, name: &str) -> Element {
         let inside = rectangle(self.left, self.top, self.width, self.height);
         Element::new("defs").child(Element::new("clipPath").set("id", name).child(inside))
@@ -149,13 +149,13 @@ impl Diagram {
         group().set("stroke", "#efefef").children(upright).children(level)
     }
 
-    /// Words in the middle instead of content.
+    /// Message in the middle of an empty diagram.
     pub(super) fn words(&self, words: &str) -> Element {
         let (x, y) = (self.left + 0.5 * self.width, self.top + 0.5 * self.height);
         text(x, y, "middle", words).set("class", "empty").set("font-size", "14")
     }
 
-    /// The frame, to be drawn over the content.
+    /// Frame, to be drawn over the content.
     pub(super) fn frame(&self) -> Element {
         rectangle(self.left, self.top, self.width, self.height).set("fill", "none").set("stroke", INK)
     }

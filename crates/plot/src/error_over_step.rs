@@ -19,8 +19,8 @@ const HEIGHT: f64 = 760.0;
 const LEFT: f64 = 92.0;
 const PLOT_WIDTH: f64 = 790.0;
 
-/// Draws the errors of one quantity over the time step at the speed of index `speed`, both on logarithmic axes: a line for each scheme
-/// and size of the model, and beside them what an error does that falls with the step or with its square.
+/// Draws the errors of one quantity over the time step at the speed of index `speed`, both on logarithmic axes: a line for each scheme and
+/// size of the model, and beside them the slopes of first and second order.
 pub fn error_over_step(study: &WorkPrecision, speed: usize, quantity: Quantity) -> String {
     let title = title(study, quantity);
     let Some(at) = study.speeds.get(speed) else {
@@ -36,24 +36,24 @@ pub fn error_over_step(study: &WorkPrecision, speed: usize, quantity: Quantity) 
     svg::document(&title, WIDTH, HEIGHT, content)
 }
 
-/// What is seen.
+/// Title: the quantity whose error is drawn.
 pub(super) fn title(study: &WorkPrecision, quantity: Quantity) -> String {
     format!("Error over time step: {}", words(quantity, study))
 }
 
-/// What the axis to the right says.
+/// Title of the horizontal axis.
 pub(super) const STEP: &str = "time step, revolutions";
 
-/// Runs that differ in their time step only.
+/// Runs that differ only in their time step.
 pub(super) struct Ladder<'a> {
     pub(super) modes_per_speed: u32,
     pub(super) scheme: SchemeChoice,
     kept_modes: AutoOr,
-    /// By ascending step, so from the finest on.
+    /// Runs from the smallest step to the largest.
     pub(super) runs: Vec<Drawn<'a>>,
 }
 
-/// The diagram of one quantity at one speed.
+/// Diagram of one quantity at one speed.
 pub(super) struct View<'a> {
     at: &'a SpeedStudy,
     quantity: Quantity,
@@ -64,7 +64,7 @@ pub(super) struct View<'a> {
 }
 
 impl<'a> View<'a> {
-    /// Whose diagram begins at `top`.
+    /// Lays out the errors in a diagram that begins at `top`.
     pub(super) fn new(at: &'a SpeedStudy, quantity: Quantity, top: f64) -> Self {
         let mut ladders: Vec<Ladder> = Vec::new();
         for drawn in at.runs.iter().filter_map(|run| Drawn::of(run, quantity)) {
@@ -132,7 +132,7 @@ impl<'a> View<'a> {
         group().child(rungs).children(marks)
     }
 
-    /// What falls with the step, and with its square: from the lower left of the diagram up to where it leaves.
+    /// Reference lines of first order (h) and second order (h²), from the lower left of the diagram to where they leave it.
     pub(super) fn orders(&self) -> [([(f64, f64); 2], &'static str); 2] {
         let (x, y) = (self.diagram.x.values, self.diagram.y.values);
         [(1, "h"), (2, "h²")].map(|(order, words)| {
@@ -180,7 +180,7 @@ impl<'a> View<'a> {
     }
 }
 
-/// The time step of a run, in revolutions.
+/// Time step of a run, in revolutions.
 pub(super) fn step(drawn: &Drawn) -> f64 {
     1.0 / f64::from(drawn.run.setting.steps_per_revolution.max(1))
 }

@@ -15,7 +15,7 @@ const PLOT_WIDTH: f64 = 930.0;
 const CURVES_HEIGHT: f64 = 170.0;
 const MAP_HEIGHT: f64 = 340.0;
 
-/// What of contact is drawn; of every contact node its worst blade.
+/// Contact quantity of a force map; each contact node has the value of its worst blade.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ForceQuantity {
     /// Largest force.
@@ -24,12 +24,12 @@ pub enum ForceQuantity {
     Impulse,
     /// Share of time in contact.
     Share,
-    /// Largest share of the clearance that motion takes.
+    /// Largest share of the clearance that the motion takes up.
     Consumption,
 }
 
 impl ForceQuantity {
-    /// Of every contact node.
+    /// Values of all contact nodes at one speed.
     pub(super) fn of(self, row: &ForceRow) -> &[f64] {
         match self {
             Self::Peak => &row.peak_force,
@@ -56,7 +56,7 @@ impl ForceQuantity {
         }
     }
 
-    /// What the bar of colours says.
+    /// Title of the colour bar.
     pub(super) fn short(self, map: &ForceMap) -> String {
         let words = match self {
             Self::Peak => "force",
@@ -68,10 +68,10 @@ impl ForceQuantity {
     }
 }
 
-/// A curve over speed: its words, dashes, and value.
+/// Curve over speed: its words, dashes, and value.
 pub(super) type Curve = (&'static str, &'static str, fn(&ForceRow) -> Option<f64>);
 
-/// The wheel's curves above the map that have values; the first is the worst of the map.
+/// Curves of the wheel above the map that have values; the first is the worst node of the map.
 pub(super) fn curves(map: &ForceMap, quantity: ForceQuantity) -> Vec<Curve> {
     let known = |(.., value): &Curve| map.rows.iter().flatten().any(|row| value(row).is_some());
     all_curves(quantity).into_iter().filter(known).collect()
@@ -97,18 +97,18 @@ fn all_curves(quantity: ForceQuantity) -> Vec<Curve> {
     }
 }
 
-/// What a consumption of 1 is.
+/// Words for the line at a consumption of 1.
 pub(super) const REACHES: &str = "1: reaches the undeformed casing";
 
-/// What the axis of contact nodes says.
+/// Title of the axis of contact nodes.
 pub(super) const NODES: &str = "contact node (0: leading edge)";
 
 pub(super) fn largest(values: &[f64]) -> Option<f64> {
     values.iter().copied().filter(|value| value.is_finite()).max_by(f64::total_cmp)
 }
 
-/// Draws contact over speed and contact node, above it the worst node, the whole wheel, and what a linear calculation says where there
-/// are such numbers.
+/// Draws contact over speed and contact node, above it the worst node, the whole wheel, and the linear prediction where there are such
+/// numbers.
 pub fn force_map(map: &ForceMap, quantity: ForceQuantity) -> String {
     let title = title(quantity);
     let (heading, bottom) = heading::heading(LEFT, &title, &[words(map)]);
@@ -161,12 +161,12 @@ pub fn force_map(map: &ForceMap, quantity: ForceQuantity) -> String {
     document(&title, WIDTH, diagram.bottom() + 92.0, content)
 }
 
-/// What the map is of.
+/// Title: the quantity of the map.
 pub(super) fn title(quantity: ForceQuantity) -> String {
     format!("Contact over speed: {}", quantity.words())
 }
 
-/// What stands below the title.
+/// Paragraph below the title: number of speeds, worst blade, origin.
 pub(super) fn words(map: &ForceMap) -> String {
     let computed = map.rows.iter().flatten().count();
     format!(
@@ -181,18 +181,18 @@ fn stroke(dashes: &str) -> Element {
     stroke.set("stroke-dasharray", dashes)
 }
 
-/// A value of a curve in words.
+/// Words for a value of a curve.
 pub(super) fn told(rpm: f64, words: &str, value: f64) -> String {
     format!("{rpm:.0} rpm, {words}: {}", significant(value))
 }
 
-/// The numbers of contact nodes, all of a few.
+/// Ticks with the numbers of contact nodes; all where there are few.
 pub(super) fn node_ticks(nodes: usize) -> Vec<(f64, String)> {
     let every = nodes.div_ceil(16).max(1);
     (0..nodes).step_by(every).map(|node| (node as f64, node.to_string())).collect()
 }
 
-/// The curves above the map.
+/// Draws the curves above the map.
 fn over_speed<'a>(
     curves: &[Curve],
     cells: &[Cell],

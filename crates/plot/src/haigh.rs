@@ -1,4 +1,4 @@
-//! Haigh diagram: alternating over mean stress, and what the materials bear (Goodman, Mechanics Applied to Engineering, 1899).
+//! Haigh diagram: alternating over mean stress, and the limits of the materials (Goodman, Mechanics Applied to Engineering, 1899).
 
 use super::axis::{Scale, label, significant, ticks};
 use super::cells::rpm;
@@ -14,28 +14,28 @@ const WIDTH: f64 = 1180.0;
 const LEFT: f64 = 100.0;
 const PLOT: (f64, f64) = (900.0, 520.0);
 
-/// Dots that are drawn, the most utilised first.
+/// Largest number of dots drawn, the most utilised first.
 pub(super) const MOST: usize = 3000;
 
-/// Dots that are labelled.
+/// Number of dots that are labelled.
 const LABELLED: usize = 5;
 
-/// Utilisations whose lines are drawn beside the one of 1.
+/// Utilisations whose lines are drawn beside that of 1.
 pub(super) const LINES: [f64; 3] = [0.25, 0.5, 0.75];
 
 const GOODMAN: &str = "#b01f20";
 const YIELD: &str = "#555555";
 
-/// What colours the dots of a Haigh diagram.
+/// Quantity that colours the dots of a Haigh diagram.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum HaighColour {
-    /// The speed of a cycle.
+    /// Speed of a cycle.
     Speed,
-    /// Its utilisation; what has none is grey.
+    /// Utilisation of a cycle; cycles without one are grey.
     Utilisation,
 }
 
-/// What is said where there is none.
+/// Message where no stress was recorded.
 pub(super) const NO_STRESS: &str = "Nothing to draw: no stress was recorded";
 
 /// Draws the cycles of all speeds in the plane of mean and alternating stress, with Goodman's lines of equal utilisation and the yield
@@ -72,17 +72,17 @@ pub fn haigh(stress: &SweepStress, by: HaighColour) -> String {
     document(title, WIDTH, diagram.bottom() + 116.0, content)
 }
 
-/// What the axis to the right says.
+/// Title of the axis of mean stress.
 pub(super) fn mean_axis(unit: &str) -> String {
     format!("mean stress (signed von Mises), {unit}")
 }
 
-/// What the axis upwards says.
+/// Title of the axis of alternating stress.
 pub(super) fn alternating_axis(unit: &str) -> String {
     format!("alternating stress, {unit}")
 }
 
-/// The same in the unit that it is drawn in.
+/// Converts stresses to the unit in which they are drawn, and names it.
 pub(super) fn drawn(stress: &SweepStress) -> (SweepStress, String) {
     let (unit, factor) = drawn_stress_unit(&stress.units);
     let mut stress = stress.clone();
@@ -100,7 +100,7 @@ pub(super) fn drawn(stress: &SweepStress) -> (SweepStress, String) {
     (stress, unit)
 }
 
-/// Whether colours say anything: utilisation where some is known, speeds where there are several.
+/// Whether colours distinguish cycles: utilisation where some is known, speeds where there are several.
 pub(super) fn tells_apart(cycles: &[Cycle], by: HaighColour) -> bool {
     match by {
         HaighColour::Speed => cycles.iter().any(|(speed, _)| speed.index != cycles[0].0.index),
@@ -110,17 +110,17 @@ pub(super) fn tells_apart(cycles: &[Cycle], by: HaighColour) -> bool {
     }
 }
 
-/// A cycle and its speed.
+/// Cycle and its speed.
 pub(super) type Cycle<'a> = (&'a SpeedStress, &'a StressCycle);
 
-/// All cycles that have a place, the most utilised first.
+/// Cycles with finite mean and alternating stress, the most utilised first.
 pub(super) fn ranked(stress: &SweepStress) -> Vec<Cycle<'_>> {
     let mut cycles = stress.ranked();
     cycles.retain(|(_, cycle)| cycle.mean.is_finite() && cycle.alternating.is_finite());
     cycles
 }
 
-/// What stands below the title.
+/// Paragraphs below the title: number of speeds, the most utilised cycle, and what limits are known.
 pub(super) fn words(stress: &SweepStress, cycles: &[Cycle], unit: &str) -> Vec<String> {
     let mut words = vec![match stress.speeds.len() {
         1 => "1 speed".to_owned(),
@@ -162,7 +162,7 @@ pub(super) fn words(stress: &SweepStress, cycles: &[Cycle], unit: &str) -> Vec<S
     paragraphs
 }
 
-/// Axes about all cycles and what the materials bear.
+/// Diagram whose axes hold all cycles and the limits of the materials.
 pub(super) fn diagram(stress: &SweepStress, cycles: &[Cycle], top: f64) -> Diagram {
     let bears = |of: fn(&Strengths) -> Option<f64>| {
         stress.strengths.iter().filter_map(of).filter(|value| value.is_finite()).fold(0.0, f64::max)
@@ -179,7 +179,7 @@ pub(super) fn diagram(stress: &SweepStress, cycles: &[Cycle], top: f64) -> Diagr
     Diagram::new((LEFT, top), PLOT, about(low, right), about(0.0, upwards))
 }
 
-/// Goodman's lines and the yield lines of all materials.
+/// Draws Goodman's lines and the yield lines of all materials.
 fn limits(stress: &SweepStress, diagram: &Diagram) -> Vec<Element> {
     let mut lines = Vec::new();
     let left = diagram.x.values.0;
@@ -215,17 +215,17 @@ fn limits(stress: &SweepStress, diagram: &Diagram) -> Vec<Element> {
     lines
 }
 
-/// The line of a utilisation from the left of the diagram to its foot, for these fatigue and ultimate strengths.
+/// Goodman's line of a utilisation, from the left of the diagram to its foot, for these fatigue and ultimate strengths.
 pub(super) fn goodman(left: f64, used: f64, (fatigue, ultimate): (f64, f64)) -> [(f64, f64); 3] {
     [(left, used * fatigue), (0.0, used * fatigue), (used * ultimate, 0.0)]
 }
 
-/// Where the largest magnitude of mean ± alternating reaches the yield strength.
+/// Yield line: the largest magnitude of mean ± alternating stress equals the yield strength.
 pub(super) fn yields(bears: f64) -> [(f64, f64); 3] {
     [(-bears, 0.0), (0.0, bears), (bears, 0.0)]
 }
 
-/// The scale of the dots, as high as the diagram, and what it is of.
+/// Colour scale of the dots, as high as the diagram, and its title.
 pub(super) fn colours(cycles: &[Cycle], by: HaighColour, diagram: &Diagram) -> (Scale, &'static str) {
     let places = (diagram.bottom(), diagram.top);
     let finite = |values: &mut dyn Iterator<Item = f64>| {
@@ -246,7 +246,7 @@ pub(super) fn colours(cycles: &[Cycle], by: HaighColour, diagram: &Diagram) -> (
     }
 }
 
-/// What colours a cycle, if it is known.
+/// Value that colours a cycle, if it is known.
 pub(super) fn value((speed, cycle): &Cycle, by: HaighColour) -> Option<f64> {
     let value = match by {
         HaighColour::Speed => Some(rpm(speed.speed_rad_s)),
@@ -255,7 +255,7 @@ pub(super) fn value((speed, cycle): &Cycle, by: HaighColour) -> Option<f64> {
     value.filter(|value| value.is_finite())
 }
 
-/// A cycle in words.
+/// Words for a cycle.
 pub(super) fn told((speed, cycle): &Cycle, unit: &str) -> String {
     let used =
         cycle.utilisation.map(|used| format!(", utilisation {}", significant(used))).unwrap_or_default();
@@ -286,7 +286,7 @@ fn dot(
     Some(dot.title(&words))
 }
 
-/// Node and blade of the most utilised places, each place once.
+/// Labels with node and blade of the most utilised places, each place once.
 fn names(cycles: &[Cycle], diagram: &Diagram) -> Element {
     let mut labels = Labels::inside(diagram);
     let mut named: Vec<(u64, u32)> = Vec::new();
@@ -307,7 +307,7 @@ fn names(cycles: &[Cycle], diagram: &Diagram) -> Element {
     words
 }
 
-/// What the marks mean: what is there, and nothing else.
+/// Key of the marks that occur.
 fn key(stress: &SweepStress, cycles: &[Cycle], y: f64) -> Element {
     let mut flow = Flow::new(LEFT, WIDTH - 20.0, y);
     let stroke = |colour: &str, width: &str, dashes: &str| {

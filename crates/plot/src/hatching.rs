@@ -1,11 +1,11 @@
-//! How it looks where a map has no result.
+//! Hatching of areas of a map without a result.
 
 use super::svg::{Element, rectangle};
 
-/// What areas without a result are filled with, where [`definition`] is in the drawing.
+/// Fill of areas without a result, where [`definition`] is in the drawing.
 pub(super) const FILL: &str = "url(#missing)";
 
-/// The pattern itself.
+/// Definition of the hatching pattern.
 pub(super) fn definition() -> Element {
     let pattern = Element::new("pattern")
         .set("id", "missing")
@@ -18,7 +18,7 @@ pub(super) fn definition() -> Element {
     Element::new("defs").child(pattern)
 }
 
-/// A mark of a key, 20 wide.
+/// Mark of a key for hatching, 20 wide.
 pub(super) fn mark() -> Element {
     rectangle(0.0, -7.0, 20.0, 14.0).set("fill", FILL).set("stroke", "#888888")
 }

@@ -1,13 +1,13 @@
-//! What stands above a diagram.
+//! Heading above a diagram: title and paragraphs.
 
 use super::svg::{Element, group, text};
 
 const LINE_HEIGHT: f64 = 17.0;
 
-/// Characters of a line of words: at 13 units hardly more fit into the width of a drawing.
+/// Number of characters in a line of the heading: at 13 units hardly more fit into the width of a drawing.
 const COLUMNS: usize = 165;
 
-/// A title and paragraphs, which break into as many lines as they need, with the height at which they end.
+/// Draws a title and paragraphs, broken into as many lines as they need, and returns the height at which they end.
 pub(super) fn heading(left: f64, title: &str, paragraphs: &[String]) -> (Element, f64) {
     let title = text(left, 28.0, "start", title).set("font-size", "18").set("font-weight", "bold");
     let lines: Vec<String> = paragraphs.iter().flat_map(|words| broken(words, COLUMNS)).collect();
@@ -17,13 +17,13 @@ pub(super) fn heading(left: f64, title: &str, paragraphs: &[String]) -> (Element
     (group().child(title).children(lines.iter().enumerate().map(row)), bottom)
 }
 
-/// Where numbers come from, in words.
+/// Words for the model and the program version that numbers come from.
 pub(super) fn origin(model: &str, version: &str) -> String {
     let model: String = model.chars().take(12).collect();
     format!("model {model} · rubmap {version}")
 }
 
-/// Lines of at most `columns` characters, unless a single word has more.
+/// Breaks words into lines of at most `columns` characters, unless a single word has more.
 pub(super) fn broken(words: &str, columns: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in words.split_whitespace() {

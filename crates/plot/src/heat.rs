@@ -1,4 +1,4 @@
-//! The amplitudes as one image with a palette.
+//! Amplitudes of a map as one image with a palette.
 
 use super::axis::Scale;
 use super::cells::{Cell, rpm};
@@ -12,7 +12,7 @@ use rubmap_analysis::result::InteractionMap;
 /// a pixel high.
 const LINE_HEIGHT: f64 = 5.0;
 
-/// The loudest amplitude of a map within a window, beside the mean; none if nothing moves or nothing is there.
+/// Loudest amplitude of a map within a window, without the mean; none if nothing moves or the window is empty.
 pub(super) fn loudest(map: &InteractionMap, window: &Window) -> Option<f64> {
     let rows =
         map.speeds_rad_s.iter().zip(&map.amplitude).filter(|(speed, _)| window.has_speed(rpm(**speed)));
@@ -39,7 +39,7 @@ pub(super) fn image(
         while first + 1 < cells.len() && cells[first].to <= from {
             first += 1;
         }
-        // All that have a part in the column.
+        // Speeds that cover a part of the column.
         let here = cells[first..].iter().take_while(|cell| cell.from < to).filter(|cell| cell.to > from);
         for cell in here {
             let Some(row) = map.amplitude.get(cell.index).and_then(Option::as_ref) else { continue };
@@ -56,7 +56,7 @@ pub(super) fn image(
     pixels.draw()
 }
 
-/// The loudest of the bins whose engine order lies in a band or is the nearest to its middle; the mean is no vibration.
+/// Loudest of the bins whose engine order lies in a band or is nearest to its middle; the mean is no vibration and is left out.
 pub(super) fn loudest_within(orders: &[f64], row: &[f64], (low, high): (f64, f64)) -> Option<f64> {
     let highest = *orders.last()?;
     if low > highest {

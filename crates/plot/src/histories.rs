@@ -18,7 +18,8 @@ const HEIGHT: f64 = 640.0;
 const LEFT: f64 = 92.0;
 const PLOT_WIDTH: f64 = 800.0;
 
-/// Draws the displacements of the sensor of index `sensor` over revolutions, one line per size; the reference is thin and black.
+/// Draws the displacements of the sensor of index `sensor` over revolutions, one line per size of the model; the reference is thin and
+/// black.
 pub fn histories(histories: &Histories, sensor: usize) -> String {
     let title = title(histories, sensor);
     let curves = curves(histories, sensor);
@@ -50,10 +51,10 @@ pub fn histories(histories: &Histories, sensor: usize) -> String {
     svg::document(&title, WIDTH, HEIGHT, content)
 }
 
-/// What is said where no run has a line.
+/// Message where no run has a line.
 pub(super) const NOT_COMPLETED: &str = "Nothing to draw: no run was completed";
 
-/// What is seen.
+/// Title: number of revolutions, sensor and speed.
 pub(super) fn title(histories: &Histories, sensor: usize) -> String {
     let measured =
         histories.sensors.get(sensor).map_or_else(|| "displacement".to_owned(), ToString::to_string);
@@ -70,13 +71,13 @@ pub(super) fn title(histories: &Histories, sensor: usize) -> String {
     }
 }
 
-/// What stands below the title.
+/// Paragraph below the title: one line per size of the model, and the program version.
 pub(super) fn words(histories: &Histories) -> String {
     let words = "one line per size of the model, each at the finest time step that was completed";
     format!("{words} · rubmap {}", histories.version)
 }
 
-/// What the axis upwards says.
+/// Title of the vertical axis.
 pub(super) fn axis(histories: &Histories, sensor: usize) -> String {
     match histories.sensors.get(sensor) {
         Some(sensor) if sensor.gauge.is_some() => sensor.unit(&histories.units).to_owned(),
@@ -84,12 +85,12 @@ pub(super) fn axis(histories: &Histories, sensor: usize) -> String {
     }
 }
 
-/// The lines of a sensor.
+/// Lines of a sensor.
 pub(super) fn curves(histories: &Histories, sensor: usize) -> Vec<Curve<'_>> {
     histories.lines.iter().filter_map(|line| Curve::of(line, sensor)).collect()
 }
 
-/// The line of one size at one sensor.
+/// Line of one size of the model at one sensor.
 pub(super) struct Curve<'a> {
     pub(super) line: &'a HistoryLine,
     pub(super) displacement: &'a [f64],
@@ -101,7 +102,7 @@ impl<'a> Curve<'a> {
         Some(Self { line, displacement })
     }
 
-    /// The line in words.
+    /// Words for the line.
     pub(super) fn title(&self) -> String {
         let setting = &self.line.setting;
         format!(
@@ -114,7 +115,7 @@ impl<'a> Curve<'a> {
         )
     }
 
-    /// Modes per speed and unknowns.
+    /// Words for the size of the model: modes per speed and unknowns.
     pub(super) fn size(&self) -> String {
         format!(
             "{}{} · {} unknowns",
@@ -124,7 +125,7 @@ impl<'a> Curve<'a> {
         )
     }
 
-    /// The reference is thin and black over the broad lines of the others.
+    /// Pen of the line: the reference is thin and black over the broad lines of the others.
     fn pen(&self, index: usize, of_many: bool) -> Pen {
         if self.line.reference {
             return Pen { colour: "black".to_owned(), width: 0.9, dashes: "", of_many };
@@ -139,7 +140,7 @@ fn diagram(curves: &[Curve], samples_per_revolution: u32, top: f64) -> Diagram {
     let revolutions = samples as f64 / f64::from(samples_per_revolution.max(1));
     let values = curves.iter().flat_map(|curve| curve.displacement.iter().copied());
     let (low, high) = values.fold((0f64, 0f64), |(low, high), value| (low.min(value), high.max(value)));
-    // A tip that never moves still has an axis.
+    // The axis of a tip that never moves still needs a height.
     let room = if low < high { 0.05 * (high - low) } else { 1.0 };
     let size = (PLOT_WIDTH, HEIGHT - 70.0 - top);
     Diagram::new((LEFT, top), size, (0.0, revolutions), (low - room, high + room))

@@ -1,4 +1,4 @@
-//! The interaction map: level and spectra over speed, engine-order lines, critical speeds, linear prediction.
+//! Interaction map: level and spectra over speed, engine-order lines, critical speeds, linear prediction.
 
 use super::axis::{Scale, logarithmic_ticks, ticks};
 use super::cells::{Cell, cells, rpm};
@@ -31,7 +31,7 @@ const STRIP_HEIGHT: f64 = 9.0;
 const MAP_TOP: f64 = 365.0;
 const MAP_HEIGHT: f64 = 490.0;
 
-/// Colour of what the numbers are not worth.
+/// Colour of warnings.
 const WARNING: &str = "#b01f20";
 
 /// Draws an interaction map or a window of it, with its critical speeds and the linear prediction where they are given.
@@ -107,13 +107,14 @@ fn draw_in(
     document(&title(map, view.frame), WIDTH, height, content)
 }
 
-/// Sectors of the wheel, where a reduction tells.
+/// Number of sectors of the wheel, if a reduction determines it.
 pub(super) fn wheel(critical: Option<&CriticalSpeeds>, campbell: Option<&Campbell>) -> Option<u32> {
     let of_campbell = campbell.map(|campbell| &campbell.reduction);
     sectors::sectors(critical.map(|critical| &critical.reduction).or(of_campbell)?)
 }
 
-/// The lines, and what the right axis has to say: engine orders over frequency, the nodal diameters they drive over themselves.
+/// Draws the lines of engine orders and the labels of the right axis: engine orders in a map of frequencies, otherwise the nodal diameters
+/// that the engine orders drive.
 fn engine_orders(view: &View, map: &InteractionMap, wheel: Option<u32>) -> Element {
     let (mut lines, ends) = view.engine_orders(map);
     let lobes = lobes(map);
@@ -168,7 +169,7 @@ fn critical_speeds(critical: &CriticalSpeeds, level: &Diagram, by: LevelColour) 
     marks::critical(&shown, level.right(), (LEVEL_TOP, MAP_TOP + MAP_HEIGHT), by == LevelColour::Utilisation)
 }
 
-/// Critical speeds that the drawing has room for.
+/// Critical speeds within the diagram.
 fn in_view<'a>(
     critical: &'a CriticalSpeeds,
     diagram: &'a Diagram,
@@ -181,7 +182,7 @@ fn amplitude_bar(amplitudes: &Scale, left: f64, unit: &str) -> Element {
     colour_bar::draw(amplitudes, left, &ticks, &format!("amplitude, {unit}"))
 }
 
-/// What the map is of.
+/// Title: the sensor of the map, its nodal diameter, and the frame.
 pub(super) fn title(map: &InteractionMap, frame: Frame) -> String {
     let nodal_diameter = map.nodal_diameter.map(|i| format!(", nodal diameter {i} only")).unwrap_or_default();
     let seen = match frame {
@@ -191,11 +192,11 @@ pub(super) fn title(map: &InteractionMap, frame: Frame) -> String {
     format!("Interaction map{seen}: {}{nodal_diameter}", map.sensor)
 }
 
-/// What is said of a map in the fixed frame.
+/// Note below the title of a map in the fixed frame.
 pub(super) const BOTH_WAYS: &str = "nodal diameter n at engine order k is at k + n and |k − n|: which way its wave travels, spectra do not tell · \
                                     amplitudes are √N times a blade's";
 
-/// How it was computed.
+/// Paragraph below the title: how the map was computed.
 pub(super) fn words(map: &InteractionMap) -> String {
     let settings = &map.settings;
     let computed = map.amplitude.iter().flatten().count();
@@ -236,13 +237,13 @@ fn head(map: &InteractionMap, frame: Frame) -> Element {
         .children(lines.flatten().enumerate().map(line))
 }
 
-/// Where the numbers come from, in the corner.
+/// Origin of the numbers, in the corner.
 fn origin(map: &InteractionMap, height: f64) -> Element {
     let words = heading::origin(&map.settings.model, &map.version);
     text(WIDTH - 16.0, height - 10.0, "end", &words).set("fill", "#999999").set("font-size", "10")
 }
 
-/// What the marks mean, below the map: what is there, and nothing else.
+/// Key of the marks that occur, below the map.
 fn key(
     map: &InteractionMap,
     cells: &[Cell],

@@ -1,16 +1,16 @@
-//! What marks mean: a column of marks with words.
+//! Key of a drawing: marks with words.
 
 use super::svg::{Element, group, text, text_width};
 
-/// Width that a mark of a row may take.
+/// Width that the mark of a row may take.
 pub(super) const MARK_WIDTH: f64 = 32.0;
 
-/// Size of the words.
+/// Font size of the words.
 const SIZE: f64 = 13.0;
 
 const ROW_HEIGHT: f64 = 21.0;
 
-/// Rows from the top down.
+/// Key in rows, from the top down.
 #[derive(Debug)]
 pub(super) struct Key {
     x: f64,
@@ -19,12 +19,12 @@ pub(super) struct Key {
 }
 
 impl Key {
-    /// Whose first row is at `y`.
+    /// Begins a key whose first row is at `y`.
     pub(super) fn new(x: f64, y: f64) -> Self {
         Self { x, y, rows: group() }
     }
 
-    /// With a mark, drawn about y = 0 from x = 0 to [`MARK_WIDTH`], and its words.
+    /// Adds a row: a mark, drawn about y = 0 from x = 0 to [`MARK_WIDTH`], and its words.
     pub(super) fn row(mut self, mark: Element, words: &str) -> Self {
         let Self { x, y, .. } = self;
         self.rows = self
@@ -35,7 +35,7 @@ impl Key {
         self
     }
 
-    /// With words over the rows that follow.
+    /// Adds a heading over the rows that follow.
     pub(super) fn heading(mut self, words: &str) -> Self {
         self.y += 0.5 * ROW_HEIGHT;
         self.rows = self.rows.child(text(self.x, self.y + 4.5, "start", words).set("fill", "#555555"));
@@ -43,7 +43,7 @@ impl Key {
         self
     }
 
-    /// With words that say more of the rows above.
+    /// Adds a note about the rows above.
     pub(super) fn note(mut self, words: &str) -> Self {
         let note = text(self.x, self.y + 3.5, "start", words).set("class", "key").set("fill", "#555555");
         self.rows = self.rows.child(note.set("font-size", "11"));
@@ -56,7 +56,7 @@ impl Key {
     }
 }
 
-/// Marks with words side by side, in as many lines as they need between two places.
+/// Key side by side: marks with words, in as many lines as they need between two positions.
 #[derive(Debug)]
 pub(super) struct Flow {
     left: f64,
@@ -67,12 +67,12 @@ pub(super) struct Flow {
 }
 
 impl Flow {
-    /// Whose first line is at `y`.
+    /// Begins a key whose first line is at `y`.
     pub(super) fn new(left: f64, right: f64, y: f64) -> Self {
         Self { left, right, x: left, y, entries: group() }
     }
 
-    /// With a mark, drawn about y = 0 from x = 0 to `width`, and its words.
+    /// Adds an entry: a mark, drawn about y = 0 from x = 0 to `width`, and its words.
     pub(super) fn entry(mut self, mark: Element, width: f64, words: &str) -> Self {
         let wide = width + 7.0 + text_width(words, SIZE);
         if self.x > self.left && self.x + wide > self.right {
@@ -87,7 +87,7 @@ impl Flow {
         self
     }
 
-    /// Where its last line is.
+    /// Height of the last line of the key.
     pub(super) fn bottom(&self) -> f64 {
         self.y
     }

@@ -3,7 +3,7 @@
 use super::diagram::Diagram;
 use super::svg::{Element, text, text_width};
 
-/// What is taken of a diagram: `[left, top, right, bottom]` each.
+/// Labels of a diagram: the areas taken so far, `[left, top, right, bottom]` each, and the bounds.
 #[derive(Debug)]
 pub(super) struct Labels {
     bounds: [f64; 4],
@@ -11,7 +11,7 @@ pub(super) struct Labels {
 }
 
 impl Labels {
-    /// For labels inside a diagram, of which nothing is taken yet.
+    /// Prepares labels inside a diagram, with no area taken yet.
     pub(super) fn inside(diagram: &Diagram) -> Self {
         let bounds = [diagram.left + 2.0, diagram.top + 2.0, diagram.right() - 2.0, diagram.bottom() - 2.0];
         Self { bounds, taken: Vec::new() }
@@ -22,13 +22,13 @@ impl Labels {
         self.taken.push([x - half, y - half, x + half, y + half]);
     }
 
-    /// Words beside a mark of this half width, off the lines that meet in it where possible; none where all places are taken.
+    /// Label beside a mark of this half width, off the lines that meet in the mark where possible; none where there is no room.
     pub(super) fn beside(&mut self, mark: (f64, f64), half: f64, words: &str, size: f64) -> Option<Element> {
         let [level, slanted] = around(mark, half, size, text_width(words, size));
         self.first(slanted.into_iter().chain(level), words, size)
     }
 
-    /// Words beside a mark of this half width, where possible off places that lines go through; none where all places are taken.
+    /// Label beside a mark of this half width, where possible off points that lines go through; none where there is no room.
     pub(super) fn beside_off(
         &mut self,
         lines: &[(f64, f64)],
@@ -50,7 +50,7 @@ impl Labels {
         self.first(clear.into_iter().chain(covering), words, size)
     }
 
-    /// Words on the height of a mark, right or left of it.
+    /// Label at the height of a mark, right or left of it.
     pub(super) fn level_with(
         &mut self,
         mark: (f64, f64),
@@ -72,7 +72,7 @@ impl Labels {
         })
     }
 
-    /// Words centred at one of the places, the first that is free.
+    /// Label centred at the first of some positions that is free.
     pub(super) fn at_first(
         &mut self,
         places: impl IntoIterator<Item = (f64, f64)>,
@@ -100,10 +100,10 @@ impl Labels {
     }
 }
 
-/// Places close together along a line with these corners.
+/// Points close together along a line with these corners.
 pub(super) fn traced(corners: impl IntoIterator<Item = (f64, f64)>) -> Vec<(f64, f64)> {
     const APART: f64 = 4.0;
-    /// More places than this are not needed: a line that has so many fills the diagram.
+    /// Largest number of points per stretch; a longer stretch crosses the whole diagram.
     const MOST: f64 = 200.0;
     let corners: Vec<(f64, f64)> = corners.into_iter().collect();
     let stretch = |pair: &[(f64, f64)]| {
@@ -115,7 +115,7 @@ pub(super) fn traced(corners: impl IntoIterator<Item = (f64, f64)>) -> Vec<(f64,
     corners.windows(2).flat_map(stretch).collect()
 }
 
-/// Where a text may stand: its middle height, and where it begins.
+/// Position of a text: its middle height, its anchor, and its left end.
 #[derive(Debug, Clone, Copy)]
 struct Place {
     x: f64,
@@ -124,7 +124,7 @@ struct Place {
     left: f64,
 }
 
-/// Places right, left, above and below of a mark, and in between.
+/// Positions right, left, above and below of a mark, and in between.
 fn around((x, y): (f64, f64), half: f64, size: f64, width: f64) -> [[Place; 4]; 2] {
     let rise = 0.36 * size;
     let (near, far) = (0.6 * half + 3.0, half + 4.0);

@@ -1,4 +1,4 @@
-//! The level of the response over speed, above the map.
+//! Level of the response over speed, above the map.
 
 use super::axis::{significant, ticks};
 use super::cells::Cell;
@@ -9,12 +9,12 @@ use rubmap_analysis::result::InteractionMap;
 
 const COLOUR: &str = "#1f4e79";
 
-/// What the level of a map is coloured by.
+/// Colouring of the level of a map.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LevelColour {
-    /// Nothing: it is a curve.
+    /// Plain curve without colours.
     Plain,
-    /// The largest utilisation at each speed, below the curve; critical speeds say theirs.
+    /// Largest utilisation at each speed, as colours below the curve; labels of critical speeds have theirs.
     Utilisation,
 }
 
@@ -25,7 +25,7 @@ pub(super) fn rms(map: &InteractionMap, index: usize) -> Option<f64> {
     response.rms.is_finite().then_some(response.rms)
 }
 
-/// The empty diagram of the level.
+/// Empty diagram of the level.
 pub(super) fn diagram(
     map: &InteractionMap,
     cells: &[Cell],
@@ -39,7 +39,7 @@ pub(super) fn diagram(
     Diagram::new(corner, size, speeds, (0.0, top))
 }
 
-/// The curve with its axis.
+/// Draws the level and its axis.
 pub(super) fn draw(map: &InteractionMap, cells: &[Cell], diagram: &Diagram, by: LevelColour) -> Element {
     let ticks = ticks(diagram.y.values, 4.0);
     let grid = ticks.iter().skip(1).map(|(value, _)| {
@@ -59,7 +59,7 @@ pub(super) fn draw(map: &InteractionMap, cells: &[Cell], diagram: &Diagram, by: 
         .set("stroke", COLOUR)
         .set("stroke-width", "1.6")
         .set("stroke-linejoin", "round");
-    // Dots that touch say nothing more than the curve.
+    // Dots shrink with their number: dots that touch add nothing to the curve.
     let radius = (0.25 * diagram.width / points.len().max(1) as f64).clamp(0.8, 2.6);
     let dots = points.iter().filter_map(|(cell, point)| {
         let ((x, y), rms) = (*point)?;
@@ -78,12 +78,12 @@ pub(super) fn draw(map: &InteractionMap, cells: &[Cell], diagram: &Diagram, by: 
         .child(diagram.y_axis(&ticks, &axis(map), 58.0))
 }
 
-/// What the axis of the level says.
+/// Title of the axis of the level.
 pub(super) fn axis(map: &InteractionMap) -> String {
     format!("level, {} rms", map.sensor.unit(&map.units))
 }
 
-/// The level of a speed in words, with what is wrong with linear theory there.
+/// Words for the level of a speed, with the verdict on linear theory there.
 pub(super) fn words(map: &InteractionMap, cell: &Cell, rms: f64) -> String {
     let point = validity::point(map, cell.index);
     let reason = point.and_then(|point| validity::reason(point.validity.as_ref()?));

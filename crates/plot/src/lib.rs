@@ -1,5 +1,5 @@
-//! Results as drawings: pure functions from [`rubmap_analysis::result`] to SVG, without files or HTTP, and from SVG to PNG ([`png()`]);
-//! the same as figures for Plotly in [`figure`].
+//! Results as drawings: pure functions from [`rubmap_analysis::result`] to SVG, without files or HTTP, and from SVG to PNG ([`png()`]); and
+//! as figures for Plotly in [`figure`].
 //!
 //! Texts name common font families and leave the choice to the viewer; how wide they are is estimated, to keep labels apart. An image
 //! has the font that the program brings, so that it is the same on every machine. Amplitudes are embedded as one small image with a

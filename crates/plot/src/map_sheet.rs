@@ -1,4 +1,4 @@
-//! A sheet of zoomed maps, one per nodal diameter: the paper's Figs 12 to 14.
+//! Sheet of interaction maps, one per nodal diameter: the paper's Figs 12 to 14.
 
 use super::axis::{Scale, label, logarithmic_ticks, ticks};
 use super::cells::{cells, range};
@@ -13,17 +13,17 @@ use rubmap_analysis::result::InteractionMap;
 
 const WIDTH: f64 = 1180.0;
 const LEFT: f64 = 84.0;
-/// Where the colour bar stands.
+/// Left edge of the colour bar.
 const BAR: f64 = 1076.0;
 const GAP: (f64, f64) = (58.0, 84.0);
 const PANEL_HEIGHT: f64 = 232.0;
 /// Height of the strip above a panel.
 const STRIP: f64 = 7.0;
 
-/// What is said where there is no map.
+/// Message where there is no map.
 pub(super) const NO_MAP: &str = "Nothing to draw: no map is given";
 
-/// Draws the same window of several maps, a panel each with a common scale of colours: maps of one sensor, restricted to nodal diameters.
+/// Draws the same window of several maps, a panel each with a common colour scale: maps of one sensor, restricted to nodal diameters.
 ///
 /// With the colours of utilisation there is a strip of them above each map.
 pub fn map_sheet(maps: &[InteractionMap], window: Window, level_colour: LevelColour) -> String {
@@ -72,7 +72,7 @@ pub fn map_sheet(maps: &[InteractionMap], window: Window, level_colour: LevelCol
     document(&title, WIDTH, height, content)
 }
 
-/// A map with its name; the axes have titles where nothing stands beside or below.
+/// Draws a map with its name; axes have titles only at the left and the lower edge of the sheet.
 fn panel(
     map: &InteractionMap,
     view: &View,
@@ -94,7 +94,7 @@ fn panel(
         .child(diagram.y_axis(&y, if leftmost { "engine order k" } else { "" }, 46.0))
 }
 
-/// What a map of a sheet is of.
+/// Name of a map in a sheet: its nodal diameter.
 pub(super) fn name(map: &InteractionMap) -> String {
     match map.nodal_diameter {
         Some(i) => format!("nodal diameter {i}"),
@@ -117,7 +117,7 @@ pub(super) fn title(maps: &[InteractionMap]) -> String {
     }
 }
 
-/// What stands below the title.
+/// Paragraph below the title: numbers of results and speeds, and the origin.
 pub(super) fn words(maps: &[InteractionMap]) -> String {
     let Some(map) = maps.first() else { return String::new() };
     let computed = map.amplitude.iter().flatten().count();

@@ -1,4 +1,4 @@
-//! The rectangle of a map: amplitudes and the lines and marks that lie over them.
+//! Rectangle of a map: amplitudes, and the lines and marks that lie over them.
 
 use super::axis::Scale;
 use super::cells::{Cell, extent, rpm};
@@ -14,13 +14,13 @@ use rubmap_analysis::effects::casing::shape::Shape;
 use rubmap_analysis::request::Scene;
 use rubmap_analysis::result::{Campbell, CriticalSpeeds, InteractionMap, Wave};
 
-/// Amplitudes below this share of the loudest are shown as quiet.
+/// Share of the loudest amplitude below which amplitudes are shown as quiet.
 pub(super) const QUIETEST: f64 = 1e-3;
 
 /// Fill of the crossings that the lobes drive.
 pub(super) const DRIVEN: &str = "#ff9d5c";
 
-/// What the map has upwards.
+/// Quantity on the vertical axis of a map.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum VerticalAxis {
     /// Engine order: engine-order lines are horizontal, natural frequencies fall with speed.
@@ -29,45 +29,45 @@ pub enum VerticalAxis {
     Frequency,
 }
 
-/// The line of an engine order, from the slowest to the fastest speed at which it is seen: places in the units of the axes.
+/// Line of an engine order, from the slowest to the fastest speed at which it is visible: points in the units of the axes.
 pub(super) struct OrderLine {
     pub(super) order: u32,
-    /// Whether the lobes excite it.
+    /// Whether the lobes excite the engine order.
     pub(super) excited: bool,
     pub(super) ends: [(f64, f64); 2],
 }
 
-/// How the frequency of a mode lies in a map.
+/// Natural frequency of a mode over speed, as it lies in a map.
 pub(super) struct Natural {
     pub(super) nodal_diameter: usize,
-    /// From 0.
+    /// Index of the family, from 0.
     pub(super) family: usize,
     pub(super) wave: Option<Wave>,
-    /// At each speed, in the units of the axes.
+    /// Points at each speed, in the units of the axes.
     pub(super) places: Vec<Option<(f64, f64)>>,
 }
 
 impl Natural {
-    /// The mode in words.
+    /// Words for the mode.
     pub(super) fn words(&self) -> String {
         marks::mode(self.nodal_diameter as u32, self.family as u32 + 1, self.wave)
     }
 }
 
-/// An engine order, and where its line leaves the diagram.
+/// Engine order, and the position where its line leaves the diagram.
 pub(super) type End = (u32, (f64, f64));
 
-/// The map's rectangle and what its vertical axis means.
+/// Rectangle of a map, and the meaning of its vertical axis.
 #[derive(Debug)]
 pub(super) struct View {
     pub(super) axis: VerticalAxis,
-    /// Whose engine orders and frequencies those of the axis are.
+    /// Frame in which the engine orders and frequencies of the vertical axis are measured.
     pub(super) frame: Frame,
     pub(super) diagram: Diagram,
 }
 
 impl View {
-    /// The part of a map that lies in the window, within a rectangle of the drawing.
+    /// Lays out the part of a map that lies in the window, within a rectangle of the drawing.
     pub(super) fn new(
         map: &InteractionMap,
         cells: &[Cell],
@@ -85,7 +85,7 @@ impl View {
                 (orders.0 * speeds.0 / 60.0, orders.1 * speeds.1 / 60.0)
             }
             VerticalAxis::Frequency => {
-                // Full spectra at all speeds, and room above the natural frequencies.
+                // The axis holds full spectra at all speeds, and room above the natural frequencies.
                 let branches = campbell.map(Campbell::branches).unwrap_or_default();
                 let natural = branches.into_iter().flat_map(|(_, table)| table.iter().flatten().flatten());
                 let wanted = natural.fold(highest_order * speeds.0 / 60.0, |top, hz| top.max(1.6 * hz));
@@ -96,7 +96,7 @@ impl View {
         Self { axis, frame, diagram: Diagram::new(corner, size, speeds, upwards) }
     }
 
-    /// What the vertical axis says.
+    /// Title of the vertical axis.
     pub(super) fn axis_words(&self) -> &'static str {
         match (self.axis, self.frame) {
             (VerticalAxis::EngineOrder, Frame::Rotating) => "engine order k",
@@ -125,19 +125,20 @@ impl View {
         }
     }
 
-    /// Place in the drawing of an engine order of the rotating frame at a speed, if it is there; the fixed frame has it at two others.
+    /// Position in the drawing of an engine order of the rotating frame at a speed, if it is in view; none in the fixed frame, which shows
+    /// it at two other orders.
     fn place(&self, rpm: f64, order: f64) -> Option<(f64, f64)> {
         self.seen(rpm, order).and_then(|(rpm, height)| self.diagram.inside(rpm, height))
     }
 
-    /// The same in the units of the axes.
+    /// Point in the units of the axes of an engine order of the rotating frame at a speed, if it is in view; none in the fixed frame.
     pub(super) fn seen(&self, rpm: f64, order: f64) -> Option<(f64, f64)> {
         let place = (rpm, self.height(rpm, order));
         let inside = self.frame == Frame::Rotating && self.diagram.inside(place.0, place.1).is_some();
         inside.then_some(place)
     }
 
-    /// Hatching, with transparent areas over it that say which speeds are without result, and the amplitudes.
+    /// Draws the amplitudes over hatching, with transparent areas that name the speeds without a result.
     pub(super) fn amplitudes(&self, map: &InteractionMap, cells: &[Cell], loudest: Option<f64>) -> Element {
         let without = |cell: &&Cell| is_missing(map, cell);
         let missing = cells.iter().filter(without).filter_map(|cell| {
@@ -148,19 +149,19 @@ impl View {
             let area = area.set("class", "missing").set("fill", "white").set("fill-opacity", "0");
             (from < to).then(|| area.title(&missing_words(map, cell)))
         });
-        // Where nothing moves, all is as quiet as the colours go.
+        // A map without motion is as quiet as the colours go.
         let amplitudes = self.scale(loudest.unwrap_or(1.0));
         let image = heat::image(map, cells, &self.diagram, &amplitudes, |y, rpm| self.order(y, rpm));
         group().child(self.diagram.background(hatching::FILL)).children(missing).child(image)
     }
 
-    /// Whether a corner of the diagram lies above the highest engine order, where spectra say nothing.
+    /// Whether a corner of the diagram lies above the highest engine order, where there are no spectra.
     pub(super) fn reaches_beyond(&self, map: &InteractionMap) -> bool {
         let highest = map.engine_orders.last().copied().unwrap_or(0.0) + 0.5;
         self.order(self.diagram.y.values.1, self.diagram.x.values.0) > highest
     }
 
-    /// The scale of the colours, as high as the diagram.
+    /// Colour scale, as high as the diagram.
     pub(super) fn scale(&self, loudest: f64) -> Scale {
         Scale::logarithmic((QUIETEST * loudest, loudest), (self.diagram.bottom(), self.diagram.top))
     }
@@ -187,7 +188,7 @@ impl View {
         shown.filter_map(line).collect()
     }
 
-    /// The same drawn, dotted, multiples of the lobe count through; with where each leaves the diagram.
+    /// Draws the lines of engine orders, dotted, or solid for multiples of the lobe count, and returns where each leaves the diagram.
     pub(super) fn engine_orders(&self, map: &InteractionMap) -> (Element, Vec<End>) {
         let (mut lines, mut ends) = (group(), Vec::new());
         for OrderLine { order, excited, ends: places } in self.order_lines(map) {
@@ -198,7 +199,7 @@ impl View {
         (lines, ends)
     }
 
-    /// What the lines of engine orders are, for a key.
+    /// Adds the lines of engine orders to a key.
     pub(super) fn explained(mut flow: Flow, map: &InteractionMap, ends: &[End]) -> Flow {
         let lobes = lobes(map);
         let stroke = |excited: bool| {
@@ -234,7 +235,7 @@ impl View {
         found
     }
 
-    /// The same drawn, a colour and a number for each nodal diameter.
+    /// Draws the natural frequencies, a colour and a number for each nodal diameter.
     pub(super) fn natural_frequencies(&self, campbell: &Campbell, labels: &mut Labels) -> Element {
         let harmonics = campbell.frequencies_hz.first().map_or(0, Vec::len);
         let (mut curves, mut words) = (group().set("class", "natural"), group());
@@ -266,7 +267,8 @@ impl View {
         group().child(self.diagram.region(&region)).child(clipped).child(words)
     }
 
-    /// Where the linear criterion and the lobes' engine orders meet natural frequencies, with (i, j, n) and (i, j) where there is room.
+    /// Draws the crossings of natural frequencies with the linear criterion and with the lobes' engine orders, with (i, j, n) and (i, j)
+    /// where there is room.
     pub(super) fn crossings(&self, critical: &CriticalSpeeds, labels: &mut Labels) -> Element {
         let mut found = Vec::new();
         for crossing in &critical.linear_crossings {
@@ -291,7 +293,7 @@ impl View {
         drawn
     }
 
-    /// Which marks [`crossings`](Self::crossings) has: of the linear criterion, and of what the lobes drive.
+    /// Whether [`crossings`](Self::crossings) has marks of the linear criterion, and whether it has marks of driven crossings.
     pub(super) fn has_crossings(&self, critical: &CriticalSpeeds) -> (bool, bool) {
         let linear = critical.linear_crossings.iter().any(|crossing| {
             let order = f64::from(crossing.nodal_diameter * crossing.superharmonic);
@@ -313,12 +315,12 @@ impl View {
     }
 }
 
-/// A line of an engine order: drawn through if the lobes excite it, otherwise dotted.
+/// Draws the straight line of an engine order: solid if the lobes excite it, otherwise dotted.
 fn order_line(from: (f64, f64), to: (f64, f64), excited: bool) -> Element {
     order_stroke(line(from, to), excited)
 }
 
-/// The same of any course.
+/// Draws a line of any shape in the style of an engine order.
 pub(super) fn order_stroke(course: Element, excited: bool) -> Element {
     course
         .set("stroke", "white")
@@ -332,19 +334,19 @@ pub(super) fn is_missing(map: &InteractionMap, cell: &Cell) -> bool {
     map.amplitude.get(cell.index).is_none_or(Option::is_none)
 }
 
-/// Why a speed has none.
+/// Reason why a speed has no amplitudes, in words.
 pub(super) fn missing_words(map: &InteractionMap, cell: &Cell) -> String {
     let point = map.points.iter().find(|point| point.index as usize == cell.index);
     let reason = point.and_then(|point| point.message.as_deref()).unwrap_or("no result");
     format!("{:.0} rpm: {reason}", cell.rpm)
 }
 
-/// How often the casing of a map repeats.
+/// Number of times that the casing of a map repeats over the circumference.
 pub(super) fn lobes(map: &InteractionMap) -> u32 {
     lobes_of(&map.settings.scene)
 }
 
-/// How often the casing of a scene repeats, its lobes if they are equal; at least 1.
+/// Number of times that the casing of a scene repeats over the circumference, its lobes if they are equal; at least 1.
 pub(super) fn lobes_of(scene: &Scene) -> u32 {
     scene.casing.as_ref().and_then(|casing| Shape::of(casing).repeats()).unwrap_or(1)
 }

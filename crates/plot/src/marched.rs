@@ -1,4 +1,4 @@
-//! Speeds of a sweep as dots beside what was found in another way.
+//! Speeds of a sweep as dots beside results of another method.
 
 use super::axis::{label, significant};
 use super::branch_line::Place;
@@ -9,10 +9,10 @@ use rubmap_analysis::result::{Point, PointStatus, Verdict};
 
 const COLOUR: &str = "#999999";
 
-/// Whether a speed has settled, and what its dots are called.
+/// Flag whether a speed has settled, and the name of its dots.
 pub(super) const KINDS: [(bool, &str); 2] = [(true, "speed of the sweep"), (false, "the same, not settled")];
 
-/// A speed of a sweep.
+/// Dot of a speed of a sweep.
 #[derive(Debug)]
 pub(super) struct Dot {
     /// Speed in rpm, and half the peak-to-peak displacement.
@@ -21,7 +21,7 @@ pub(super) struct Dot {
     pub(super) title: String,
 }
 
-/// What a sensor says at the speeds that completed, of those within a range in rpm.
+/// Dots of a sensor at the completed speeds within a range in rpm.
 pub(super) fn dots(points: &[Point], sensor: &Sensor, unit: &str, (slow, fast): (f64, f64)) -> Vec<Dot> {
     let dot = |point: &Point| {
         let response = point.responses.iter().find(|response| response.sensor == *sensor)?;

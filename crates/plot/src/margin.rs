@@ -1,4 +1,4 @@
-//! Utilisation in classes: dark where little is left, whatever the medium.
+//! Utilisation in classes: dark where little margin is left, in colour and in grey.
 
 use super::axis::significant;
 use super::cells::Cell;
@@ -9,7 +9,7 @@ use super::svg::{Element, group, rectangle};
 use super::validity;
 use rubmap_analysis::result::InteractionMap;
 
-/// From which utilisation on a class counts, its colour as a share of the scale of amplitudes, and its words.
+/// Lower bound of each class of utilisation, its colour as a share of the scale of amplitudes, and its words.
 pub(super) const CLASSES: [(f64, f64, &str); 5] = [
     (0.0, 0.97, "utilisation below 0.25"),
     (0.25, 0.83, "from 0.25"),
@@ -23,7 +23,7 @@ pub(super) fn class(utilisation: f64) -> usize {
     CLASSES.iter().rposition(|(from, ..)| utilisation >= *from).unwrap_or(0)
 }
 
-/// Its colour.
+/// Colour of a class of utilisation.
 pub(super) fn fill(class: usize) -> String {
     colour::hex(colour::amplitude(CLASSES[class].1))
 }
@@ -43,7 +43,7 @@ pub(super) fn area(
     bars(map, cells, diagram, |cell| Some((diagram.y.place(curve(cell)?), diagram.bottom())))
 }
 
-/// A strip of so much height upon a diagram, in the same colours.
+/// Strip of this height on top of a diagram, in the colours of the utilisation.
 pub(super) fn strip(map: &InteractionMap, cells: &[Cell], diagram: &Diagram, height: f64) -> Element {
     bars(map, cells, diagram, |_| Some((diagram.top - height, diagram.top)))
 }

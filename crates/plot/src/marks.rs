@@ -5,18 +5,18 @@ use super::cells::rpm;
 use super::svg::{Element, line, upright};
 use rubmap_analysis::result::{CriticalSpeed, Crossing, DrivenCrossing, Verdict, Wave};
 
-/// Distance that keeps upright labels apart.
+/// Least distance between upright labels.
 const LABEL_SPACING: f64 = 15.0;
 
 /// Dashes of a critical speed whose peak is not resolved.
 pub(super) const UNRESOLVED: &str = "1.5 4";
 
-/// An open circle: the linear criterion's crossing.
+/// Mark of a crossing of the linear criterion: an open circle.
 pub(super) fn linear((x, y): (f64, f64), stroke: &str, crossing: &Crossing) -> Element {
     ring((x, y), stroke).title(&linear_words(crossing))
 }
 
-/// The linear criterion's crossing in words.
+/// Words for a crossing of the linear criterion.
 pub(super) fn linear_words(crossing: &Crossing) -> String {
     format!(
         "linear criterion (i, j, n) = {}: {} rpm, {} Hz",
@@ -26,7 +26,7 @@ pub(super) fn linear_words(crossing: &Crossing) -> String {
     )
 }
 
-/// An open circle.
+/// Open circle.
 pub(super) fn ring((x, y): (f64, f64), stroke: &str) -> Element {
     Element::new("circle")
         .number("cx", x)
@@ -37,22 +37,22 @@ pub(super) fn ring((x, y): (f64, f64), stroke: &str) -> Element {
         .set("stroke-width", "1.5")
 }
 
-/// (i, j, n) of a crossing.
+/// Label (i, j, n) of a crossing of the linear criterion.
 pub(super) fn triple(crossing: &Crossing) -> String {
     format!("({}, {}, {})", crossing.nodal_diameter, crossing.family, crossing.superharmonic)
 }
 
-/// (i, j) of a crossing that is driven.
+/// Label (i, j) of a driven crossing.
 pub(super) fn pair(crossing: &DrivenCrossing) -> String {
     format!("({}, {})", crossing.nodal_diameter, crossing.family)
 }
 
-/// A filled diamond: a crossing that the lobes can drive.
+/// Mark of a crossing that the lobes can drive: a filled diamond.
 pub(super) fn driven((x, y): (f64, f64), fill: &str, stroke: &str, crossing: &DrivenCrossing) -> Element {
     diamond((x, y), fill, stroke).title(&driven_words(crossing))
 }
 
-/// A crossing that the lobes can drive, in words.
+/// Words for a crossing that the lobes can drive.
 pub(super) fn driven_words(crossing: &DrivenCrossing) -> String {
     let DrivenCrossing { nodal_diameter, family, engine_order: k, wave, .. } = *crossing;
     format!(
@@ -63,7 +63,7 @@ pub(super) fn driven_words(crossing: &DrivenCrossing) -> String {
     )
 }
 
-/// A mode in words.
+/// Words for a mode.
 pub(super) fn mode(nodal_diameter: u32, family: u32, wave: Option<Wave>) -> String {
     let direction = match wave {
         None => "",
@@ -73,7 +73,7 @@ pub(super) fn mode(nodal_diameter: u32, family: u32, wave: Option<Wave>) -> Stri
     format!("nodal diameter {nodal_diameter}, family {family}{direction}")
 }
 
-/// A diamond.
+/// Diamond-shaped mark.
 pub(super) fn diamond((x, y): (f64, f64), fill: &str, stroke: &str) -> Element {
     Element::new("path")
         .set(
@@ -90,9 +90,8 @@ pub(super) fn diamond((x, y): (f64, f64), fill: &str, stroke: &str) -> Element {
         .set("stroke", stroke)
 }
 
-/// Dashed lines from `top` to `bottom` at the critical speeds, `x` in the drawing, each with its speed above; dotted where
-/// the speeds of the sweep do not resolve the peak. Where it is `said`, utilisations stand in
-/// the place of engine orders.
+/// Draws dashed lines from `top` to `bottom` at the critical speeds, `x` in the drawing, each with its speed above; dotted where the speeds
+/// of the sweep do not resolve the peak. With `said`, utilisations replace the engine orders in the labels.
 pub(super) fn critical(
     speeds: &[(f64, &CriticalSpeed)],
     right: f64,
@@ -122,12 +121,12 @@ pub(super) fn critical(
     out
 }
 
-/// A critical speed in a few words; with its utilisation where that is `said` and known, otherwise with its engine order.
+/// Words for a critical speed; with its utilisation where that is `said` and known, otherwise with its engine order.
 pub(super) fn critical_words(speed: &CriticalSpeed, said: bool) -> String {
     format!(
         "{} rpm{}{}",
         label(rpm(speed.speed_rad_s), 0),
-        // There is room for one of both.
+        // Only one of utilisation and engine order has room.
         if said && speed.utilisation.is_some() {
             utilisation(speed)
         } else {
@@ -137,7 +136,7 @@ pub(super) fn critical_words(speed: &CriticalSpeed, said: bool) -> String {
     )
 }
 
-/// How well a critical speed is known, to be said after it.
+/// Error of a critical speed, in words that follow it.
 pub(super) fn known_to(speed: &CriticalSpeed) -> String {
     if speed.on_branch {
         format!(", a maximum on a branch, known to {} rpm", significant(rpm(speed.speed_error_rad_s)))
@@ -148,22 +147,22 @@ pub(super) fn known_to(speed: &CriticalSpeed) -> String {
     }
 }
 
-/// The engine order of the largest amplitude at a critical speed.
+/// Words for the engine order of the largest amplitude at a critical speed.
 pub(super) fn engine_order(speed: &CriticalSpeed) -> String {
     speed.dominant_engine_order.map_or_else(|| "–".to_owned(), order)
 }
 
-/// The utilisation at a critical speed, to be said after other things.
+/// Utilisation at a critical speed, in words that follow others.
 pub(super) fn utilisation(speed: &CriticalSpeed) -> String {
     speed.utilisation.map_or_else(String::new, |used| format!(" · U {}", significant(used)))
 }
 
-/// An engine order without needless decimals.
+/// Formats an engine order without needless decimals.
 pub(super) fn order(value: f64) -> String {
     if (value - value.round()).abs() < 1e-6 { label(value, 0) } else { label(value, 2) }
 }
 
-/// Moves ascending places apart, none beyond `right` as long as there is room.
+/// Moves ascending positions apart, none beyond `right` as long as there is room.
 pub(super) fn spread(places: &[f64], right: f64) -> Vec<f64> {
     let mut out = places.to_vec();
     for i in 1..out.len() {

@@ -1,19 +1,19 @@
-//! The area that a cloud of nodes covers: packages have nodes and no elements.
+//! Area that a cloud of nodes covers: packages have nodes and no elements.
 //!
-//! Neighbouring nodes are joined by Delaunay's triangles (Bowyer, Computer J. 24, 1981); those whose circle is larger than the mesh is
+//! Neighbouring nodes are joined by Delaunay's triangles (Bowyer, Computer J. 24, 1981); triangles whose circle is larger than the mesh is
 //! coarse span a gap and are left out (an α-shape: Edelsbrunner, Kirkpatrick, Seidel, IEEE Trans. Inf. Theory 29, 1983).
 
 use std::collections::{BTreeMap, BTreeSet};
 
 type Point = (f64, f64);
 
-/// More places than this are thinned: the outline is as fine as it can be seen.
+/// Number of points beyond which the cloud is thinned: the outline is still as fine as the eye can see.
 const MOST: usize = 1500;
 
-/// Radius of the largest circle about a triangle, beside how far apart nodes are where they are sparse.
+/// Radius of the largest circle about a triangle, relative to the distance of nodes where they are sparse.
 const LARGEST_CIRCLE: f64 = 1.25;
 
-/// Triangles that cover the cloud, and the edges at which they end; none where there are no three places in different directions.
+/// Triangles that cover the cloud, and the edges at which they end; none unless three points span an area.
 pub(super) fn outline(points: &[Point]) -> (Vec<[Point; 3]>, Vec<[Point; 2]>) {
     let points = thinned(points);
     let triangles = delaunay(&points);
@@ -35,7 +35,7 @@ pub(super) fn outline(points: &[Point]) -> (Vec<[Point; 3]>, Vec<[Point; 2]>) {
     (kept, ends.map(|((a, b), _)| [points[a], points[b]]).collect())
 }
 
-/// One of the places that share a cell, of cells so large that few enough are left.
+/// Thins points to one in each cell of a grid, with cells so large that at most [`MOST`] points are left.
 fn thinned(points: &[Point]) -> Vec<Point> {
     let ends = |value: fn(&Point) -> f64| {
         let values = points.iter().map(value);
@@ -60,7 +60,7 @@ fn thinned(points: &[Point]) -> Vec<Point> {
     }
 }
 
-/// How far apart neighbours are where they are sparse: of the shortest edges of all places the one that a twentieth exceeds.
+/// Distance of neighbours where they are sparse: 95 % of the points have their shortest edge below it.
 fn spacing(points: &[Point], triangles: &[[usize; 3]]) -> Option<f64> {
     let mut shortest = vec![f64::INFINITY; points.len()];
     for (a, b) in triangles.iter().flat_map(|corners| edges(*corners)) {
@@ -78,7 +78,7 @@ fn edges([a, b, c]: [usize; 3]) -> [(usize, usize); 3] {
     [(a, b), (b, c), (c, a)].map(|(a, b)| (a.min(b), a.max(b)))
 }
 
-/// Centre and squared radius of the circle through three places; none if they lie on a line.
+/// Centre and squared radius of the circle through three points; none if they lie on a line.
 fn circle([a, b, c]: [Point; 3]) -> Option<(Point, f64)> {
     let (b, c) = ((b.0 - a.0, b.1 - a.1), (c.0 - a.0, c.1 - a.1));
     let twice = 2.0 * (b.0 * c.1 - b.1 * c.0);
@@ -88,12 +88,13 @@ fn circle([a, b, c]: [Point; 3]) -> Option<(Point, f64)> {
     square.is_finite().then_some(((a.0 + centre.0, a.1 + centre.1), square))
 }
 
-/// Delaunay's triangles, as indices: place after place, those whose circle it lies in make way for new ones around it.
+/// Delaunay's triangles, as indices: points are inserted one by one, and triangles whose circle holds the new point make way for new ones
+/// around it.
 fn delaunay(points: &[Point]) -> Vec<[usize; 3]> {
     let count = points.len();
     let farthest = |value: fn(&Point) -> f64| points.iter().map(value).fold(0.0, |m: f64, v| m.max(v.abs()));
     let reach = 50.0 * (1.0 + farthest(|point| point.0) + farthest(|point| point.1));
-    // Regular meshes have four places on a circle everywhere; moved by less than can be seen, they have not.
+    // Regular meshes have four points on a circle everywhere; shifts too small to see avoid this.
     let moved = |(index, point): (usize, &Point)| {
         let off = |step: u64| (index as u64).wrapping_mul(step) % 1009;
         (
@@ -134,7 +135,7 @@ mod tests {
         0.5 * ((b.0 - a.0) * (c.1 - a.1) - (b.1 - a.1) * (c.0 - a.0)).abs()
     }
 
-    /// An L of 30 × 30 with a square of 20 × 20 cut out: its area and its circumference.
+    /// L-shaped cloud of 30 × 30 with a square of 20 × 20 cut out: its area and its circumference.
     #[test]
     fn a_cloud_with_a_corner_missing_keeps_it_missing() {
         let all = (0..=30).flat_map(|i| (0..=30).map(move |j| (f64::from(i), f64::from(j))));

@@ -1,4 +1,4 @@
-//! An image with the palette of amplitudes, stretched over a diagram.
+//! Image with the palette of amplitudes, stretched over a diagram.
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -7,13 +7,13 @@ use super::colour;
 use super::diagram::Diagram;
 use super::svg::Element;
 
-/// Pixels of the image for each unit of the drawing.
+/// Number of pixels of the image for each unit of the drawing.
 pub(super) const DENSITY: f64 = 2.0;
 
-/// Palette index of what has no result: transparent.
+/// Palette index of pixels without a result: transparent.
 pub(super) const MISSING: u8 = 255;
 
-/// The image over one diagram; all is missing that nothing was painted on.
+/// Image over one diagram; unpainted pixels are transparent.
 #[derive(Debug)]
 pub(super) struct Pixels {
     diagram: Diagram,
@@ -28,14 +28,14 @@ impl Pixels {
         Self { diagram: *diagram, width, height, shades: vec![MISSING; width * height] }
     }
 
-    /// Paints a share of the scale; where something was painted already, the larger of both is seen.
+    /// Paints a share of the scale; where a pixel is painted twice, the larger share stays.
     pub(super) fn paint(&mut self, column: usize, line: usize, share: f64) {
         let shade = (share.clamp(0.0, 1.0) * 254.0).round() as u8;
         let pixel = &mut self.shades[line * self.width + column];
         *pixel = if *pixel == MISSING { shade } else { (*pixel).max(shade) };
     }
 
-    /// Paints the rectangle between two places of the drawing; at least a pixel wide and high if any of it is in the diagram.
+    /// Paints the rectangle between two positions of the drawing; at least a pixel wide and high if any of it is in the diagram.
     pub(super) fn paint_area(&mut self, x: (f64, f64), y: (f64, f64), share: f64) {
         let columns = within((x.0 - self.diagram.left, x.1 - self.diagram.left), self.width);
         for line in within((y.0 - self.diagram.top, y.1 - self.diagram.top), self.height) {
@@ -56,7 +56,7 @@ impl Pixels {
     }
 }
 
-/// An image stretched over a diagram.
+/// Image stretched over a diagram.
 pub(super) fn over(diagram: &Diagram, address: String) -> Element {
     let Diagram { left, top, width, height, .. } = *diagram;
     Element::new("image")
@@ -68,7 +68,7 @@ pub(super) fn over(diagram: &Diagram, address: String) -> Element {
         .set("href", address)
 }
 
-/// An image of `width` × `height` indices into a palette, whose index [`MISSING`] is transparent, as the address of itself.
+/// Data URI of an image of `width` × `height` indices into a palette, whose index [`MISSING`] is transparent.
 pub(super) fn data_uri((width, height): (usize, usize), palette: Vec<u8>, indices: &[u8]) -> String {
     let mut transparency = [255; 256];
     transparency[usize::from(MISSING)] = 0;
@@ -80,14 +80,14 @@ pub(super) fn data_uri((width, height): (usize, usize), palette: Vec<u8>, indice
     encoder.set_trns(transparency.to_vec());
     encoder.set_compression(png::Compression::High);
     let written = encoder.write_header().and_then(|mut writer| writer.write_image_data(indices));
-    // Into memory, with sizes that agree, nothing can fail; without an image the drawing is still one.
+    // Writing to memory with sizes that agree cannot fail; without an image the drawing is still one.
     match written {
         Ok(()) => format!("data:image/png;base64,{}", STANDARD.encode(&file)),
         Err(_) => "data:,".to_owned(),
     }
 }
 
-/// The pixels of `count` between two places.
+/// Range of pixels, of `count`, between two positions.
 fn within((from, to): (f64, f64), count: usize) -> std::ops::Range<usize> {
     let first = (from.min(to) * DENSITY).round().max(0.0);
     let end = (from.max(to) * DENSITY).round().max(first + 1.0);

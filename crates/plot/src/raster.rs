@@ -6,36 +6,36 @@ use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg::fontdb::{Database, Source};
 use resvg::usvg::{Options, Tree};
 
-/// Widths that [`png()`] draws, in pixels: from what shows nothing to what no screen has; beyond, memory is at stake.
+/// Widths that [`png()`] draws, in pixels: narrower images show nothing, wider ones exceed every screen and cost memory.
 pub const WIDTHS: std::ops::RangeInclusive<u32> = 16..=4096;
 
-/// Pixels of an image, of any shape.
+/// Largest number of pixels of an image of any shape.
 const MOST_PIXELS: f64 = 32e6;
 
-/// Why there is no image.
+/// Error of drawing a PNG.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum PngError {
-    /// A width beyond [`WIDTHS`].
+    /// Width outside [`WIDTHS`].
     #[error("a width of {width} pixels: from {} to {} are possible", WIDTHS.start(), WIDTHS.end())]
     Width {
-        /// What was asked for.
+        /// Requested width, pixels.
         width: u32,
     },
-    /// A drawing that is too high for its width.
+    /// Drawing that is too high for its width.
     #[error("{pixels:.0} pixels are too many: ask for a smaller width")]
     Size {
-        /// How many there would be.
+        /// Number of pixels the image would have.
         pixels: f64,
     },
-    /// Not a drawing.
+    /// Text that is no SVG drawing.
     #[error("not a drawing: {0}")]
     Svg(String),
-    /// The image could not be written.
+    /// Image that could not be written.
     #[error("the image could not be written: {0}")]
     Write(String),
 }
 
-/// DejaVu Sans Condensed, as wide as what browsers take in its place; no other font is looked for, so that the same drawing gives the
+/// DejaVu Sans Condensed, as wide as the fonts that browsers substitute; no other font is looked for, so that the same drawing gives the
 /// same image everywhere.
 static FONTS: LazyLock<Arc<Database>> = LazyLock::new(|| {
     let mut fonts = Database::new();
@@ -49,7 +49,7 @@ static FONTS: LazyLock<Arc<Database>> = LazyLock::new(|| {
     Arc::new(fonts)
 });
 
-/// Draws an SVG as a PNG of this width in pixels, as high as its shape asks for, on white where it is transparent.
+/// Draws an SVG as a PNG of this width in pixels, as high as its proportions require, on white where it is transparent.
 ///
 /// # Errors
 /// [`PngError`] of a width that is not possible and of a text that is no drawing.

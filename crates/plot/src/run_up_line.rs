@@ -1,19 +1,19 @@
-//! A run as a line: how far a sensor swings, frame by frame.
+//! Line of a run: amplitude of a sensor, frame by frame.
 
 use super::axis::{label, significant};
 use super::cells::rpm;
 use super::run_up_words::{long_name, name};
 use rubmap_analysis::result::{RunUp, RunUpFrame};
 
-/// A frame of a run.
+/// Frame of a run at one sensor.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Step {
-    /// Mean of its speeds.
+    /// Mean speed of the frame, rpm.
     pub(super) rpm: f64,
-    /// Its middle.
+    /// Middle of the frame, s.
     pub(super) time_s: f64,
     pub(super) half_peak_to_peak: f64,
-    /// Share of its steps in which something touches.
+    /// Share of the frame's steps in which something touches.
     pub(super) contact_share: f64,
 }
 
@@ -30,7 +30,7 @@ impl Step {
         [step.rpm, step.time_s, half_peak_to_peak].iter().all(|value| value.is_finite()).then_some(step)
     }
 
-    /// Over the speed.
+    /// Point of the line: speed in rpm, and half the peak-to-peak displacement.
     pub(super) fn over_speed(&self) -> (f64, f64) {
         (self.rpm, self.half_peak_to_peak)
     }
@@ -39,7 +39,7 @@ impl Step {
         self.contact_share > 0.0
     }
 
-    /// Speed, time and amplitude in words.
+    /// Words for speed, time and amplitude.
     pub(super) fn words(&self, unit: &str) -> String {
         let Self { rpm, time_s, half_peak_to_peak, contact_share } = self;
         let touching = if self.touches() {
@@ -52,22 +52,22 @@ impl Step {
     }
 }
 
-/// A run.
+/// Line of a run.
 #[derive(Debug)]
 pub(super) struct Line {
     pub(super) name: String,
     pub(super) title: String,
     pub(super) rate_rad_s2: Option<f64>,
-    /// Its place among all runs, the slowest first: what colours go by.
+    /// Rank of the run among all runs, the slowest first; it decides the colour.
     pub(super) rank: usize,
-    /// In the order of time; of many the lowest and the highest of neighbours.
+    /// Frames in the order of time; of many, the lowest and the highest of neighbours.
     pub(super) steps: Vec<Step>,
-    /// Where the sensor swings most, if it does.
+    /// Frame in which the sensor swings most, if it moves.
     pub(super) largest: Option<Step>,
 }
 
 impl Line {
-    /// With about `most` steps.
+    /// Builds the line of a run with about `most` steps.
     pub(super) fn of(run: &RunUp, sensor: usize, rank: usize, most: usize) -> Self {
         let all: Vec<Step> = run.frames.iter().filter_map(|frame| Step::of(frame, sensor)).collect();
         let moves = all.iter().copied().filter(|step| step.half_peak_to_peak > 0.0);
@@ -77,13 +77,14 @@ impl Line {
         Self { name, title, rate_rad_s2: run.rate_rad_s2, rank, steps, largest }
     }
 
-    /// Stretches in which something touches.
+    /// Stretches of the line in which something touches.
     pub(super) fn touching(&self) -> impl Iterator<Item = &[Step]> {
         self.steps.chunk_by(|a, b| a.touches() == b.touches()).filter(|stretch| stretch[0].touches())
     }
 }
 
-/// Of neighbours that are too many the lowest and the highest, in their order; both touch if one of them does.
+/// Thins steps to about `most`: of each stretch of neighbours the lowest and the highest stay, in their order; both touch if one of the
+/// stretch does.
 fn extremes(steps: Vec<Step>, most: usize) -> Vec<Step> {
     let together = (2 * steps.len()).div_ceil(most.max(2));
     if together <= 2 {

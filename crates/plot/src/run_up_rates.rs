@@ -1,4 +1,4 @@
-//! How the rate lowers what a run-up reaches.
+//! Largest amplitude of run-ups over their rate: faster runs reach less.
 
 use super::axis::{logarithmic_ticks, significant, ticks};
 use super::diagram::Diagram;
@@ -8,11 +8,11 @@ use super::svg::{Element, group, line, polyline, text};
 
 const SIZE: (f64, f64) = (180.0, 150.0);
 
-/// How far apart the labels of rates are at least.
+/// Least distance between the labels of rates.
 const APART: f64 = 34.0;
 
-/// The largest amplitude of every run over its rate, dots in the colours of the runs; dashed, the largest of the settled speeds of a
-/// sweep. None if there are not two rates.
+/// Draws the largest amplitude of every run over its rate, dots in the colours of the runs; dashed, the largest of the settled speeds of a
+/// sweep. None without two different rates.
 pub(super) fn panel(
     view: &View<'_>,
     corner: (f64, f64),
@@ -66,7 +66,7 @@ pub(super) fn panel(
     Some(drawn)
 }
 
-/// Ticks of the rates that do not run into each other, powers of ten first; of rates between two ticks, the middle.
+/// Ticks of the rates that do not overlap, powers of ten first; where the range holds no tick, its middle.
 fn shown(diagram: &Diagram) -> Vec<(f64, String)> {
     let mut ticks = logarithmic_ticks(diagram.x.values);
     let is_power = |rate: f64| (rate.log10() - rate.log10().round()).abs() < 1e-6;

@@ -1,4 +1,4 @@
-//! What is said of run-ups.
+//! Words of the drawings of run-ups.
 
 use super::axis::{label, significant};
 use super::cells::rpm;
@@ -6,10 +6,10 @@ use super::heading;
 use rubmap_analysis::request::{AutoOr, RunUpSettings, RunUpSpeed};
 use rubmap_analysis::result::{RunUp, RunUps};
 
-/// Most runs of which it is said how they ended.
+/// Largest number of runs whose ends are stated.
 const MOST_ENDS: usize = 3;
 
-/// How a speed changes, in a word.
+/// Word for how the speed changes.
 pub(super) fn course(speed: &RunUpSpeed) -> &'static str {
     let speeds: Vec<f64> = match &speed.points {
         Some(points) => points.iter().map(|point| point.speed).collect(),
@@ -25,12 +25,12 @@ pub(super) fn course(speed: &RunUpSpeed) -> &'static str {
     }
 }
 
-/// What a run is called: by its rate.
+/// Name of a run: its rate.
 pub(super) fn name(run: &RunUp) -> String {
     run.rate_rad_s2.map_or_else(|| "run".to_owned(), |rate| format!("{} rad/s²", digits(rate)))
 }
 
-/// A rate to three digits, without zeros at the end.
+/// Formats a rate to three digits, without trailing zeros.
 fn digits(rate: f64) -> String {
     let digits = significant(rate);
     if digits.contains('e') || !digits.contains('.') {
@@ -39,7 +39,7 @@ fn digits(rate: f64) -> String {
     digits.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-/// A run with what its rate is in rpm, in words.
+/// Words for a run, with its rate in rpm as well.
 pub(super) fn long_name(run: &RunUp) -> String {
     match run.rate_rad_s2 {
         Some(rate) => format!("{} ({} rpm/s)", name(run), digits(rpm(rate))),
@@ -47,7 +47,7 @@ pub(super) fn long_name(run: &RunUp) -> String {
     }
 }
 
-/// What the envelopes are of.
+/// Title: the course of the speed and the sensor.
 pub(super) fn title(run_ups: &RunUps, sensor: usize) -> String {
     let what = match course(&run_ups.settings.speed) {
         "run-up" => "Run-ups",
@@ -60,7 +60,7 @@ pub(super) fn title(run_ups: &RunUps, sensor: usize) -> String {
     }
 }
 
-/// What stands below the title: how much there is, how fast one must pass, and how runs ended that do not say all.
+/// Paragraphs below the title: numbers of runs and frames, how fast one must pass, and how incomplete runs ended.
 pub(super) fn words(run_ups: &RunUps) -> Vec<String> {
     let frames = run_ups.runs.iter().map(|run| run.frames.len()).sum();
     let mut words = vec![counted(run_ups.runs.len(), "run"), of_frames(frames, &run_ups.settings)];
@@ -78,7 +78,7 @@ pub(super) fn words(run_ups: &RunUps) -> Vec<String> {
     [Some(words.join(" · ")), passing, (!ends.is_empty()).then_some(ends)].into_iter().flatten().collect()
 }
 
-/// So many frames, and how long they are, in words.
+/// Words for a number of frames and their length.
 pub(super) fn of_frames(frames: usize, settings: &RunUpSettings) -> String {
     let frames = counted(frames, "frame");
     match settings.frame_revolutions {

@@ -1,4 +1,4 @@
-//! Run-ups: how far a sensor swings over the speed, at every rate.
+//! Run-ups: amplitude of a sensor over the speed, at every rate.
 
 use super::axis::{label, ticks};
 use super::colour::{DISTINCT, ordinal};
@@ -18,8 +18,8 @@ const LEFT: f64 = 92.0;
 const SIZE: (f64, f64) = (800.0, 560.0);
 
 /// Draws half the peak-to-peak displacement of a sensor in the frames of every run, over the rotational speed, a colour for each rate;
-/// where something touches the line is broad, and its highest place has a ring. `swept`: speeds of a sweep, as dots. Runs of several
-/// rates have their largest amplitudes over the rate in a small diagram beside.
+/// where something touches the line is broad, and its highest point has a ring. `swept`: speeds of a sweep, as dots. Runs of several rates
+/// have their largest amplitudes over the rate in a small diagram beside.
 pub fn run_ups(run_ups: &RunUps, sensor: usize, swept: &[Point]) -> String {
     let title = told::title(run_ups, sensor);
     let (heading, bottom) = heading::heading(LEFT, &title, &told::words(run_ups));
@@ -64,7 +64,7 @@ fn place(view: &View<'_>, step: &Step) -> Option<(f64, f64)> {
     view.diagram.inside(x, y)
 }
 
-/// The line of a run: broad where something touches.
+/// Draws the line of a run: broad where something touches.
 fn envelope(view: &View<'_>, line: &Line) -> Element {
     let colour = colour(view, line);
     let dot = |step: &Step, radius: f64| {
@@ -99,7 +99,7 @@ fn ring((x, y): (f64, f64), colour: &str) -> Element {
     ring.set("fill", "white").set("stroke", colour).set("stroke-width", "1.8")
 }
 
-/// Where each run swings most, with the speed where there is room.
+/// Draws a ring where each run swings most, with the speed where there is room.
 fn peaks(view: &View<'_>) -> Element {
     let mut found: Vec<(&Line, Step, (f64, f64))> = view
         .lines

@@ -1,4 +1,4 @@
-//! What is seen of run-ups over the speed.
+//! Layout of run-ups over the speed.
 
 use super::cells::rpm;
 use super::diagram::Diagram;
@@ -7,30 +7,30 @@ use super::run_up_line::Line;
 use rubmap_analysis::request::{RunUpSpeed, Sensor};
 use rubmap_analysis::result::{Point, RunUp, RunUps};
 
-/// Steps of all lines together, about: what a screen shows.
+/// Approximate number of steps of all lines together: what a screen shows.
 const STEPS: usize = 24_000;
 
-/// Lines have at least so many of them.
+/// Least number of steps of a line.
 const LEAST_STEPS: usize = 200;
 
-/// Most runs that a key lists, and whose largest amplitudes have labels.
+/// Largest number of runs that a key lists, and whose largest amplitudes have labels.
 pub(super) const LISTED: usize = 12;
 
-/// Said where there is no frame.
+/// Message where there is no frame.
 pub(super) const NONE: &str = "no frame of a run can be drawn";
 
-/// The envelopes of all runs, with speeds of a sweep beside.
+/// Envelopes of all runs, with speeds of a sweep beside them.
 pub(super) struct View<'a> {
     pub(super) sensor: Option<&'a Sensor>,
     pub(super) unit: &'a str,
     pub(super) diagram: Diagram,
-    /// The slowest first.
+    /// Lines of the runs, the slowest first.
     pub(super) lines: Vec<Line>,
     pub(super) dots: Vec<Dot>,
 }
 
 impl<'a> View<'a> {
-    /// In a rectangle of the drawing.
+    /// Lays out the runs in a rectangle of the drawing.
     pub(super) fn new(
         run_ups: &'a RunUps,
         index: usize,
@@ -52,7 +52,7 @@ impl<'a> View<'a> {
         Self { sensor, unit, diagram: Diagram::new(corner, size, x, y), lines, dots }
     }
 
-    /// Whether there is nothing to draw.
+    /// Whether there is no line to draw.
     pub(super) fn is_empty(&self) -> bool {
         self.lines.iter().all(|line| line.steps.is_empty())
     }
@@ -62,7 +62,7 @@ impl<'a> View<'a> {
         self.lines.iter().filter(|line| !line.steps.is_empty()).collect()
     }
 
-    /// Those of them that are listed: if there are more than [`LISTED`], evenly from the slowest to the fastest.
+    /// Lines that the key lists: if there are more than [`LISTED`], evenly from the slowest to the fastest.
     pub(super) fn listed(&self) -> Vec<&Line> {
         let shown = self.shown();
         let rows = shown.len().min(LISTED);
@@ -70,7 +70,7 @@ impl<'a> View<'a> {
         (0..rows).map(of).collect()
     }
 
-    /// Title of the axis upwards.
+    /// Title of the vertical axis.
     pub(super) fn height(&self) -> String {
         match self.unit {
             "" => "half peak to peak".to_owned(),
@@ -83,7 +83,7 @@ fn rate(run: &RunUp) -> f64 {
     run.rate_rad_s2.unwrap_or(0.0)
 }
 
-/// What was asked for and what was run, in rpm.
+/// Range of the requested speeds and of those that were run, in rpm.
 fn speeds(asked: &RunUpSpeed, lines: &[Line]) -> (f64, f64) {
     let through = asked.points.iter().flatten().map(|point| point.speed);
     let asked = asked.from.into_iter().chain(asked.to).chain(through).map(rpm);

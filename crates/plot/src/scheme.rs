@@ -1,15 +1,15 @@
-//! How the time stepping schemes are told apart: by colour and by shape.
+//! Colours and shapes that distinguish the time stepping schemes.
 
 use super::colour;
 use super::svg::Element;
 use rubmap_analysis::request::SchemeChoice;
 
-/// A scheme in words.
+/// Words for a scheme.
 pub(super) fn words(scheme: SchemeChoice) -> String {
     scheme.as_str().replace('_', " ")
 }
 
-/// Its colour.
+/// Colour of a scheme.
 pub(super) fn colour(scheme: SchemeChoice) -> &'static str {
     let [blue, vermilion, green, purple, ..] = colour::DISTINCT;
     match scheme {
@@ -20,7 +20,7 @@ pub(super) fn colour(scheme: SchemeChoice) -> &'static str {
     }
 }
 
-/// Its mark: shapes of about the area of a circle of this radius.
+/// Mark of a scheme: a shape of about the area of a circle of this radius.
 pub(super) fn mark(scheme: SchemeChoice, (x, y): (f64, f64), radius: f64) -> Element {
     let polygon = |corners: &[(f64, f64)]| {
         let corners = corners.iter().map(|(u, v)| format!("{:.2},{:.2}", x + radius * u, y + radius * v));

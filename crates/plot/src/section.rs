@@ -15,13 +15,13 @@ const HEIGHT: f64 = 800.0;
 const LEFT: f64 = 92.0;
 const PLOT: (f64, f64) = (790.0, 640.0);
 
-/// Dots so near to each other are one.
+/// Distance below which dots are drawn as one.
 const COVERED: f64 = 1.5;
 
-/// A gap that can be seen, in the drawing.
+/// Width in the drawing at which a gap is visible.
 const VISIBLE: f64 = 14.0;
 
-/// From where the sector is looked at.
+/// Direction from which a sector is seen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SectionView {
     /// Across the axis: all nodes turned into one plane, with the contact line and the casing at its clearance.
@@ -30,10 +30,10 @@ pub enum SectionView {
     Cyclic,
 }
 
-/// What is said where there are none.
+/// Message where no node is known.
 pub(super) const NO_NODES: &str = "Nothing to draw: no node is known";
 
-/// What a node looks like and is called.
+/// Colour, size and name of a kind of node.
 pub(super) struct Look {
     pub(super) kind: NodeKind,
     words: &'static str,
@@ -42,7 +42,7 @@ pub(super) struct Look {
 }
 
 impl Look {
-    /// What such nodes are called.
+    /// Name of such nodes in a view.
     pub(super) fn words(&self, view: SectionView) -> &'static str {
         match (view, self.kind) {
             (SectionView::Meridional, NodeKind::Low) => "cyclic faces",
@@ -51,7 +51,7 @@ impl Look {
     }
 }
 
-/// In the order in which they are drawn over each other.
+/// Looks of all kinds of nodes, in the order in which they are drawn over each other.
 const LOOKS: [Look; 5] = [
     Look { kind: NodeKind::Internal, words: "other nodes", colour: "#b4bcc4", radius: 1.3 },
     Look { kind: NodeKind::Low, words: "low cyclic face", colour: "#0072b2", radius: 2.2 },
@@ -82,7 +82,7 @@ pub fn section(geometry: &SectorGeometry, view: SectionView) -> String {
     document(&title, width, diagram.bottom() + 66.0, content)
 }
 
-/// What is seen.
+/// Title: the section and the name of the model.
 pub(super) fn title(geometry: &SectorGeometry, view: SectionView) -> String {
     let subject = match view {
         SectionView::Meridional => "Meridional section",
@@ -92,7 +92,7 @@ pub(super) fn title(geometry: &SectorGeometry, view: SectionView) -> String {
     format!("{subject}{name}")
 }
 
-/// What stands below the title.
+/// Paragraph below the title: numbers of sectors and nodes, and the clearance.
 pub(super) fn words(geometry: &SectorGeometry, view: SectionView) -> String {
     let mut words = format!(
         "one of {} sectors · {} nodes, {} on the contact line",
@@ -106,7 +106,7 @@ pub(super) fn words(geometry: &SectorGeometry, view: SectionView) -> String {
     words
 }
 
-/// What the axes say.
+/// Titles of the axes.
 pub(super) fn axes(geometry: &SectorGeometry, view: SectionView) -> [String; 2] {
     let axes = match view {
         SectionView::Meridional => ["axial coordinate z", "radius r"],
@@ -115,7 +115,7 @@ pub(super) fn axes(geometry: &SectorGeometry, view: SectionView) -> [String; 2] 
     axes.map(|axis| format!("{axis}, {}", geometry.units.length))
 }
 
-/// The clearances at both ends of the contact line, in words.
+/// Words for the clearances at both ends of the contact line.
 fn clearances(geometry: &SectorGeometry) -> Option<String> {
     let all: Option<Vec<f64>> = geometry.contact.iter().map(|place| place.clearance).collect();
     let all = all.filter(|all| !all.is_empty())?;
@@ -127,17 +127,17 @@ fn clearances(geometry: &SectorGeometry) -> Option<String> {
     })
 }
 
-/// A section and where its places are in the drawing.
+/// Section of a sector, and its positions in the drawing.
 pub(super) struct Drawing<'a> {
     geometry: &'a SectorGeometry,
     view: SectionView,
     diagram: Diagram,
-    /// How many times as large as it is a clearance is drawn.
+    /// Magnification of the clearance.
     pub(super) stretch: f64,
 }
 
 impl<'a> Drawing<'a> {
-    /// Whose diagram begins at `top`.
+    /// Lays out a section in a diagram that begins at `top`.
     pub(super) fn new(geometry: &'a SectorGeometry, view: SectionView, top: f64) -> Self {
         let nodes = geometry.nodes.iter().map(|node| node.position);
         let places = nodes.chain(geometry.contact.iter().map(|place| place.position));
@@ -155,7 +155,7 @@ impl<'a> Drawing<'a> {
         self.diagram.point(x, y)
     }
 
-    /// What is told apart: turned into one plane, both cyclic faces are one.
+    /// Kinds of nodes that a view distinguishes: turned into one plane, both cyclic faces coincide.
     pub(super) fn looks(&self) -> impl Iterator<Item = &'static Look> {
         let view = self.view;
         LOOKS.iter().filter(move |look| view == SectionView::Cyclic || look.kind != NodeKind::High)
@@ -165,7 +165,7 @@ impl<'a> Drawing<'a> {
         self.geometry.nodes.iter().filter(move |node| node.kind == kind)
     }
 
-    /// Nodes of a kind; of those that cover each other one.
+    /// Nodes of one kind; of nodes that cover each other only one.
     pub(super) fn seen(&self, kind: NodeKind) -> Vec<&SectorNode> {
         let mut taken = BTreeSet::new();
         let cell = |(x, y): (f64, f64)| ((x / COVERED) as i64, (y / COVERED) as i64);
@@ -190,7 +190,7 @@ impl<'a> Drawing<'a> {
         content
     }
 
-    /// What the nodes cover, turned into one plane.
+    /// Draws the area that the nodes cover, turned into one plane.
     fn outline(&self) -> Option<Element> {
         (self.view == SectionView::Meridional).then_some(())?;
         let places: Vec<(f64, f64)> =
@@ -199,14 +199,14 @@ impl<'a> Drawing<'a> {
         (!edges.is_empty()).then_some(())?;
         let corners = |[a, b, c]: [(f64, f64); 3]| [Some(a), Some(b), Some(c), Some(a), None];
         let area = polyline(triangles.into_iter().flat_map(corners)).set("style", "fill:#e3e8ee");
-        // What the triangles leave of the area between them is covered, too.
+        // The stroke covers the slits between the triangles.
         let area = area.set("class", "area").set("stroke", "#e3e8ee").set("stroke-width", "0.8");
         let rim = polyline(edges.into_iter().flat_map(|[a, b]| [Some(a), Some(b), None]));
         let rim = rim.set("class", "outline").set("stroke", "#5a6672").set("stroke-width", "1.2");
         Some(group().child(area).child(rim.set("stroke-linecap", "round")))
     }
 
-    /// Which end of the contact line is which.
+    /// Labels the two ends of the contact line.
     fn ends(&self) -> Element {
         let contact = &self.geometry.contact;
         let end = |index: usize, words: &str| {
@@ -225,7 +225,7 @@ impl<'a> Drawing<'a> {
         }
     }
 
-    /// Places of the casing along the normals, before each contact node; none where its clearance is not known.
+    /// Points of the casing along the normals, before each contact node; none where its clearance is unknown.
     pub(super) fn wall(&self) -> Option<Vec<[f64; 3]>> {
         (self.view == SectionView::Meridional).then_some(())?;
         let at = |place: &rubmap_analysis::result::ContactPlace| {
@@ -236,7 +236,7 @@ impl<'a> Drawing<'a> {
         self.geometry.contact.iter().map(at).collect()
     }
 
-    /// The casing at its clearance along the normals, with the normals.
+    /// Draws the casing at its clearance along the normals, with the normals.
     fn casing(&self) -> Option<Element> {
         let contact = &self.geometry.contact;
         let wall: Vec<(f64, f64)> = self.wall()?.into_iter().map(|place| self.place(place)).collect();
@@ -249,7 +249,7 @@ impl<'a> Drawing<'a> {
         Some(group().children(normals).child(wall))
     }
 
-    /// How many times as large the clearance is drawn.
+    /// Words for the magnification of the clearance.
     pub(super) fn stretch_words(&self) -> String {
         format!("its clearance drawn {} times as large", self.stretch)
     }
@@ -290,7 +290,7 @@ fn class(kind: NodeKind) -> &'static str {
     }
 }
 
-/// Faces are told apart without colours, too: low ones are round, high ones diamonds, clamped nodes squares.
+/// Dot of a node, distinct without colours too: round on the low face, a diamond on the high one, a square where clamped.
 fn dot((x, y): (f64, f64), look: &Look) -> Element {
     let r = look.radius;
     match look.kind {
@@ -307,7 +307,7 @@ fn dot((x, y): (f64, f64), look: &Look) -> Element {
     }
 }
 
-/// Cylindrical coordinates as they are seen.
+/// Projects cylindrical coordinates into the plane of a view.
 pub(super) fn project(view: SectionView, [r, theta, z]: [f64; 3]) -> (f64, f64) {
     match view {
         SectionView::Meridional => (z, r),
@@ -315,7 +315,7 @@ pub(super) fn project(view: SectionView, [r, theta, z]: [f64; 3]) -> (f64, f64) 
     }
 }
 
-/// The next of 1, 2 and 5 times a power of ten; at least 1.
+/// Rounds up to the next of 1, 2 and 5 times a power of ten; at least 1.
 fn round_up(value: f64) -> f64 {
     if value <= 1.0 || !value.is_finite() {
         return 1.0;

@@ -1,9 +1,9 @@
-//! How many sectors a wheel has, read off what its reduction kept.
+//! Number of sectors of a wheel, derived from its reduction report.
 
 use rubmap_analysis::result::ReductionReport;
 
-/// N: nodal diameters from 0 to N/2 have their unknowns twice in the wheel, but 0 and, of an even number, N/2. None where the numbers
-/// do not say.
+/// Number of sectors N: nodal diameters from 0 to N/2 have their unknowns twice in the wheel, except 0 and, for an even number, N/2. None
+/// where the numbers do not determine it.
 pub(super) fn sectors(reduction: &ReductionReport) -> Option<u32> {
     let unknowns = &reduction.unknowns;
     let last = u32::try_from(unknowns.len().checked_sub(1)?).ok()?;

@@ -1,18 +1,18 @@
-//! A strip with the verdict on each speed: how far its amplitudes can be trusted as a steady state.
+//! Strip with the verdict on each speed: how far its amplitudes can be trusted as a steady state.
 
 use super::cells::Cell;
 use super::diagram::Diagram;
 use super::svg::{Element, group, rectangle, text};
 use rubmap_analysis::result::{InteractionMap, PointStatus, Verdict};
 
-/// What can be said of a speed.
+/// Standing of a speed in a sweep.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Standing {
-    /// Computed, with this verdict.
+    /// Computed speed, with the verdict on its steady state.
     Settled(Verdict),
-    /// Diverged or failed.
+    /// Diverged or failed speed.
     Missing,
-    /// Not computed (yet).
+    /// Speed that is not computed yet.
     Pending,
 }
 
@@ -58,7 +58,7 @@ impl Standing {
     }
 }
 
-/// The strip itself, `height` high from `top` on, over the horizontal axis of `diagram`.
+/// Draws the strip, `height` high from `top` on, over the horizontal axis of `diagram`.
 pub(super) fn strip(
     map: &InteractionMap,
     cells: &[Cell],
@@ -83,7 +83,7 @@ pub(super) fn strip(
     ))
 }
 
-/// The key of the standings that occur.
+/// Draws the key of the standings that occur.
 pub(super) fn legend(map: &InteractionMap, x: f64, y: f64) -> Element {
     let occurs = |standing: &Standing| (0..map.speeds_rad_s.len()).any(|i| Standing::of(map, i) == *standing);
     let mut place = x;

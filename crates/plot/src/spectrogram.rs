@@ -1,4 +1,4 @@
-//! The spectrogram of a run: spectra over the speed that it passes, or over time.
+//! Spectrogram of a run: spectra over the speed that it passes, or over time.
 
 use super::axis::{Scale, label, logarithmic_ticks, significant, ticks};
 use super::cells::rpm;
@@ -21,14 +21,14 @@ const MAP_HEIGHT: f64 = 520.0;
 const STRIP_HEIGHT: f64 = 96.0;
 const GAP: f64 = 12.0;
 
-/// Columns and rows of the image at most: what a reader tells apart.
+/// Largest number of columns and rows of the image: as many as a reader distinguishes.
 const MOST: (usize, usize) = (900, 400);
 
-/// Draws the spectra of a sensor in the frames of the run of this number, below how far it swings: over the rotational speed if that
-/// only rises or only falls, otherwise over time with the speed above. Frames without spectra are left out.
+/// Draws the spectra of a sensor in the frames of the run of this number, below its amplitude: over the rotational speed if that only rises
+/// or only falls, otherwise over time with the speed above. Frames without spectra are left out.
 ///
-/// Colour is the amplitude on a logarithmic scale of three decades below the loudest; the mean is left out. Where frames or lines share
-/// a cell, the loudest is seen.
+/// Colour is the amplitude on a logarithmic scale of three decades below the loudest; the mean is left out. Where frames or lines share a
+/// cell, the loudest is seen.
 pub fn spectrogram(run_ups: &RunUps, run: usize, sensor: usize, unit: SpectrogramUnit) -> String {
     let title = title(run_ups, run, sensor);
     let view = match View::of(run_ups, run, sensor, unit) {
@@ -69,14 +69,14 @@ pub fn spectrogram(run_ups: &RunUps, run: usize, sensor: usize, unit: Spectrogra
     document(&title, WIDTH, height, content)
 }
 
-/// What is said where there is nothing.
+/// Draws an empty diagram with a message.
 fn nothing(title: &str, words: &str) -> String {
     let (heading, bottom) = heading::heading(LEFT, title, &[]);
     let empty = Diagram::new((LEFT, bottom + 24.0), (PLOT_WIDTH, MAP_HEIGHT), (0.0, 1.0), (0.0, 1.0));
     document(title, WIDTH, empty.bottom() + 24.0, vec![heading, empty.frame(), empty.words(words)])
 }
 
-/// What the spectra are of.
+/// Title: the run with its rate, and the sensor.
 pub(super) fn title(run_ups: &RunUps, number: usize, sensor: usize) -> String {
     let course = told::course(&run_ups.settings.speed);
     let run = run_ups.runs.iter().find(|run| run.run as usize == number);
@@ -85,7 +85,7 @@ pub(super) fn title(run_ups: &RunUps, number: usize, sensor: usize) -> String {
     format!("Spectrogram of a {course}{}: {sensor}", rate.unwrap_or_default())
 }
 
-/// What stands below the title.
+/// Paragraph below the title: frames, speeds, time.
 pub(super) fn words(run_ups: &RunUps, view: &View<'_>) -> String {
     let frame = |frame: &&RunUpFrame| frame.speeds_rad_s.map(|speed| label(rpm(speed), 0));
     let mut words = vec![told::of_frames(view.frames.len(), &run_ups.settings)];
@@ -105,7 +105,7 @@ pub(super) fn words(run_ups: &RunUps, view: &View<'_>) -> String {
     words.join(" · ")
 }
 
-/// The scale of the colours; where nothing moves, all is as quiet as they go.
+/// Colour scale; a run without motion is as quiet as the colours go.
 pub(super) fn scale(view: &View<'_>, places: (f64, f64)) -> Scale {
     let loudest = view.loudest.unwrap_or(1.0);
     Scale::logarithmic((QUIETEST * loudest, loudest), places)
@@ -127,7 +127,7 @@ fn image(view: &View<'_>, map: &Diagram, amplitudes: &Scale) -> Element {
     pixels.draw()
 }
 
-/// Engine orders as dotted lines, multiples of the lobe count through, with numbers at their right ends where there is room.
+/// Draws engine orders as dotted lines, solid for multiples of the lobe count, with numbers at their right ends where there is room.
 fn orders(view: &View<'_>, map: &Diagram) -> Element {
     let mut lines = view.order_lines();
     let clip = "spectrogram";
@@ -136,7 +136,7 @@ fn orders(view: &View<'_>, map: &Diagram) -> Element {
         order_stroke(polyline(places), line.excited).set("class", "engine-order")
     };
     let drawn = group().set("clip-path", format!("url(#{clip})")).children(lines.iter().map(course));
-    // Those that the lobes excite have the first choice.
+    // Engine orders that the lobes excite have the first choice of room.
     lines.sort_by_key(|line| !line.excited);
     let mut taken: Vec<f64> = Vec::new();
     let numbers = lines.iter().filter_map(|line| {

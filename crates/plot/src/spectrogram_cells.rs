@@ -1,4 +1,4 @@
-//! The amplitudes of a run as cells, no more than can be told apart.
+//! Amplitudes of a run as cells, no more than a reader distinguishes.
 
 use std::f64::consts::TAU;
 
@@ -6,26 +6,26 @@ use super::heat::loudest_within;
 use super::spectrogram_view::{SpectrogramUnit, View, mean};
 use rubmap_analysis::result::RunUpFrame;
 
-/// Least height of a spectral line among frequencies, of the height of all.
+/// Least height of a spectral line in a spectrogram of frequencies, relative to the vertical axis.
 const LINE_HEIGHT: f64 = 0.006;
 
-/// A cell: the loudest of what is one there, and in which frame it is.
+/// Loudest amplitude of a cell, and the frame it comes from.
 pub(super) type Loudest<'a> = (f64, &'a RunUpFrame);
 
-/// Amplitudes of a view in columns and rows, both upwards.
+/// Amplitudes of a view in columns and rows, both in ascending order.
 pub(super) struct Cells<'a> {
-    /// From where to where each reaches.
+    /// Lower and upper bound of each column on the horizontal axis.
     pub(super) columns: Vec<(f64, f64)>,
     pub(super) rows: Vec<(f64, f64)>,
-    /// `[row][column]`; nothing beyond the spectra.
+    /// Cells as `[row][column]`; none beyond the spectra.
     pub(super) values: Vec<Vec<Option<Loudest<'a>>>>,
-    /// What falls together, in words.
+    /// Message about merged frames and lines, if there are any.
     pub(super) thinned: Option<String>,
 }
 
 impl<'a> Cells<'a> {
-    /// In about so many columns and rows at most. Frames that are narrower than a column are one with their neighbours; so are those in which the
-    /// speed is held, over the speed.
+    /// Divides a view into at most about so many columns and rows. Frames that are narrower than a column are merged with their neighbours;
+    /// so are, over the speed, frames in which the speed is held.
     pub(super) fn of(view: &View<'a>, most: (usize, usize)) -> Self {
         let columns = columns(view, most.0);
         let (rows, together) = rows(view, most.1);
@@ -69,7 +69,7 @@ fn columns<'a>(view: &View<'a>, most: usize) -> Vec<Vec<&'a RunUpFrame>> {
             columns.push(std::mem::take(&mut column));
         }
     }
-    // What is left is too narrow for a column of its own.
+    // The remaining frames are too narrow for a column of their own.
     match columns.last_mut() {
         Some(last) => last.append(&mut column),
         None => columns.extend((!column.is_empty()).then_some(column)),
@@ -77,7 +77,7 @@ fn columns<'a>(view: &View<'a>, most: usize) -> Vec<Vec<&'a RunUpFrame>> {
     columns
 }
 
-/// Bands upwards, and how many lines are one in each.
+/// Bands of the vertical axis, and the number of lines merged in each.
 fn rows(view: &View<'_>, most: usize) -> (Vec<(f64, f64)>, usize) {
     match view.unit {
         SpectrogramUnit::Order => {
@@ -104,7 +104,7 @@ fn loudest(view: &View<'_>, frame: &RunUpFrame, (low, high): (f64, f64)) -> Opti
                 return None;
             }
             let reach = ((low - wider) / per_order, (high + wider) / per_order);
-            // What is above the last line only by its width is not there.
+            // A band above the last line, which only the least height reaches, is empty.
             if 0.5 * (low + high) / per_order > view.orders.last()? + 0.5 * view.run.order_step {
                 return None;
             }

@@ -1,4 +1,4 @@
-//! What stands above the spectrogram of a run.
+//! Curves above the spectrogram of a run.
 
 use super::axis::{label, ticks};
 use super::diagram::Diagram;
@@ -8,21 +8,21 @@ use super::spectrogram_view::{Over, View};
 use super::svg::{Element, group, polyline};
 use rubmap_analysis::result::RunUps;
 
-/// Steps of a curve: what a screen shows.
+/// Number of steps of a curve: what a screen shows.
 const STEPS: usize = 3_000;
 
 const COLOUR: &str = "#1f4e79";
 
-/// A curve above the map.
+/// Curve above the map.
 pub(super) struct Strip {
     pub(super) axis: String,
     pub(super) y: (f64, f64),
     pub(super) places: Vec<(f64, f64)>,
-    /// Places that stand out, with words.
+    /// Points that stand out, with words.
     pub(super) marks: Vec<((f64, f64), String)>,
 }
 
-/// How far the sensor swings; over time the speed as well.
+/// Curves above a spectrogram: the amplitude of the sensor; over time the speed as well.
 pub(super) fn strips(run_ups: &RunUps, view: &View<'_>, sensor: usize) -> Vec<Strip> {
     let curves = Line::of(view.run, sensor, 0, STEPS);
     let along = |step: &Step| match view.over {
@@ -44,7 +44,7 @@ pub(super) fn strips(run_ups: &RunUps, view: &View<'_>, sensor: usize) -> Vec<St
 }
 
 impl Strip {
-    /// With its axis to the left.
+    /// Draws the curve with its axis to the left.
     pub(super) fn draw(&self, diagram: &Diagram) -> Element {
         let y = ticks(diagram.y.values, 3.0);
         let curve = polyline(self.places.iter().map(|(x, y)| diagram.inside(*x, *y)));

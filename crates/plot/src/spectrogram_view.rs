@@ -1,4 +1,4 @@
-//! What is seen of the spectra of a run.
+//! Layout of the spectra of a run.
 
 use std::f64::consts::TAU;
 
@@ -7,26 +7,26 @@ use super::map_view::lobes_of;
 use rubmap_analysis::request::Sensor;
 use rubmap_analysis::result::{RunUp, RunUpFrame, RunUps};
 
-/// What a spectrogram has upwards.
+/// Quantity on the vertical axis of a spectrogram.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SpectrogramUnit {
-    /// Engine order: what turns with the wheel stays level, natural frequencies fall as the speed rises.
+    /// Engine order: lines that turn with the wheel stay level, natural frequencies fall as the speed rises.
     Order,
-    /// Frequency, of every frame the order times its mean speed over 2π: engine orders fan out, natural frequencies stay level.
+    /// Frequency in Hz, the order times the mean speed of the frame over 2π: engine orders fan out, natural frequencies stay level.
     Hz,
 }
 
-/// What a spectrogram has to the right.
+/// Quantity on the horizontal axis of a spectrogram.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Over {
-    /// The speed, which never turns back.
+    /// Speed, which never turns back.
     Speed,
-    /// Time, as the speed does not tell frames apart.
+    /// Time, where the speed does not separate frames.
     Time,
 }
 
 impl Over {
-    /// Speeds that differ by less, of the highest, are the same.
+    /// Relative difference, to the highest speed, below which speeds are equal.
     const SAME: f64 = 1e-9;
 
     fn of(frames: &[&RunUpFrame]) -> Self {
@@ -38,7 +38,7 @@ impl Over {
         if is_monotonic { Self::Speed } else { Self::Time }
     }
 
-    /// Title of the axis.
+    /// Title of the horizontal axis.
     pub(super) fn axis(self) -> &'static str {
         match self {
             Self::Speed => "rotational speed Ω, rpm",
@@ -46,7 +46,7 @@ impl Over {
         }
     }
 
-    /// Unit of the axis.
+    /// Unit of the horizontal axis.
     pub(super) fn unit(self) -> &'static str {
         match self {
             Self::Speed => "rpm",
@@ -55,10 +55,10 @@ impl Over {
     }
 }
 
-/// The course of an engine order: places in the units of the axes.
+/// Line of an engine order: points in the units of the axes.
 pub(super) struct OrderLine {
     pub(super) order: u32,
-    /// Whether the lobes excite it.
+    /// Whether the lobes excite the engine order.
     pub(super) excited: bool,
     pub(super) places: Vec<(f64, f64)>,
 }
@@ -71,18 +71,18 @@ pub(super) struct View<'a> {
     pub(super) over: Over,
     pub(super) x: (f64, f64),
     pub(super) y: (f64, f64),
-    /// In the order of time.
+    /// Frames in the order of time.
     pub(super) frames: Vec<&'a RunUpFrame>,
     /// Orders of the lines that are shown.
     pub(super) orders: Vec<f64>,
-    /// The largest of all amplitudes, if anything moves.
+    /// Loudest amplitude of all, if anything moves.
     pub(super) loudest: Option<f64>,
     lobes: u32,
     index: usize,
 }
 
 impl<'a> View<'a> {
-    /// Of the run of this number; or, in words, why there is none.
+    /// Lays out the spectra of a sensor in the run of this number; or says why there are none.
     pub(super) fn of(
         run_ups: &'a RunUps,
         number: usize,
@@ -107,7 +107,7 @@ impl<'a> View<'a> {
         view.y = (0.0, if fastest > 0.0 { highest * fastest } else { highest });
         let amplitudes = view.frames.iter().flat_map(|frame| view.amplitudes(frame)).copied();
         let loudest = amplitudes.filter(|amplitude| amplitude.is_finite()).fold(0.0, f64::max);
-        // What is smaller has no three decades below it.
+        // A smaller amplitude has no three decades below it.
         view.loudest = Some(loudest).filter(|loudest| *loudest > 1e6 * f64::MIN_POSITIVE);
         Ok(view)
     }
@@ -118,7 +118,7 @@ impl<'a> View<'a> {
         row.get(first_line(self.run.order_step)..).unwrap_or_default()
     }
 
-    /// Where a frame begins and ends on the axis to the right, upwards.
+    /// Lower and upper bound of a frame on the horizontal axis.
     pub(super) fn stretch(&self, frame: &RunUpFrame) -> (f64, f64) {
         let [from, to] = match self.over {
             Over::Speed => frame.speeds_rad_s.map(rpm),
@@ -135,7 +135,7 @@ impl<'a> View<'a> {
         }
     }
 
-    /// What the vertical axis says.
+    /// Title of the vertical axis.
     pub(super) fn upwards(&self) -> &'static str {
         match self.unit {
             SpectrogramUnit::Order => "engine order k",
@@ -143,7 +143,7 @@ impl<'a> View<'a> {
         }
     }
 
-    /// Courses of whole engine orders; of many only some, but those that the lobes excite as long as they are not many themselves.
+    /// Lines of whole engine orders; of many only some, and those that the lobes excite unless they are many themselves.
     pub(super) fn order_lines(&self) -> Vec<OrderLine> {
         const MOST: u32 = 30;
         let highest = self.orders.last().map_or(0.0, |order| order + 1e-9) as u32;
@@ -157,7 +157,7 @@ impl<'a> View<'a> {
     }
 
     fn course(&self, order: f64) -> Vec<(f64, f64)> {
-        /// Places of a course over time.
+        /// Largest number of points of a line over time.
         const MOST: usize = 300;
         match (self.unit, self.over) {
             (SpectrogramUnit::Order, _) => vec![(self.x.0, order), (self.x.1, order)],
@@ -181,7 +181,8 @@ pub(super) fn mean(frame: &RunUpFrame) -> f64 {
     0.5 * from + 0.5 * to
 }
 
-/// The first line that is no mean: under a Hann window the mean is in the line next to it as well, but where that is an engine order.
+/// Index of the first line without the mean: under a Hann window the mean is in the line next to it as well, unless that is an engine
+/// order.
 fn first_line(order_step: f64) -> usize {
     if order_step > 0.5 { 1 } else { 2 }
 }
@@ -192,7 +193,7 @@ fn bounds(values: impl Iterator<Item = f64>) -> (f64, f64) {
         .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)))
 }
 
-/// A range that has a width.
+/// Widens a range that has no width.
 fn wide((low, high): (f64, f64)) -> (f64, f64) {
     match low <= high {
         true if low < high => (low, high),

@@ -15,18 +15,18 @@ const HEIGHT: f64 = 720.0;
 const LEFT: f64 = 96.0;
 const PLOT_WIDTH: f64 = 860.0;
 
-/// Lines below this share of the largest are not drawn.
+/// Share of the largest amplitude below which lines are not drawn.
 const QUIETEST: f64 = 1e-4;
 
-/// More lines than this are a black area.
+/// Largest number of lines drawn; more would be a black area.
 pub(super) const MOST: usize = 4000;
 
-/// Who looks at the wheel.
+/// Frame from which the wheel is observed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Frame {
-    /// Who turns with it.
+    /// Rotating frame, which turns with the wheel.
     Rotating,
-    /// Who stands beside it: a wave of nodal diameter n at engine order k is seen at k + n or k − n, as it travels with the
+    /// Fixed frame beside the wheel: a wave of nodal diameter n at engine order k is seen at k + n or k − n, as it travels with the
     /// rotation or against it.
     Fixed,
 }
@@ -61,7 +61,7 @@ pub fn spectrum(spectra: &SpeedSpectra, point: &Point, units: &Units, sensor: us
     document(&title, WIDTH, HEIGHT, content)
 }
 
-/// What is seen, and by whom.
+/// Title: the frame, the sensor and the speed.
 pub(super) fn title(point: &Point, found: &SensorSpectrum, frame: Frame) -> String {
     let where_from = match frame {
         Frame::Rotating => "rotating frame",
@@ -70,7 +70,7 @@ pub(super) fn title(point: &Point, found: &SensorSpectrum, frame: Frame) -> Stri
     format!("Spectrum in the {where_from}: {}, {} rpm", found.sensor, label(rpm(point.speed_rad_s), 0))
 }
 
-/// What stands below the title.
+/// Paragraphs below the title: the verdict on the speed and the basis of the amplitudes.
 pub(super) fn words(point: &Point, frame: Frame) -> Vec<String> {
     let basis = "amplitudes of nodal diameters are those of the wheel, cosine and sine over all blades together: √N times a blade's";
     let mut words = vec![verdict(point), basis.to_owned()];
@@ -95,7 +95,7 @@ fn verdict(point: &Point) -> String {
     format!("{settled} · amplitudes are single-sided, the mean is left out · rubmap {}", point.version)
 }
 
-/// The amplitude of the sensor itself.
+/// Draws the spectrum of the sensor.
 fn whole(
     spectra: &SpeedSpectra,
     found: &SensorSpectrum,
@@ -115,17 +115,17 @@ fn whole(
     framed(&diagram, group().set("class", "whole").children(stems), &title, "")
 }
 
-/// What is said of a sensor without lines.
+/// Message for a sensor that does not move.
 pub(super) const STILL: &str = "Nothing to draw: the sensor does not move";
 
-/// What is said where no nodal diameter has lines.
+/// Message where no nodal diameter has lines.
 pub(super) const ALL_STILL: &str = "Nothing to draw: no nodal diameter moves";
 
-/// The range of amplitudes, and engine orders with amplitudes.
+/// Range of amplitudes, and engine orders with amplitudes.
 type WholeLines = ((f64, f64), Vec<(f64, f64)>);
 
-/// Lines of the sensor itself that are drawn, as engine orders with amplitudes, the largest first, and the range of amplitudes; none
-/// if it does not move.
+/// Lines of the spectrum of the sensor that are drawn, as engine orders with amplitudes, the largest first, and the range of amplitudes;
+/// none if it does not move.
 pub(super) fn whole_lines(spectra: &SpeedSpectra, found: &SensorSpectrum) -> Option<WholeLines> {
     let lines = spectra.engine_orders.iter().copied().zip(found.amplitude.iter().copied());
     let mut shown: Vec<(f64, f64)> = lines.filter(|(order, _)| *order > 0.0).collect();
@@ -136,7 +136,7 @@ pub(super) fn whole_lines(spectra: &SpeedSpectra, found: &SensorSpectrum) -> Opt
     Some((range, shown))
 }
 
-/// Such a line in words.
+/// Words for a line of the spectrum of the sensor.
 pub(super) fn whole_words(order: f64, amplitude: f64, unit: &str) -> String {
     format!("engine order {}: {} {}", marks::order(order), significant(amplitude), unit)
 }
@@ -146,7 +146,7 @@ pub(super) fn highest(spectra: &SpeedSpectra) -> f64 {
     spectra.engine_orders.last().copied().filter(|order| *order > 0.0).unwrap_or(1.0)
 }
 
-/// The amplitudes that an axis shows; none if all are zero.
+/// Range of amplitudes that an axis shows; none if all are zero.
 fn range(amplitudes: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
     let loudest = amplitudes.filter(|amplitude| amplitude.is_finite()).fold(0.0, f64::max);
     (loudest > 0.0).then_some((QUIETEST * loudest, 1.6 * loudest))
@@ -168,18 +168,18 @@ fn framed(diagram: &Diagram, content: Element, y_title: &str, x_title: &str) -> 
     ]
 }
 
-/// A line of a nodal diameter.
+/// Line of a nodal diameter.
 pub(super) struct Line {
     pub(super) nodal_diameter: usize,
     /// Engine order in the rotating frame.
     pub(super) order: f64,
-    /// Where it is seen; in the fixed frame with the direction of travel.
+    /// Multiple of the rotational frequency at which the line is seen; in the fixed frame it depends on the direction of travel.
     pub(super) seen: f64,
     pub(super) forward: bool,
     pub(super) amplitude: f64,
 }
 
-/// All lines of the nodal diameters.
+/// Lines of all nodal diameters.
 pub(super) struct Lines {
     frame: Frame,
     highest: f64,
@@ -187,13 +187,13 @@ pub(super) struct Lines {
     lines: Vec<Line>,
 }
 
-/// The lines that are drawn.
+/// Lines that are drawn.
 pub(super) struct Shown<'a> {
-    /// Amplitudes of the axis.
+    /// Range of the amplitude axis.
     pub(super) range: (f64, f64),
-    /// The largest first.
+    /// Lines, the largest first.
     pub(super) lines: Vec<&'a Line>,
-    /// Whether those are all in the range.
+    /// Whether all lines in the range are drawn.
     pub(super) all: bool,
 }
 
@@ -209,7 +209,7 @@ impl Lines {
                 let here = |seen, forward| Line { nodal_diameter, order, seen, forward, amplitude };
                 match frame {
                     Frame::Rotating => lines.push(here(order, true)),
-                    // A wave that stands is seen at its own order.
+                    // A standing wave is seen at its own order.
                     Frame::Fixed if nodal_diameter == 0 => lines.push(here(order, true)),
                     Frame::Fixed => lines.extend([here(order + n, true), here((order - n).abs(), false)]),
                 }
@@ -218,7 +218,7 @@ impl Lines {
         Self { frame, highest: highest(spectra), harmonics: found.nodal_diameters.len(), lines }
     }
 
-    /// Highest multiple of the rotational frequency.
+    /// Highest multiple of the rotational frequency at which a line is seen.
     pub(super) fn widest(&self) -> f64 {
         match self.frame {
             Frame::Rotating => self.highest,
@@ -226,7 +226,7 @@ impl Lines {
         }
     }
 
-    /// What the axis says.
+    /// Title of the horizontal axis.
     pub(super) fn axis(&self) -> &'static str {
         match self.frame {
             Frame::Rotating => "engine order k in the rotating frame",
@@ -234,7 +234,7 @@ impl Lines {
         }
     }
 
-    /// Those that are drawn; none if nothing moves.
+    /// Lines that are drawn; none if nothing moves.
     pub(super) fn shown(&self) -> Option<Shown<'_>> {
         let range = range(self.lines.iter().map(|line| line.amplitude))?;
         let inside = |line: &&Line| (range.0..=range.1).contains(&line.amplitude);
@@ -251,7 +251,7 @@ impl Lines {
             return vec![empty.frame(), empty.words(ALL_STILL)];
         };
         let diagram = Diagram::upwards_logarithmic(corner, size, (0.0, self.widest() + 0.5), shown.range);
-        // The smaller in front of the larger.
+        // Smaller lines lie in front of larger ones.
         let drawn = shown.lines.iter().map(|found| self.line(&diagram, found, unit));
         let content = group().set("class", "lines").children(drawn);
         let title = format!("nodal diameters, {unit}");
@@ -260,7 +260,7 @@ impl Lines {
         all
     }
 
-    /// A line in words.
+    /// Words for a line.
     pub(super) fn words(&self, found: &Line, unit: &str) -> String {
         let direction = match (self.frame, found.nodal_diameter, found.forward) {
             (Frame::Rotating, ..) | (_, 0, _) => "",
@@ -310,7 +310,7 @@ impl Lines {
     }
 }
 
-/// A mark whose shape, beside its colour, says the nodal diameter; open of what travels backwards.
+/// Mark whose shape and colour show the nodal diameter; open for waves that travel backwards.
 fn symbol((x, y): (f64, f64), colour: &str, nodal_diameter: usize, filled: bool) -> Element {
     let corners: &[(f64, f64)] = match nodal_diameter % 6 {
         0 => &[],

@@ -1,4 +1,4 @@
-//! What happened at one speed over its revolutions: the paper's Figs 6 to 8.
+//! Histories of one speed over its revolutions: the paper's Figs 6 to 8.
 
 use super::axis::{label, ticks};
 use super::cells::rpm;
@@ -14,10 +14,10 @@ const WIDTH: f64 = 1180.0;
 const HEIGHT: f64 = 640.0;
 const LEFT: f64 = 100.0;
 const PLOT_WIDTH: f64 = 830.0;
-/// Where there is one curve only, and so no key.
+/// Width of a diagram with one curve, which needs no key.
 const WIDE: f64 = 1040.0;
 
-/// What is drawn of the histories of a speed.
+/// Quantity of the histories of a speed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum HistoryQuantity {
     /// Displacement of a sensor.
@@ -26,7 +26,7 @@ pub enum HistoryQuantity {
     Velocity,
     /// Force on a contact node, a line for every blade that was recorded.
     Force,
-    /// Contact nodes that touch, and the length of the contact lines that does.
+    /// Number of contact nodes that touch, and the length of the contact lines in contact.
     Contact,
     /// Energy and its parts.
     Energy,
@@ -56,13 +56,13 @@ pub fn speed_histories(histories: &SpeedHistories, what: HistoryQuantity, index:
     document(&title, WIDTH, HEIGHT, content)
 }
 
-/// What is said where there is nothing.
+/// Message where the quantity was not recorded.
 pub(super) const NOT_RECORDED: &str = "Nothing to draw: this was not recorded";
 
-/// What the axis to the right says.
+/// Title of the horizontal axis.
 pub(super) const REVOLUTIONS: &str = "revolutions since the start";
 
-/// What is seen.
+/// Title: the revolutions, the quantity and the speed.
 pub(super) fn title(histories: &SpeedHistories, what: HistoryQuantity, index: usize) -> String {
     let [begin, end] = histories.revolutions;
     format!(
@@ -72,7 +72,7 @@ pub(super) fn title(histories: &SpeedHistories, what: HistoryQuantity, index: us
     )
 }
 
-/// What stands below the title.
+/// Paragraphs below the title: origin, and how samples were averaged.
 pub(super) fn words(histories: &SpeedHistories, what: HistoryQuantity) -> String {
     let mut words = vec![origin(&histories.settings.model, &histories.version)];
     if matches!(what, HistoryQuantity::Force | HistoryQuantity::Contact) {
@@ -95,7 +95,7 @@ fn subject(histories: &SpeedHistories, what: HistoryQuantity, index: usize) -> S
     }
 }
 
-/// A curve of a panel.
+/// Curve of a panel.
 pub(super) struct Curve<'a> {
     pub(super) words: String,
     pub(super) values: &'a [f64],
@@ -107,7 +107,7 @@ pub(super) struct Panel<'a> {
     pub(super) curves: Vec<Curve<'a>>,
 }
 
-/// The panels that have curves.
+/// Panels of the quantity that have curves.
 pub(super) fn panels(histories: &SpeedHistories, what: HistoryQuantity, index: usize) -> Vec<Panel<'_>> {
     let mut panels = all_panels(histories, what, index);
     panels.retain(|panel| !panel.curves.is_empty());
@@ -227,14 +227,14 @@ impl Panel<'_> {
         let values = self.curves.iter().flat_map(|curve| curve.values.iter().copied());
         let finite = values.filter(|value| value.is_finite());
         let (low, high) = finite.fold((0f64, 0f64), |(low, high), value| (low.min(value), high.max(value)));
-        // What never moves still has an axis.
+        // The axis of a quantity that never changes still needs a height.
         let room = if low < high { 0.06 * (high - low) } else { 1.0 };
         let x = if begin < end { (begin, end) } else { (begin, begin + 1.0) };
         Diagram::new(corner, size, x, (if low < 0.0 { low - room } else { 0.0 }, high + room))
     }
 
     fn key(&self, diagram: &Diagram, bands: bool, first: bool) -> Element {
-        /// More curves than this are named at the ends only.
+        /// Largest number of curves that the key names; of more only the first and the last are named.
         const MOST: usize = 16;
         let mut key = Key::new(diagram.right() + 28.0, diagram.top + 8.0);
         let count = self.curves.len();
@@ -243,7 +243,7 @@ impl Panel<'_> {
             key = key.row(self.pen(index).mark(bands), &self.curves[index].words);
         }
         match (bands, count) {
-            // Above the frame of the first; below it are the numbers of the axis.
+            // The note stands above the frame of the first panel; below it are the numbers of the axis.
             (true, 1) if !first => key.draw(),
             (true, 1) => Key::new(diagram.right() - 190.0, diagram.top - 14.0)
                 .note("band: from lowest to highest")

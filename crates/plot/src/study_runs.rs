@@ -1,4 +1,4 @@
-//! The runs of a study, as its drawings see them.
+//! Runs of a study, as its drawings need them.
 
 use super::axis::{label, significant};
 use super::scheme;
@@ -6,7 +6,7 @@ use rubmap_analysis::request::auto_or::AutoOr;
 use rubmap_analysis::result::{PointStatus, Quantity, SpeedStudy, StudyRun};
 use rubmap_analysis::run::{Setting, WorkPrecision};
 
-/// A quantity in words.
+/// Words for a quantity.
 pub(super) fn words(quantity: Quantity, study: &WorkPrecision) -> String {
     match quantity {
         Quantity::History => {
@@ -19,12 +19,12 @@ pub(super) fn words(quantity: Quantity, study: &WorkPrecision) -> String {
     }
 }
 
-/// What the axis of errors says.
+/// Title of the axis of errors.
 pub(super) fn error_axis(quantity: Quantity, study: &WorkPrecision) -> String {
     format!("relative error: {}", words(quantity, study))
 }
 
-/// What the runs are held against, and where they come from.
+/// Words for the reference of the runs, and their origin.
 pub(super) fn origin(study: &WorkPrecision, at: &SpeedStudy) -> String {
     let reference = &at.reference;
     let model: String = study.settings.model.chars().take(12).collect();
@@ -51,7 +51,7 @@ pub(super) fn setting(setting: &Setting) -> String {
     )
 }
 
-/// A run that can be drawn.
+/// Run that can be drawn.
 pub(super) struct Drawn<'a> {
     pub(super) run: &'a StudyRun,
     pub(super) error: f64,
@@ -82,7 +82,7 @@ impl<'a> Drawn<'a> {
     }
 }
 
-/// Which runs are not drawn.
+/// Words for the runs that are not drawn.
 pub(super) fn left_out(at: &SpeedStudy, quantity: Quantity) -> String {
     let (mut not_completed, mut exact, mut without) = (0, 0, 0);
     for run in &at.runs {
@@ -110,7 +110,7 @@ pub(super) fn left_out(at: &SpeedStudy, quantity: Quantity) -> String {
     }
 }
 
-/// Why nothing is drawn.
+/// Reason why nothing is drawn.
 pub(super) fn reason(at: &SpeedStudy, quantity: Quantity) -> String {
     let completed = |run: &&StudyRun| run.status == PointStatus::Completed;
     if at.reference.status != PointStatus::Completed {
@@ -131,7 +131,7 @@ pub(super) fn reason(at: &SpeedStudy, quantity: Quantity) -> String {
     format!("Nothing to draw: {why}")
 }
 
-/// Ends of a logarithmic axis for positive values: some room about them, and a decade at least.
+/// Ends of a logarithmic axis for positive values, with some room, and at least a decade apart.
 pub(super) fn extent(values: impl Iterator<Item = f64>) -> (f64, f64) {
     let (low, high) =
         values.fold((f64::INFINITY, 0f64), |(low, high), value| (low.min(value), high.max(value)));

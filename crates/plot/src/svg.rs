@@ -1,11 +1,11 @@
-//! The little SVG that the drawings need: elements with escaped attributes and texts.
+//! Subset of SVG that the drawings need: elements with escaped attributes and texts.
 
 use std::fmt::Write;
 
-/// Families that are on most machines, and whatever has no serifs elsewhere.
+/// Font families that most machines have, and any sans-serif one elsewhere.
 const FONTS: &str = "Helvetica, Arial, 'DejaVu Sans Condensed', 'DejaVu Sans', sans-serif";
 
-/// An element with its attributes and children.
+/// SVG element with its attributes and children.
 #[derive(Debug, Clone)]
 pub(super) struct Element {
     name: &'static str,
@@ -18,41 +18,41 @@ impl Element {
         Self { name, attributes: String::new(), children: String::new() }
     }
 
-    /// With an attribute in words.
+    /// Sets an attribute to words.
     pub(super) fn set(mut self, name: &str, value: impl AsRef<str>) -> Self {
         self.attributes += &format!(" {name}=\"{}\"", escape(value.as_ref()));
         self
     }
 
-    /// With a number in user units, to a hundredth.
+    /// Sets an attribute to a number in user units, rounded to a hundredth.
     pub(super) fn number(self, name: &str, value: f64) -> Self {
         self.set(name, number(value))
     }
 
-    /// With a text inside.
+    /// Adds a text inside the element.
     pub(super) fn text(mut self, text: &str) -> Self {
         self.children += &escape(text);
         self
     }
 
-    /// With what a browser shows under the pointer.
+    /// Sets the title of the element, which a browser shows under the pointer.
     pub(super) fn title(self, text: &str) -> Self {
         self.child(Self::new("title").text(text))
     }
 
-    /// With a rim that keeps a text legible over what it covers.
+    /// Sets a rim that keeps a text legible over its background.
     pub(super) fn rimmed(self, colour: &str) -> Self {
         let rim = self.set("paint-order", "stroke").set("stroke", colour).set("stroke-width", "3");
         rim.set("stroke-linejoin", "round")
     }
 
-    /// With an element inside.
+    /// Adds an element inside.
     pub(super) fn child(mut self, child: Self) -> Self {
         child.write_to(&mut self.children);
         self
     }
 
-    /// With elements inside.
+    /// Adds elements inside.
     pub(super) fn children(self, children: impl IntoIterator<Item = Self>) -> Self {
         children.into_iter().fold(self, Self::child)
     }
@@ -67,7 +67,7 @@ impl Element {
     }
 }
 
-/// A whole drawing of `width` × `height` on white.
+/// Renders a whole drawing of `width` × `height` on white.
 pub(super) fn document(title: &str, width: f64, height: f64, content: Vec<Element>) -> String {
     let root = Element::new("svg")
         .set("xmlns", "http://www.w3.org/2000/svg")
@@ -88,22 +88,22 @@ pub(super) fn document(title: &str, width: f64, height: f64, content: Vec<Elemen
 /// Colour of texts and axes.
 pub(super) const INK: &str = "#222222";
 
-/// A group.
+/// SVG group.
 pub(super) fn group() -> Element {
     Element::new("g")
 }
 
-/// A rectangle.
+/// SVG rectangle.
 pub(super) fn rectangle(x: f64, y: f64, width: f64, height: f64) -> Element {
     Element::new("rect").number("x", x).number("y", y).number("width", width).number("height", height)
 }
 
-/// A straight line.
+/// Straight line between two points.
 pub(super) fn line(from: (f64, f64), to: (f64, f64)) -> Element {
     Element::new("line").number("x1", from.0).number("y1", from.1).number("x2", to.0).number("y2", to.1)
 }
 
-/// Lines through points; a point that is missing interrupts them.
+/// Polyline through points; a missing point interrupts it.
 pub(super) fn polyline(points: impl IntoIterator<Item = Option<(f64, f64)>>) -> Element {
     let mut path = String::new();
     let mut pen_down = false;
@@ -118,12 +118,12 @@ pub(super) fn polyline(points: impl IntoIterator<Item = Option<(f64, f64)>>) -> 
     Element::new("path").set("d", path).set("fill", "none")
 }
 
-/// A text that begins, is centred (`middle`) or ends at a point.
+/// Text that begins, is centred (`middle`) or ends at a point.
 pub(super) fn text(x: f64, y: f64, anchor: &str, content: &str) -> Element {
     Element::new("text").number("x", x).number("y", y).set("text-anchor", anchor).text(content)
 }
 
-/// About how wide a text of this size is in the fonts of a drawing.
+/// Approximate width of a text of this size in the fonts of a drawing.
 pub(super) fn text_width(words: &str, size: f64) -> f64 {
     let share = |character: char| match character {
         'i' | 'j' | 'l' | '.' | ',' | ':' | ';' | '|' | '\'' | ' ' | '·' | '(' | ')' | '/' => 0.34,
@@ -134,15 +134,15 @@ pub(super) fn text_width(words: &str, size: f64) -> f64 {
     size * words.chars().map(share).sum::<f64>()
 }
 
-/// A text that reads upwards from (or centred at) a point.
+/// Text that reads upwards from (or centred at) a point.
 pub(super) fn upright(x: f64, y: f64, anchor: &str, content: &str) -> Element {
     text(x, y, anchor, content).set("transform", format!("rotate(-90 {} {})", number(x), number(y)))
 }
 
-/// A number to a hundredth, without trailing zeros.
+/// Formats a number to a hundredth, without trailing zeros.
 fn number(value: f64) -> String {
     let rounded = (value * 100.0).round() / 100.0;
-    // -0 is 0.
+    // Negative zero is written as 0.
     format!("{}", rounded + 0.0)
 }
 
@@ -154,7 +154,7 @@ fn escape(text: &str) -> String {
             '<' => out.push_str("&lt;"),
             '>' => out.push_str("&gt;"),
             '"' => out.push_str("&quot;"),
-            // XML 1.0 has no other control characters, not even escaped.
+            // XML 1.0 allows no other control characters, not even escaped.
             c if c.is_control() && !matches!(c, '\n' | '\t') => out.push('\u{fffd}'),
             c => out.push(c),
         }

@@ -1,47 +1,47 @@
-//! A history as a line, or, where its swings do not fit, as the band they fill.
+//! History as a line, or, where its swings do not fit, as the band they fill.
 
 use super::key::MARK_WIDTH;
 use super::svg::{Element, line, polyline, rectangle};
 
-/// What shows of a history.
+/// Path of a history.
 #[derive(Debug)]
 pub(super) struct Trace {
     path: Element,
-    /// Whether it is the band between the lowest and the highest value of every column.
+    /// Whether the path is the band between the lowest and the highest value of every column.
     pub(super) is_band: bool,
 }
 
-/// Samples that a column one unit wide may have before a line through them is but a smear.
+/// Largest number of samples per column one unit wide; beyond it a line through them is but a smear.
 const MOST_PER_COLUMN: f64 = 5.0;
 
-/// Revolutions narrower than this are a column each.
+/// Width of a revolution below which each revolution is one column.
 const NARROW: f64 = 40.0;
 
 impl Trace {
-    /// Of places from left to right, of which a revolution is so wide.
+    /// Draws a history through points from left to right; `revolution`: width of a revolution in the drawing.
     pub(super) fn of(places: Vec<(f64, f64)>, revolution: f64) -> Self {
         let width = places.last().map_or(0.0, |last| last.0 - places[0].0);
         let is_band = places.len() as f64 > MOST_PER_COLUMN * width.max(1.0);
-        // What happens within a revolution is not seen where many are beside each other: its bounds are.
+        // Swings within a narrow revolution cannot be seen beside many others; their bounds can.
         let column = if revolution < NARROW { revolution.max(1.0) } else { 1.0 };
         let points = if is_band { band(&places, column) } else { places };
         Self { path: polyline(points.into_iter().map(Some)).set("stroke-linejoin", "round"), is_band }
     }
 
-    /// As a line of this kind, or as the band that goes with it.
+    /// Draws the path as a line of this pen, or as the band that goes with it.
     pub(super) fn drawn(self, pen: &Pen) -> Element {
         let path = self.path.set("class", "history");
         pen.of(path, self.is_band)
     }
 }
 
-/// How a history is drawn.
+/// Style of a history: colour, width and dashes.
 #[derive(Debug)]
 pub(super) struct Pen {
     pub(super) colour: String,
     pub(super) width: f64,
     pub(super) dashes: &'static str,
-    /// Whether its band is pale, so that others show through.
+    /// Whether the band is pale, so that others show through.
     pub(super) of_many: bool,
 }
 
@@ -57,15 +57,15 @@ impl Pen {
         shape.set("stroke-width", width).set("stroke-dasharray", dashes).set("style", fill)
     }
 
-    /// What a key shows of it.
+    /// Mark of the history in a key.
     pub(super) fn mark(&self, is_band: bool) -> Element {
         let line = || line((0.0, 0.0), (MARK_WIDTH, 0.0));
         self.of(if is_band { rectangle(0.0, -6.0, MARK_WIDTH, 12.0) } else { line() }, is_band)
     }
 }
 
-/// Along the highest of every column of this width to the right, and back along the lowest: in steps, but where a column is too
-/// narrow to show any.
+/// Outline of a band: along the highest value of every column of this width to the right, and back along the lowest; in steps, except where
+/// a column is too narrow to show any.
 fn band(places: &[(f64, f64)], width: f64) -> Vec<(f64, f64)> {
     let start = places.first().map_or(0.0, |first| first.0);
     let column = |place: &(f64, f64)| ((place.0 - start) / width).floor();

@@ -1,4 +1,4 @@
-//! Where blade tips move before the lobes of their casing, seen from beside the wheel: the paper's Fig 2.
+//! Trajectories of blade tips before the lobes of their casing, seen from beside the wheel: the paper's Fig 2.
 
 use std::f64::consts::TAU;
 
@@ -17,17 +17,17 @@ const HEIGHT: f64 = 640.0;
 const LEFT: f64 = 100.0;
 const PLOT_WIDTH: f64 = 800.0;
 
-/// Revolutions from the end on that are drawn: more lie on each other.
+/// Largest number of revolutions drawn, the last ones: more would cover each other.
 const MOST_REVOLUTIONS: u32 = 10;
 
-/// Shortest line that is drawn.
+/// Length of the shortest line that is drawn.
 const SMALLEST_STEP: f64 = 0.5;
 
-/// Where something is in the drawing.
+/// Position in the drawing.
 type Place = (f64, f64);
 
-/// Draws the outward motion of every tip that a radial or normal sensor records over its angle in the fixed frame, and the casing
-/// that it meets there with its shape at full height.
+/// Draws the outward motion of every tip that a radial or normal sensor records over its angle in the fixed frame, and the casing that it
+/// meets there with its shape at full height.
 pub fn trajectories(histories: &SpeedHistories) -> String {
     let title = title(histories);
     let (heading, bottom) = heading(LEFT, &title, &words(histories));
@@ -37,18 +37,18 @@ pub fn trajectories(histories: &SpeedHistories) -> String {
     document(&title, WIDTH, HEIGHT, content)
 }
 
-/// What is seen.
+/// Title: the speed of the trajectories.
 pub(super) fn title(histories: &SpeedHistories) -> String {
     format!("Tip trajectories before the casing, {} rpm", label(rpm(histories.speed_rad_s), 0))
 }
 
-/// The first revolution that is drawn.
+/// First revolution that is drawn.
 fn first(histories: &SpeedHistories) -> u32 {
     let [begin, end] = histories.revolutions;
     begin.max(end.saturating_sub(MOST_REVOLUTIONS))
 }
 
-/// What stands below the title.
+/// Paragraphs below the title: the revolutions drawn, the origin, and whether the casing was still growing.
 pub(super) fn words(histories: &SpeedHistories) -> Vec<String> {
     let (first, [_, end]) = (first(histories), histories.revolutions);
     let words = format!(
@@ -67,15 +67,15 @@ pub(super) fn words(histories: &SpeedHistories) -> Vec<String> {
     paragraphs
 }
 
-/// What the axis to the right says.
+/// Title of the horizontal axis.
 pub(super) const ANGLE: &str = "angle in the fixed frame, in the direction of rotation";
 
-/// What the axis upwards says.
+/// Title of the vertical axis.
 pub(super) fn outward(length: &str) -> String {
     format!("outward displacement, {length}")
 }
 
-/// A tip whose outward motion is known, and where it is.
+/// Tip whose outward motion and position before the casing are known.
 pub(super) struct Tip<'a> {
     history: &'a SensorHistory,
     place: &'a TipPlace,
@@ -88,7 +88,7 @@ impl<'a> Tip<'a> {
         Some(Self { history, place })
     }
 
-    /// The tip in words.
+    /// Words for the tip.
     pub(super) fn words(&self) -> String {
         let sensor = &self.history.sensor;
         let component =
@@ -101,35 +101,35 @@ impl<'a> Tip<'a> {
     }
 }
 
-/// The tips and the casing before them.
+/// Tips and the casing before them, as the drawing shows them.
 pub(super) struct View<'a> {
     histories: &'a SpeedHistories,
     pub(super) tips: Vec<Tip<'a>>,
-    /// Revolutions of the record that are left out.
+    /// Number of revolutions of the record that are left out.
     skipped: u32,
-    /// The different walls that they have before them.
+    /// Different walls before the tips.
     pub(super) walls: Vec<&'a TipPlace>,
     pub(super) diagram: Diagram,
 }
 
-/// What is said where no tip can be drawn.
+/// Message where no tip can be drawn.
 pub(super) const NO_TIPS: &str =
     "Nothing to draw: no radial or normal sensor of a tip whose place before the casing is known";
 
-/// The wall before a tip: angles in degrees, and how far outwards it is.
+/// Wall before a tip: angles in degrees, and the distance outwards.
 pub(super) fn wall(place: &TipPlace) -> impl Iterator<Item = (f64, f64)> {
     let heights: &[f64] = if place.heights.is_empty() { &[0.0] } else { &place.heights };
     let steps = heights.len();
     (0..=steps).map(move |i| (360.0 * i as f64 / steps as f64, place.clearance - heights[i % steps]))
 }
 
-/// The wall in words.
+/// Words for a wall.
 pub(super) fn wall_words(place: &TipPlace) -> String {
     format!("casing, clearance {}", place.clearance)
 }
 
 impl<'a> View<'a> {
-    /// What there is to see, within a rectangle of the drawing.
+    /// Lays out the tips and the casing within a rectangle of the drawing.
     pub(super) fn new(histories: &'a SpeedHistories, (corner, size): ((f64, f64), (f64, f64))) -> Self {
         let tips: Vec<Tip> = histories.sensors.iter().filter_map(Tip::of).collect();
         let skipped = first(histories) - histories.revolutions[0];
@@ -169,7 +169,7 @@ impl<'a> View<'a> {
         ]
     }
 
-    /// The casing before a tip; the first is filled.
+    /// Draws the casing before a tip; the first one is filled.
     fn casing(&self, index: usize, place: &TipPlace) -> Element {
         let wall: Vec<(f64, f64)> = wall(place).map(|(x, y)| self.diagram.point(x, y)).collect();
         let stroke = polyline(wall.iter().copied().map(Some)).set("stroke", "#444444");
@@ -180,7 +180,7 @@ impl<'a> View<'a> {
         group().child(metal).child(stroke.title(&wall_words(place)))
     }
 
-    /// The motion of a tip, with a gap before each revolution: angles in degrees, and how far outwards.
+    /// Motion of a tip, with a gap before each revolution: angles in degrees, and the distance outwards.
     pub(super) fn motion(&self, tip: &Tip) -> Vec<Option<(f64, f64)>> {
         let samples = self.histories.samples_per_revolution.max(1);
         let skipped = (self.skipped * samples) as usize;
@@ -198,12 +198,12 @@ impl<'a> View<'a> {
         places
     }
 
-    /// The same drawn, a stroke for each revolution.
+    /// Draws the motion of a tip, a stroke for each revolution.
     fn path(&self, index: usize, tip: &Tip) -> Element {
         let mut points: Vec<Option<Place>> = Vec::new();
         for place in self.motion(tip) {
             let place = place.and_then(|(x, y)| self.diagram.inside(x, y));
-            // A step that cannot be seen says nothing.
+            // Steps too short to be seen are left out.
             let hidden =
                 points.last().copied().flatten().zip(place).is_some_and(|(last, place): (Place, Place)| {
                     f64::hypot(place.0 - last.0, place.1 - last.1) < SMALLEST_STEP
@@ -236,7 +236,7 @@ impl<'a> View<'a> {
         key.row(metal.set("stroke", "#444444"), self.casing_words()).draw()
     }
 
-    /// What the wall is.
+    /// Words for the casing in the key.
     pub(super) fn casing_words(&self) -> &'static str {
         match self.walls.len() {
             1 => "casing",

@@ -1,4 +1,4 @@
-//! How it looks where linear theory is doubtful or left, and in which words.
+//! Marks and words for speeds at which linear theory is doubtful or left.
 
 use super::axis::significant;
 use super::cells::Cell;
@@ -10,13 +10,13 @@ use rubmap_analysis::result::{InteractionMap, Point, Validity, ValidityMeasure, 
 const DOUBTFUL: &str = "#d9720c";
 const BEYOND: &str = "#8b0f14";
 
-/// What areas are filled with where linear theory is doubtful, once [`definition`] is in the drawing.
+/// Fill of areas where linear theory is doubtful, once [`definition`] is in the drawing.
 const HATCHED: &str = "url(#doubtful)";
 
 /// Verdicts that are marked.
 pub(super) const MARKED: [ValidityVerdict; 2] = [ValidityVerdict::Doubtful, ValidityVerdict::Beyond];
 
-/// A verdict in words.
+/// Words for a verdict.
 pub(super) fn words(verdict: ValidityVerdict) -> &'static str {
     match verdict {
         ValidityVerdict::Linear => "linear theory holds",
@@ -25,7 +25,7 @@ pub(super) fn words(verdict: ValidityVerdict) -> &'static str {
     }
 }
 
-/// The same, of a verdict that was given without some of the numbers that decide.
+/// Words for a verdict that was given without some of the deciding measures.
 pub(super) fn words_without(verdict: ValidityVerdict, lacking: &[ValidityMeasure]) -> &'static str {
     match verdict {
         ValidityVerdict::Linear if !lacking.is_empty() => "linear theory holds as far as is known",
@@ -33,7 +33,7 @@ pub(super) fn words_without(verdict: ValidityVerdict, lacking: &[ValidityMeasure
     }
 }
 
-/// What decides and was not looked at at some of the speeds, each once, with the reason.
+/// Deciding measures that were not evaluated at some of the speeds, each once, with the reason.
 pub(super) fn lacking(map: &InteractionMap) -> Vec<String> {
     let mut found = Vec::new();
     for lack in map.points.iter().filter_map(|point| point.validity.as_ref()).flat_map(|found| &found.lacking)
@@ -46,13 +46,13 @@ pub(super) fn lacking(map: &InteractionMap) -> Vec<String> {
     found
 }
 
-/// Whether the number that most often decides, displacement over thickness, is lacking at some of the speeds.
+/// Whether displacement over thickness, the measure that most often decides, is lacking at some of the speeds.
 pub(super) fn without_thickness(map: &InteractionMap) -> bool {
     let measures = map.points.iter().flat_map(Point::validity_lacking);
     measures.into_iter().any(|what| what == ValidityMeasure::DisplacementOverThickness)
 }
 
-/// What to say then.
+/// Note where linear theory is judged without the blade's thickness.
 pub(super) const WITHOUT_THICKNESS: &str = "linear theory is judged without the blade's thickness";
 
 /// Colour of a verdict that is marked.
@@ -64,7 +64,7 @@ pub(super) fn colour(verdict: ValidityVerdict) -> Option<&'static str> {
     }
 }
 
-/// What a number is of.
+/// Words for a measure of validity.
 pub(super) fn measure(what: ValidityMeasure) -> &'static str {
     match what {
         ValidityMeasure::DisplacementOverThickness => {
@@ -82,7 +82,7 @@ pub(super) fn measure(what: ValidityMeasure) -> &'static str {
     }
 }
 
-/// The verdict with the number that says so; none where linear theory holds.
+/// Words for a verdict with the measure that decides; none where linear theory holds.
 pub(super) fn reason(validity: &Validity) -> Option<String> {
     colour(validity.verdict)?;
     let check = validity.checks.first()?;
@@ -99,12 +99,12 @@ pub(super) fn reason(validity: &Validity) -> Option<String> {
     ))
 }
 
-/// The point of a speed by its index.
+/// Point of the speed with this index.
 pub(super) fn point(map: &InteractionMap, index: usize) -> Option<&Point> {
     map.points.iter().find(|point| point.index as usize == index)
 }
 
-/// A ring about a mark of a speed at which linear theory is doubtful or left.
+/// Ring about a mark of a speed at which linear theory is doubtful or left.
 pub(super) fn ring((x, y): (f64, f64), verdict: Option<ValidityVerdict>, radius: f64) -> Option<Element> {
     let colour = colour(verdict?)?;
     let dashes = if verdict == Some(ValidityVerdict::Beyond) { "" } else { "2.5 2" };
@@ -113,7 +113,7 @@ pub(super) fn ring((x, y): (f64, f64), verdict: Option<ValidityVerdict>, radius:
     Some(ring.set("stroke-dasharray", dashes))
 }
 
-/// A strip, `height` high from `top` on, over the speeds at which linear theory is doubtful or left; none if there are none in view.
+/// Strip, `height` high from `top` on, over the speeds at which linear theory is doubtful or left; none if there are none in view.
 pub(super) fn strip(
     map: &InteractionMap,
     cells: &[Cell],
@@ -132,7 +132,7 @@ pub(super) fn strip(
     (!marked.is_empty()).then(|| group().child(definition()).children(marked))
 }
 
-/// What an area of a verdict is filled with, told apart without colours as well.
+/// Fill of an area with this verdict, distinct without colours as well.
 fn fill(verdict: ValidityVerdict) -> Option<&'static str> {
     colour(verdict).map(|colour| if verdict == ValidityVerdict::Doubtful { HATCHED } else { colour })
 }
@@ -149,7 +149,7 @@ fn definition() -> Element {
     Element::new("defs").child(pattern)
 }
 
-/// The verdicts of the strip that are in view, for a key.
+/// Adds the verdicts of the strip that are in view to a key.
 pub(super) fn explained(mut flow: Flow, map: &InteractionMap, cells: &[Cell], diagram: &Diagram) -> Flow {
     let (low, high) = diagram.x.values;
     let seen = cells.iter().filter(|cell| cell.to > low && cell.from < high);

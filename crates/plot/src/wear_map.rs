@@ -1,4 +1,4 @@
-//! What the blades wore off the coating of the casing.
+//! Wear of the coating of the casing.
 
 use super::axis::{Scale, eighths, label, significant, ticks};
 use super::cells::rpm;
@@ -16,10 +16,10 @@ const LEFT: f64 = 100.0;
 const PLOT_WIDTH: f64 = 930.0;
 const CURVE_HEIGHT: f64 = 130.0;
 
-/// What is said where there is none.
+/// Message where there is no coating.
 pub(super) const NO_COATING: &str = "Nothing to draw: there is no coating";
 
-/// What the axis to the right says.
+/// Title of the horizontal axis.
 pub(super) const ANGLE: &str = "angle of the casing from the package's x axis, in the direction of rotation";
 
 /// Draws the depth of wear over the angle of the casing and the contact nodes at the end of one speed, above it the deepest at each
@@ -79,12 +79,12 @@ pub fn wear_map(wear: &WearMap, point: &Point, units: &Units) -> String {
     document(&title, WIDTH, HEIGHT, content)
 }
 
-/// What was worn off, and when.
+/// Title: the speed of the wear.
 pub(super) fn title(point: &Point) -> String {
     format!("Wear of the coating, {} rpm", label(rpm(point.speed_rad_s), 0))
 }
 
-/// What stands below the title.
+/// Paragraph below the title: the volume removed, the largest depth, whether a tip met the metal, and the program version.
 pub(super) fn words(point: &Point, units: &Units) -> String {
     let mut words = Vec::new();
     if let Some(report) = &point.wear {
@@ -96,7 +96,7 @@ pub(super) fn words(point: &Point, units: &Units) -> String {
     words.join(" · ")
 }
 
-/// The deepest at an angle.
+/// Largest depth at an angle.
 pub(super) fn deepest(rod: &[f64]) -> f64 {
     rod.iter().copied().filter(|depth| depth.is_finite()).fold(0.0, f64::max)
 }

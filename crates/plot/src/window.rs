@@ -1,6 +1,6 @@
-//! The part of a map that is drawn.
+//! Part of a map that is drawn.
 
-/// A part of an interaction map; without bounds all of it.
+/// Part of an interaction map; all of it without bounds.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Window {
     /// Lowest and highest speed, revolutions per minute.
@@ -10,7 +10,7 @@ pub struct Window {
 }
 
 impl Window {
-    /// `whole`, or the part of the axis that was asked for, unless that is no range.
+    /// Range of speeds in rpm: the requested one, or `whole` unless the request is a valid range.
     pub(super) fn speeds(&self, whole: (f64, f64)) -> (f64, f64) {
         range(self.speeds_rpm).unwrap_or(whole)
     }

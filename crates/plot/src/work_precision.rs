@@ -1,4 +1,4 @@
-//! Error over computing time of every setting of a study.
+//! Work and precision: error over computing time of every setting of a study.
 
 use super::axis::{decades, label};
 use super::cells::rpm;
@@ -19,7 +19,7 @@ const HEIGHT: f64 = 800.0;
 const LEFT: f64 = 92.0;
 const PLOT_WIDTH: f64 = 790.0;
 
-/// Radii of the marks of the smallest and of the largest size.
+/// Radii of the marks of the smallest and of the largest model.
 const RADII: (f64, f64) = (3.6, 8.0);
 
 /// Draws the errors of one quantity over computing time at the speed of index `speed`, both on logarithmic axes.
@@ -41,32 +41,32 @@ pub fn work_precision(study: &WorkPrecision, speed: usize, quantity: Quantity) -
     svg::document(&title, WIDTH, HEIGHT, content)
 }
 
-/// What is seen.
+/// Title: the quantity whose error is drawn.
 pub(super) fn title(study: &WorkPrecision, quantity: Quantity) -> String {
     format!("Work and precision: {}", words(quantity, study))
 }
 
-/// What the axis to the right says.
+/// Title of the horizontal axis.
 pub(super) const TIME: &str = "CPU time of the whole run with set-up, without reduction, s";
 
-/// What the Pareto front is.
+/// Words for the Pareto front.
 pub(super) const FRONT: &str = "no run is better in time and error";
 
-/// The diagram of one quantity at one speed.
+/// Diagram of one quantity at one speed.
 pub(super) struct View<'a> {
     study: &'a WorkPrecision,
     at: &'a SpeedStudy,
     quantity: Quantity,
-    /// Whether bars show the spread.
+    /// Whether bars show the standard error.
     pub(super) bars: bool,
     pub(super) runs: Vec<Drawn<'a>>,
-    /// Modes per speed, ascending.
+    /// Modes per speed of the models, ascending.
     sizes: Vec<u32>,
     pub(super) diagram: Diagram,
 }
 
 impl<'a> View<'a> {
-    /// Whose diagram begins at `top`.
+    /// Lays out the runs in a diagram that begins at `top`.
     pub(super) fn new(study: &'a WorkPrecision, at: &'a SpeedStudy, quantity: Quantity, top: f64) -> Self {
         let chaotic = at.sensitivity.is_some_and(|sensitivity| sensitivity.growth == Growth::Chaotic);
         let bars = chaotic && quantity == Quantity::Amplitude;
@@ -96,7 +96,7 @@ impl<'a> View<'a> {
         let mut content = vec![diagram.grid(&x, &y), self.front_line()];
         content.extend(self.schemes().map(|scheme| self.scheme_line(scheme)));
         content.extend(self.runs.iter().filter_map(|drawn| self.bar(drawn)));
-        // Small marks over large ones.
+        // Small marks lie over large ones.
         for &size in self.sizes.iter().rev() {
             let here = self.runs.iter().filter(|drawn| drawn.run.setting.modes_per_speed == size);
             content.extend(here.map(|drawn| self.mark(drawn)));
@@ -119,7 +119,7 @@ impl<'a> View<'a> {
         self.study.settings.grid.schemes.iter().copied().filter(drawn)
     }
 
-    /// Radius of the marks of a size.
+    /// Radius of the marks of a model with these modes per speed.
     pub(super) fn radius(&self, modes_per_speed: u32) -> f64 {
         let rank = self.sizes.iter().position(|&size| size == modes_per_speed).unwrap_or(0);
         let steps = self.sizes.len().saturating_sub(1).max(1);
@@ -133,7 +133,7 @@ impl<'a> View<'a> {
             .title(&drawn.title())
     }
 
-    /// From the standard error below the mark to that above it, cut off at the frame.
+    /// Bar from the standard error below the mark to that above it, cut off at the frame.
     fn bar(&self, drawn: &Drawn) -> Option<Element> {
         let (spread, x) = (drawn.spread.filter(|_| self.bars)?, self.place(drawn).0);
         let lowest = (drawn.error - spread).max(self.diagram.y.values.0);
@@ -142,7 +142,7 @@ impl<'a> View<'a> {
         Some(bar.set("stroke", scheme::colour(drawn.run.setting.scheme)).set("stroke-opacity", "0.7"))
     }
 
-    /// The runs of a scheme that no other run of it beats, in ascending time.
+    /// Runs of a scheme that no other run of the scheme beats in time and error, in ascending time.
     pub(super) fn unbeaten(&self, scheme: SchemeChoice) -> Vec<&Drawn<'a>> {
         let place = |drawn: &Drawn| {
             let here = drawn.run.setting.scheme == scheme;
@@ -161,7 +161,7 @@ impl<'a> View<'a> {
             .set("stroke-width", "1.8")
     }
 
-    /// The Pareto front of all runs, in ascending time.
+    /// Pareto front of all runs, in ascending time.
     pub(super) fn front(&self) -> Vec<&Drawn<'a>> {
         let on = |drawn: &&Drawn| drawn.run.pareto.contains(&self.quantity);
         let mut front: Vec<_> = self.runs.iter().filter(on).collect();
@@ -169,7 +169,7 @@ impl<'a> View<'a> {
         front
     }
 
-    /// Steps per revolution at the marks, where there is room.
+    /// Labels with steps per revolution at the marks, where there is room.
     fn steps(&self) -> Element {
         let mut labels = Labels::inside(&self.diagram);
         for drawn in &self.runs {
@@ -177,7 +177,7 @@ impl<'a> View<'a> {
         }
         let front = self.front();
         let others = self.runs.iter().filter(|drawn| !front.iter().any(|on| std::ptr::eq(*on, *drawn)));
-        // Those on the front first.
+        // Runs on the front have the first choice of room.
         let words = front.iter().copied().chain(others).filter_map(|drawn| {
             let steps = label(drawn.run.setting.steps_per_revolution.into(), 0);
             labels.beside(
@@ -195,7 +195,7 @@ impl<'a> View<'a> {
         ring((x, y), self.radius(drawn.run.setting.modes_per_speed)).title(&drawn.title())
     }
 
-    /// What can be had for a time: from the top down to the first of the front, and on to the right.
+    /// Line of the least error that a computing time allows: from the top down to the first run of the front, and on to the right.
     fn front_line(&self) -> Element {
         let (mut corners, mut height) = (Vec::new(), self.diagram.top);
         for (x, y) in self.front().into_iter().map(|drawn| self.place(drawn)) {

@@ -1,4 +1,4 @@
-//! Whether an element is whole: nowhere turned inside out or collapsed.
+//! Defects of elements: an element is whole if it is nowhere turned inside out or collapsed.
 
 use crate::element::ElementKind;
 use crate::frame::distance;
@@ -7,44 +7,44 @@ use crate::natural::Natural;
 use crate::rule::points;
 use crate::topology::Topology;
 
-/// A node in the middle of an edge may be this far from there, relative to the edge's length: an edge bent by 155°. Among the
-/// nodes of a tetrahedron in a wrong order some are farther off, though its Jacobian determinant may be positive.
+/// Largest distance of a mid-edge node from the middle of its edge, relative to the edge's length: an edge bent by 155°. Among the nodes of
+/// a tetrahedron in a wrong order some are farther off, though its Jacobian determinant may be positive.
 const FARTHEST_MIDDLE: f64 = 0.4;
 
-/// Why an element is not whole.
+/// Reason why an element is not whole.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Defect {
-    /// A node that should be in the middle of an edge is somewhere else. Local numbers, from 0.
+    /// Node that should be in the middle of an edge and is somewhere else.
     Middle {
-        /// The node.
+        /// Local number of the node, from 0.
         node: usize,
-        /// Ends of the edge.
+        /// Local numbers of the ends of the edge, from 0.
         edge: [usize; 2],
     },
-    /// A Jacobian determinant that is not positive.
+    /// Jacobian determinant that is not positive.
     Jacobian {
-        /// The corner, from 0, if it is there; otherwise an integration point.
+        /// Corner of the determinant, from 0; none where it is that of an integration point.
         corner: Option<usize>,
-        /// The determinant there.
+        /// Value of the determinant.
         determinant: f64,
-        /// What it looks like.
+        /// Likely cause.
         likely: Likely,
     },
 }
 
-/// The likely cause of a defect.
+/// Likely cause of a defect.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Likely {
-    /// The mirror image of an element is listed.
+    /// Mirror image of an element is listed.
     Mirrored,
-    /// With its mid-edge nodes in the middle of their edges it would be whole.
+    /// Mid-edge nodes are misplaced: with them in the middle of their edges the element would be whole.
     MiddleNodes,
-    /// None of these.
+    /// Cause that is none of the others.
     Other,
 }
 
-/// The first thing wrong with an element: a mid-edge node elsewhere, then a corner or integration point at which the Jacobian
-/// determinant is not a positive number. None for a whole element.
+/// First defect of an element: a mid-edge node elsewhere, then a corner or integration point at which the Jacobian determinant is not a
+/// positive number. None for a whole element.
 pub fn defect(kind: ElementKind, positions: &[[f64; 3]]) -> Option<Defect> {
     let topology = Topology::of(kind);
     for (node, &edge) in (topology.corners.len()..positions.len()).zip(topology.edges) {

@@ -1,8 +1,8 @@
-//! The elements that a mesh may have.
+//! Kinds of elements that a mesh may have.
 
 use serde::{Deserialize, Serialize};
 
-/// An element's shape and displacement functions, by the name that CalculiX has for it.
+/// Shape and displacement functions of an element, by the name that CalculiX has for it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub enum ElementKind {
     /// 4-node tetrahedron.
@@ -21,13 +21,13 @@ pub enum ElementKind {
     C3D20,
     /// 20-node hexahedron, 2 × 2 × 2 integration points.
     C3D20R,
-    /// 8-node hexahedron with the incompatible modes of Taylor, Beresford and Wilson, which pass the patch test on crooked elements:
-    /// that of the generator. CalculiX has none such.
+    /// 8-node hexahedron with the incompatible modes of Taylor, Beresford and Wilson, which pass the patch test on crooked elements: the
+    /// element of the generator. CalculiX has none such.
     QM6,
 }
 
 impl ElementKind {
-    /// All of them.
+    /// Every kind of element.
     pub const ALL: [Self; 9] = [
         Self::C3D4,
         Self::C3D6,
@@ -40,7 +40,7 @@ impl ElementKind {
         Self::QM6,
     ];
 
-    /// Its name: that of CalculiX, where it has one.
+    /// Name of the element: that of CalculiX, where it has one.
     pub fn name(self) -> &'static str {
         match self {
             Self::C3D4 => "C3D4",
@@ -55,12 +55,12 @@ impl ElementKind {
         }
     }
 
-    /// The element of this name.
+    /// Element of this name.
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|kind| kind.name() == name)
     }
 
-    /// Whether it has incompatible modes.
+    /// Whether the element has incompatible modes.
     pub fn has_bubbles(self) -> bool {
         matches!(self, Self::C3D8I | Self::QM6)
     }
@@ -77,7 +77,7 @@ impl ElementKind {
         }
     }
 
-    /// Number of its nodes that are corners; they come first.
+    /// Number of nodes that are corners; they come first.
     pub fn corners(self) -> usize {
         match self {
             Self::C3D4 | Self::C3D10 => 4,

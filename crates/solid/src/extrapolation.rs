@@ -1,5 +1,5 @@
-//! From an element's integration points to its nodes, as CalculiX 2.20 does it: measured on its answers, where the matrix of every
-//! element was recovered to the digits that it prints.
+//! Extrapolation from an element's integration points to its nodes, as CalculiX 2.20 does it: measured on its answers, from which the
+//! matrix of every element was recovered to the digits that it prints.
 //!
 //! | element | what is laid through the values at the points |
 //! |---|---|
@@ -11,8 +11,7 @@
 //! | C3D20 | the twenty shape functions of the element, by least squares, at all nodes |
 //! | C3D20R | the trilinear function, at corners; elsewhere means of both ends |
 //!
-//! A mean of both ends is what those functions are in the middle of a straight edge of the reference shape, so nothing has to be
-//! done about it.
+//! A mean of both ends is the value of those functions in the middle of a straight edge of the reference shape, so it needs no code of its own.
 
 use std::sync::LazyLock;
 
@@ -27,12 +26,12 @@ use crate::topology::Topology;
 static MATRICES: LazyLock<Vec<DMatrix<f64>>> =
     LazyLock::new(|| ElementKind::ALL.iter().map(|&kind| made(kind)).collect());
 
-/// Values at the nodes (rows) of values at the integration points (columns).
+/// Matrix from values at the integration points (columns) to values at the nodes (rows).
 pub fn extrapolation(kind: ElementKind) -> &'static DMatrix<f64> {
     &MATRICES[kind as usize]
 }
 
-/// Functions fitted at the points, evaluated at the nodes: `N_nodes (N_pointsᵀ N_points)⁻¹ N_pointsᵀ`.
+/// Matrix of functions fitted at the points and evaluated at the nodes: `N_nodes (N_pointsᵀ N_points)⁻¹ N_pointsᵀ`.
 fn made(kind: ElementKind) -> DMatrix<f64> {
     let nodes = Topology::of(kind).nodes();
     let points: Vec<Natural> = points(kind).iter().map(|point| point.xi).collect();
@@ -48,7 +47,7 @@ fn made(kind: ElementKind) -> DMatrix<f64> {
     values(&nodes) * inverse * at_points.transpose()
 }
 
-/// The functions that are fitted, at a place.
+/// Values of the functions that are fitted, at a place.
 fn fitted(kind: ElementKind, xi: Natural) -> Vec<f64> {
     let [x, y, z] = xi;
     match kind {

@@ -9,10 +9,10 @@ use nalgebra::{Matrix3, RowVector3, Vector3};
 /// Sine of the angle between x and the axis below which y takes over.
 const NEARLY_PARALLEL: f64 = 1e-3;
 
-/// Rows are the local unit vectors in global components: local = basis · global.
+/// Matrix of a local basis: rows are the local unit vectors in global components, local = basis · global.
 pub type Basis = Matrix3<f64>;
 
-/// The axis of rotation with its zero of θ.
+/// Axis of rotation with its zero of θ.
 #[derive(Debug, Clone)]
 pub struct AxisFrame {
     origin: Vector3<f64>,
@@ -20,7 +20,7 @@ pub struct AxisFrame {
 }
 
 impl AxisFrame {
-    /// Of a point on the axis and its direction, of any length; `None` if the direction is zero or not finite.
+    /// Frame of an axis by a point on it and its direction, of any length; `None` if the direction is zero or not finite.
     pub fn new(origin: [f64; 3], direction: [f64; 3]) -> Option<Self> {
         let e3 = unit(direction.into())?;
         let normal_part = |v: Vector3<f64>| v - e3 * v.dot(&e3);
@@ -36,21 +36,21 @@ impl AxisFrame {
         self.e.row(2).transpose()
     }
 
-    /// (r, θ, z) of a point, θ in (−π, π].
+    /// Cylindrical coordinates (r, θ, z) of a point, θ in (−π, π].
     pub fn coordinates(&self, position: [f64; 3]) -> [f64; 3] {
         let [x, y, z] = (self.e * (Vector3::from(position) - self.origin)).into();
         let r = x.hypot(y);
         [r, if r == 0.0 { 0.0 } else { y.atan2(x) }, z]
     }
 
-    /// The unit vectors r, θ, z at the angle `theta`.
+    /// Unit vectors r, θ, z at the angle `theta`.
     pub fn cylindrical(&self, theta: f64) -> Basis {
         let (sin, cos) = theta.sin_cos();
         let [e1, e2, e3]: [RowVector3<f64>; 3] = std::array::from_fn(|k| self.e.row(k).into_owned());
         Basis::from_rows(&[e1 * cos + e2 * sin, e1 * -sin + e2 * cos, e3])
     }
 
-    /// The global unit vectors turned by `angle` about the axis.
+    /// Global unit vectors turned by `angle` about the axis.
     pub fn turned_global(&self, angle: f64) -> Basis {
         let units = [Vector3::x(), Vector3::y(), Vector3::z()];
         Basis::from_columns(&units.map(|v| self.turn_vector(v, angle))).transpose()
@@ -73,7 +73,7 @@ pub fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1]).hypot(a[2] - b[2])
 }
 
-/// Scaled first, so that no finite non-zero direction over- or underflows.
+/// Unit vector along `v`, scaled first, so that no finite non-zero direction over- or underflows.
 fn unit(v: Vector3<f64>) -> Option<Vector3<f64>> {
     let largest = v.amax();
     (largest > 0.0 && v.iter().all(|x| x.is_finite())).then(|| (v / largest).normalize())

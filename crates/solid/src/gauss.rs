@@ -4,12 +4,12 @@ use std::sync::LazyLock;
 
 use crate::natural::Natural;
 
-/// A point of integration.
+/// Integration point.
 #[derive(Debug, Clone, Copy)]
 pub struct GaussPoint {
-    /// Natural coordinates.
+    /// Natural coordinates of the point.
     pub xi: Natural,
-    /// Weight; the weights of a rule of the cube add up to 8.
+    /// Weight of the point; the weights of a rule of the cube add up to 8.
     pub weight: f64,
 }
 
@@ -23,8 +23,7 @@ static THREE: LazyLock<Vec<GaussPoint>> = LazyLock::new(|| {
     product(&[(-g, 5.0 / 9.0), (0.0, 8.0 / 9.0), (g, 5.0 / 9.0)])
 });
 
-/// The product rule of two (exact to degree 3 in each coordinate) or three (degree 5) points in each direction, ξ
-/// fastest.
+/// Product rule of two (exact to degree 3 in each coordinate) or three (degree 5) points in each direction, ξ fastest.
 ///
 /// # Panics
 /// For any other number of points.

@@ -12,7 +12,7 @@ use crate::shape::derivatives;
 /// corners (node by node).
 pub(crate) type Recovery = SMatrix<f64, 9, 24>;
 
-/// `J_ij = ∂x_i/∂ξ_j`.
+/// Jacobian `J_ij = ∂x_i/∂ξ_j`.
 pub(crate) fn jacobian(kind: ElementKind, positions: &[[f64; 3]], xi: Natural) -> Matrix3<f64> {
     let derivatives = derivatives(kind, xi);
     positions.iter().zip(&derivatives).map(|(&x, dn)| Vector3::from(x) * dn.transpose()).sum()
@@ -21,14 +21,14 @@ pub(crate) fn jacobian(kind: ElementKind, positions: &[[f64; 3]], xi: Natural) -
 /// Gradients of an element's functions at its integration points.
 #[derive(Debug)]
 pub(crate) struct Gradients {
-    /// At each point, those of the nodes' functions in x, y, z, then those of the incompatible modes, if the element has some.
+    /// Gradients at each point: those of the nodes' functions in x, y, z, then those of the incompatible modes, if the element has some.
     pub(crate) at_points: Vec<Vec<Vector3<f64>>>,
     /// Volume that each point stands for.
     volumes: Vec<f64>,
 }
 
 impl Gradients {
-    /// Of an element whose Jacobian determinants are positive; the inverse of a singular Jacobian counts as zero.
+    /// Gradients of an element whose Jacobian determinants are positive; the inverse of a singular Jacobian counts as zero.
     pub(crate) fn of(kind: ElementKind, positions: &[[f64; 3]]) -> Self {
         let centre = jacobian(kind, positions, [0.0; 3]);
         let centre_turn = inverse_transpose(&centre);
@@ -49,12 +49,12 @@ impl Gradients {
         gradients
     }
 
-    /// `∫ ∇N dV` of a node's function.
+    /// Integral `∫ ∇N dV` of a node's function.
     pub(crate) fn integral(&self, node: usize) -> Vector3<f64> {
         self.at_points.iter().zip(&self.volumes).map(|(at_point, volume)| at_point[node] * *volume).sum()
     }
 
-    /// How the amplitudes of an element with incompatible modes follow its corners, statically: `α = −K_αα⁻¹ K_αu u`.
+    /// Recovery of the amplitudes of incompatible modes, which follow the corners statically: `α = −K_αα⁻¹ K_αu u`.
     pub(crate) fn recovery(&self, youngs_modulus: f64, poissons_ratio: f64) -> Recovery {
         let (lambda, mu) = lame_constants(youngs_modulus, poissons_ratio);
         let block = |a: usize, b: usize| -> Matrix3<f64> {

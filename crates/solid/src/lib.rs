@@ -1,6 +1,6 @@
-//! The finite elements of one impeller sector: what stress is made of displacement by.
+//! Finite elements of one impeller sector: stress from displacement.
 //!
-//! It knows meshes and materials, and nothing of matrices, packages or speeds: the matrices that a wheel is simulated by come from
+//! The crate knows meshes and materials, and nothing of matrices, packages or speeds: the matrices that a wheel is simulated by come from
 //! wherever the user's elements were integrated, and only their displacement comes here.
 
 pub mod defect;

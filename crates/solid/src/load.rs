@@ -1,8 +1,8 @@
-//! Loads of a sector's own mass, in (r, θ, z) components of every node of the sector. What acts on a high node is added to its low node, whose
-//! components it has; its own place is zero.
+//! Loads of a sector's own mass, in (r, θ, z) components of every node of the sector. The load of a high node is added to its low node,
+//! whose components it has; its own entry is zero.
 //!
-//! They are `M b` of the consistent mass: what a unit of mass feels, b, is interpolated like displacement, which is exact where it is linear in
-//! the place.
+//! Loads are `M b` of the consistent mass: the force b on a unit of mass is interpolated like displacement, which is exact where b is
+//! linear in the place.
 
 use nalgebra::Vector3;
 
@@ -12,17 +12,17 @@ use crate::mesh::SectorMesh;
 use crate::rule::fine_points;
 use crate::shape::functions;
 
-/// The centrifugal load per unit Ω²: `∫ ρ N_a r e_r dV`.
+/// Centrifugal load per unit Ω²: `∫ ρ N_a r e_r dV`.
 pub fn centrifugal(mesh: &SectorMesh) -> Vec<[f64; 3]> {
     inertial(mesh, |axis, from_axis| from_axis - axis * from_axis.dot(&axis))
 }
 
-/// The Euler load per unit Ω̇: `−∫ ρ N_a r e_θ dV`.
+/// Euler load per unit Ω̇: `−∫ ρ N_a r e_θ dV`.
 pub fn euler(mesh: &SectorMesh) -> Vec<[f64; 3]> {
     inertial(mesh, |axis, from_axis| from_axis.cross(&axis))
 }
 
-/// `∫ ρ N_a b dV`, b being felt by a unit of mass: of the direction of the axis, and the place seen from a point on it.
+/// Load `∫ ρ N_a b dV`: `felt` gives the force b on a unit of mass from the direction of the axis and the place seen from a point on it.
 fn inertial(mesh: &SectorMesh, felt: impl Fn(Vector3<f64>, Vector3<f64>) -> Vector3<f64>) -> Vec<[f64; 3]> {
     let Some(axis) = AxisFrame::new(mesh.axis.0, mesh.axis.1) else {
         return vec![[0.0; 3]; mesh.nodes.len()];

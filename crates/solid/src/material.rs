@@ -1,4 +1,4 @@
-//! What elements are made of, and what it bears.
+//! Materials of elements, and their strength.
 
 use nalgebra::{Matrix3, SVector};
 use serde::{Deserialize, Serialize};
@@ -6,8 +6,7 @@ use serde::{Deserialize, Serialize};
 /// Cauchy stress `σ_11, σ_22, σ_33, σ_12, σ_23, σ_31`.
 pub type Stress = SVector<f64, 6>;
 
-/// An isotropic, linear elastic material, in the package's consistent units. What it bears has no default: without it nothing is said of
-/// margins.
+/// Isotropic, linear elastic material, in the package's consistent units. Strengths have no default: without them no margins are reported.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Material {
@@ -29,13 +28,13 @@ pub struct Material {
 }
 
 impl Material {
-    /// λ and μ of Lamé, `σ = λ tr(ε) 1 + 2μ ε`.
+    /// Lamé's constants λ and μ, `σ = λ tr(ε) 1 + 2μ ε`.
     pub fn lame_constants(&self) -> (f64, f64) {
         lame_constants(self.youngs_modulus, self.poissons_ratio)
     }
 }
 
-/// λ and μ of Lamé from Young's modulus and Poisson's ratio.
+/// Lamé's constants λ and μ from Young's modulus and Poisson's ratio.
 pub fn lame_constants(e: f64, nu: f64) -> (f64, f64) {
     (e * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)), e / (2.0 * (1.0 + nu)))
 }
@@ -47,13 +46,13 @@ pub fn stress((lambda, mu): (f64, f64), h: &Matrix3<f64>) -> Stress {
     Stress::new(normal(0), normal(1), normal(2), shear(0, 1), shear(1, 2), shear(2, 0))
 }
 
-/// The stress amplitude that a material bears when it alternates about zero.
+/// Fatigue strength: the stress amplitude that a material bears when stress alternates about zero.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
 pub struct FatigueStrength {
     /// Amplitude of a fully reversed stress.
     pub amplitude: f64,
-    /// Where it comes from: standard or test, number of cycles, surface, temperature.
+    /// Source of the amplitude: standard or test, number of cycles, surface, temperature.
     pub source: String,
 }

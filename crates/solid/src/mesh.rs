@@ -10,37 +10,37 @@ pub struct SectorMesh {
     pub sectors: usize,
     /// Ids of the nodes in the user's model, in the order of its node table.
     pub node_ids: Vec<u64>,
-    /// Their positions.
+    /// Positions of the nodes.
     pub nodes: Vec<[f64; 3]>,
-    /// The axis of rotation: a point on it, and its unit vector.
+    /// Axis of rotation: a point on it, and its unit vector.
     pub axis: ([f64; 3], [f64; 3]),
     /// Pairs (low node, high node) of places in `nodes`, clamped ones included: the high node is the low node turned by 2π/N.
     pub cyclic: Vec<(u32, u32)>,
-    /// The elements.
+    /// Elements of the sector.
     pub elements: Vec<Element>,
-    /// What they are made of.
+    /// Sets of elements, each of one material.
     pub sets: Vec<ElementSet>,
 }
 
-/// A finite element.
+/// Finite element.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Element {
-    /// Its number in the user's model.
+    /// Number of the element in the user's model.
     pub id: u64,
-    /// What it is.
+    /// Kind of the element.
     pub kind: ElementKind,
-    /// Place of its set in [`SectorMesh::sets`].
+    /// Index of the element's set in [`SectorMesh::sets`].
     pub set: u32,
-    /// Places of its nodes in [`SectorMesh::nodes`], in CalculiX's order.
+    /// Indices of the element's nodes in [`SectorMesh::nodes`], in CalculiX's order.
     pub nodes: Vec<u32>,
 }
 
 /// Elements of one material.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ElementSet {
-    /// Its name in the user's model.
+    /// Name of the set in the user's model.
     pub name: String,
-    /// What its elements are made of.
+    /// Material of the set's elements.
     pub material: Material,
 }
 

@@ -15,7 +15,7 @@ pub const CORNERS: [Natural; 8] = [
     [-1.0, 1.0, 1.0],
 ];
 
-/// The corners at both ends of each edge of a hexahedron, in the order of its mid-edge nodes (C3D20): around the face ζ = −1,
+/// Corners at both ends of each edge of a hexahedron, in the order of its mid-edge nodes (C3D20): around the face ζ = −1,
 /// around the face ζ = +1, then along ζ.
 pub const EDGES: [[usize; 2]; 12] =
     [[0, 1], [1, 2], [2, 3], [3, 0], [4, 5], [5, 6], [6, 7], [7, 4], [0, 4], [1, 5], [2, 6], [3, 7]];
@@ -24,13 +24,13 @@ pub const EDGES: [[usize; 2]; 12] =
 pub(crate) const TETRAHEDRON_CORNERS: [Natural; 4] =
     [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
-/// Its edges, in the order of the mid-edge nodes of C3D10.
+/// Edges of the tetrahedron, in the order of the mid-edge nodes of C3D10.
 pub(crate) const TETRAHEDRON_EDGES: [[usize; 2]; 6] = [[0, 1], [1, 2], [2, 0], [0, 3], [1, 3], [2, 3]];
 
 /// Corners of the wedge.
 pub(crate) const WEDGE_CORNERS: [Natural; 6] =
     [[0.0, 0.0, -1.0], [1.0, 0.0, -1.0], [0.0, 1.0, -1.0], [0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [0.0, 1.0, 1.0]];
 
-/// Its edges, in the order of the mid-edge nodes of C3D15.
+/// Edges of the wedge, in the order of the mid-edge nodes of C3D15.
 pub(crate) const WEDGE_EDGES: [[usize; 2]; 9] =
     [[0, 1], [1, 2], [2, 0], [3, 4], [4, 5], [5, 3], [0, 3], [1, 4], [2, 5]];

@@ -1,4 +1,4 @@
-//! The integration points of each element, as CalculiX numbers them.
+//! Integration points of each element, as CalculiX numbers them.
 
 use std::sync::LazyLock;
 
@@ -35,7 +35,7 @@ static WEDGE: [LazyLock<Vec<GaussPoint>>; 2] = [
     }),
 ];
 
-/// The points at which an element's stiffness is integrated and its stress is its own.
+/// Points at which an element's stiffness is integrated and its stress is evaluated.
 pub fn points(kind: ElementKind) -> &'static [GaussPoint] {
     match kind {
         ElementKind::C3D4 => &TETRAHEDRON[0],
@@ -56,7 +56,7 @@ static FINE_TETRAHEDRON: LazyLock<Vec<GaussPoint>> = LazyLock::new(|| {
 static FINE_WEDGE: LazyLock<Vec<GaussPoint>> =
     LazyLock::new(|| collapsed(|[x, y, z]| ([x * (1.0 - y), y, 2.0 * z - 1.0], (1.0 - y) / 4.0)));
 
-/// 27 points for mass and loads: exact to the third degree at least in any shape.
+/// Rule of 27 points for mass and loads: exact to the third degree at least in any shape.
 pub(crate) fn fine_points(kind: ElementKind) -> &'static [GaussPoint] {
     match kind.corners() {
         4 => &FINE_TETRAHEDRON,
@@ -65,7 +65,7 @@ pub(crate) fn fine_points(kind: ElementKind) -> &'static [GaussPoint] {
     }
 }
 
-/// The cube's points carried over by a map of the unit cube, given with the factor of its weights.
+/// Points of the cube carried over by a map of the unit cube, given with the factor of its weights.
 fn collapsed(map: impl Fn([f64; 3]) -> ([f64; 3], f64)) -> Vec<GaussPoint> {
     let carried = |point: &GaussPoint| {
         let (xi, factor) = map(point.xi.map(|x| 0.5 * (1.0 + x)));
@@ -78,7 +78,7 @@ fn collapsed(map: impl Fn([f64; 3]) -> ([f64; 3], f64)) -> Vec<GaussPoint> {
 mod tests {
     use super::*;
 
-    /// ∫ ξ^a η^b ζ^c over each shape, in closed form.
+    /// Integrals ∫ ξ^a η^b ζ^c over each shape, in closed form.
     #[test]
     fn rules_integrate_polynomials() {
         let integral = |points: &[GaussPoint], power: [i32; 3]| -> f64 {

@@ -1,48 +1,48 @@
-//! The skin of a sector: faces of elements that no other element shares.
+//! Skin of a sector: faces of elements that no other element shares.
 
 use std::collections::HashMap;
 
 use crate::mesh::SectorMesh;
 use crate::topology::Topology;
 
-/// A face of the skin.
+/// Face of the skin.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SkinFace {
-    /// Place of its element in [`SectorMesh::elements`].
+    /// Index of the face's element in [`SectorMesh::elements`].
     pub element: u32,
-    /// Places of its nodes in [`SectorMesh::nodes`]: its three or four corners, counter-clockwise seen from outside; of a quadratic
+    /// Indices of the face's nodes in [`SectorMesh::nodes`]: its three or four corners, counter-clockwise seen from outside; of a quadratic
     /// element then the middle of the edge behind each corner.
     pub nodes: Vec<u32>,
-    /// Number of its corners.
+    /// Number of the face's corners.
     pub corners: usize,
-    /// Which cut it lies on, if any: there the wheel goes on.
+    /// Cut that the face lies on, if any: there the wheel goes on.
     pub cut: Option<Cut>,
 }
 
-/// A cyclic face of the sector.
+/// Cyclic face of the sector.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Cut {
-    /// Where the sector begins.
+    /// Low face, where the sector begins.
     Low,
-    /// Where the next one begins.
+    /// High face, where the next sector begins.
     High,
 }
 
-/// All faces that belong to one element only.
+/// Skin of a sector: all faces that belong to one element only.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Skin {
-    /// In the order of elements and their faces.
+    /// Faces, in the order of elements and their faces.
     pub faces: Vec<SkinFace>,
 }
 
 impl Skin {
-    /// The faces of the whole wheel's skin: those on no cut.
+    /// Faces of the whole wheel's skin: those on no cut.
     pub fn free(&self) -> impl Iterator<Item = &SkinFace> {
         self.faces.iter().filter(|face| face.cut.is_none())
     }
 }
 
-/// The skin of a mesh.
+/// Skin of a mesh.
 pub fn skin(mesh: &SectorMesh) -> Skin {
     let mut low = vec![false; mesh.nodes.len()];
     let mut high = vec![false; mesh.nodes.len()];

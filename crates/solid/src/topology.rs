@@ -5,12 +5,12 @@ use crate::natural::{
     CORNERS, EDGES, Natural, TETRAHEDRON_CORNERS, TETRAHEDRON_EDGES, WEDGE_CORNERS, WEDGE_EDGES,
 };
 
-/// A shape, without regard to functions.
+/// Corners, edges and faces of a shape, without regard to functions.
 #[derive(Debug, Clone, Copy)]
 pub struct Topology {
     /// Natural coordinates of the corners.
     pub corners: &'static [Natural],
-    /// The corners at both ends of each edge, in the order of mid-edge nodes.
+    /// Corners at both ends of each edge, in the order of mid-edge nodes.
     pub edges: &'static [[usize; 2]],
     /// Corners of each face, counter-clockwise seen from outside.
     pub faces: &'static [&'static [usize]],
@@ -19,7 +19,7 @@ pub struct Topology {
 }
 
 impl Topology {
-    /// That of an element.
+    /// Topology of an element kind.
     pub fn of(kind: ElementKind) -> Self {
         let nodes = kind.nodes();
         match kind.corners() {

@@ -1,5 +1,5 @@
-//! What a sector's nodes bear where strain is the same everywhere, and their mass: the same for all formulations that pass a patch
-//! test, and so what matrices of unknown origin can be held against.
+//! Forces on a sector's nodes under uniform strain, and their mass: the same for all formulations that pass a patch test, and so a check of
+//! matrices of unknown origin.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -10,15 +10,16 @@ use crate::mesh::SectorMesh;
 use crate::rule::fine_points;
 use crate::shape::functions;
 
-/// What each node of a sector bears, in (r, θ, z) components. What acts on a high node is added to its low node; its own place is zero.
+/// Forces on each node of a sector under uniform strain, in (r, θ, z) components, and its mass. Values of a high node are added to its low
+/// node; its own are zero.
 #[derive(Debug, Clone)]
 pub struct UniformStrain {
     /// Forces under the displacement `u = (r, 0, −2z)`, a strain of shape without volume: in proportion to E/(1 + ν).
     pub of_shape: Vec<Vector3<f64>>,
     /// Forces under `u = (r, 0, z)`, a strain of volume without shape: in proportion to E/(1 − 2ν).
     pub of_volume: Vec<Vector3<f64>>,
-    /// The forces of single elements on each node, added without their directions: what `of_shape` and `of_volume` are
-    /// small against where forces of neighbours are in balance.
+    /// Magnitudes of the forces of single elements on each node, added without their directions: the size against which `of_shape` and
+    /// `of_volume` are small where forces of neighbours are in balance.
     pub unbalanced: [Vec<f64>; 2],
     /// Row sums of the consistent mass.
     pub mass: Vec<f64>,
@@ -29,7 +30,7 @@ pub fn displacements([r, _, z]: [f64; 3]) -> [[f64; 3]; 2] {
     [[r, 0.0, -2.0 * z], [r, 0.0, z]]
 }
 
-/// One pass over the elements.
+/// Computes the forces under uniform strain and the mass in one pass over the elements; none if the axis has no direction.
 pub fn uniform_strain(mesh: &SectorMesh) -> Option<UniformStrain> {
     let axis = AxisFrame::new(mesh.axis.0, mesh.axis.1)?;
     let direction = axis.direction();
@@ -73,7 +74,7 @@ pub fn uniform_strain(mesh: &SectorMesh) -> Option<UniformStrain> {
     Some(UniformStrain { of_shape, of_volume, unbalanced, mass })
 }
 
-/// Adds what high nodes bear to their low nodes.
+/// Adds the values of high nodes to those of their low nodes.
 fn fold<T: Default + std::ops::AddAssign>(values: &mut [T], cyclic: &[(u32, u32)]) {
     for &(low, high) in cyclic {
         let of_high = std::mem::take(&mut values[high as usize]);

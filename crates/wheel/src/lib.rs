@@ -1,4 +1,4 @@
-//! A cyclic wheel that rubs against its casing.
+//! Cyclic wheel that rubs against its casing.
 //!
 //! [`dynamics`] reduces a sector per nodal diameter and integrates the wheel in time; [`response`] reads what came out.
 //!

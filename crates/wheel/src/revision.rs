@@ -1,7 +1,7 @@
-//! Which numbers a computation gives.
+//! Revision of the numbers that a computation gives.
 
-/// Revision of the numerics: raised with every change after which the same request gives other numbers. What is stored
-/// under another one is computed again.
+/// Revision of the numerics: raised with every change after which the same request gives other numbers. Results stored under another
+/// revision are computed again.
 pub const REVISION: u32 = 5;
 
 /// Version of the code with the revision of its numerics, stamped on every result.

@@ -1,7 +1,7 @@
-//! Which vectors the processor has.
+//! Vectors that the processor has.
 
-/// Kind of the vectors that the inner loops run on, chosen as the program runs: `Scalar`, `V3` (AVX2) or `V4` (AVX-512), or what the
-/// library calls those of other processors. Another kind adds up in another order, and may round otherwise.
+/// Kind of the vectors that the inner loops run on, chosen as the program runs: `Scalar`, `V3` (AVX2) or `V4` (AVX-512), or the library's
+/// name for those of other processors. Another kind adds up in another order, and may round otherwise.
 pub fn vectors() -> String {
     // The name of the variant; what it holds is a proof that the processor has them.
     let kind = format!("{:?}", pulp::Arch::new());

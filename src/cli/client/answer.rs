@@ -1,4 +1,4 @@
-//! What a service answered: as far as it is used, and whole.
+//! Answers of a service: the part that is used, and all of it.
 
 use std::ops::Deref;
 
@@ -6,11 +6,11 @@ use serde::de::{DeserializeOwned, Error};
 use serde::{Deserialize, Deserializer};
 use serde_json::Value;
 
-/// What is used of an answer, beside all of it.
+/// Answer of a service: the part that is used, and all of it.
 #[derive(Debug, Clone)]
 pub(in crate::cli) struct Answer<T> {
     used: T,
-    /// All of it, for scripts.
+    /// Whole answer, for scripts.
     pub(in crate::cli) body: Value,
 }
 

@@ -16,12 +16,12 @@ use crate::cli::terminal::Bar;
 /// Media types that may be shown on a terminal, beside those of text.
 const SHOWN: [&str; 2] = ["application/json", "image/svg+xml"];
 
-/// Where a download goes.
+/// Target of a download.
 #[derive(Debug, Clone)]
 pub(in crate::cli) enum Target {
-    /// The output stream.
+    /// Standard output.
     Stdout,
-    /// A file, which is there when it is whole and not before.
+    /// File, which is there when it is whole and not before.
     File(PathBuf),
 }
 
@@ -29,7 +29,7 @@ impl Client {
     /// Downloads a result to a file, byte by byte as the service gave it, and reads it.
     ///
     /// # Errors
-    /// As [`Client::save`], or what is not what was expected.
+    /// As [`Client::save`], or a result that does not read as expected.
     pub(in crate::cli) async fn download<T: DeserializeOwned>(
         &self,
         path: &str,
@@ -49,10 +49,10 @@ impl Client {
         self.patiently(|| async { self.write(self.send(request()).await?, file, None).await.map(drop) }).await
     }
 
-    /// Downloads what `path` with `query` has; returns how many bytes it is.
+    /// Downloads the resource at `path` with `query`; returns its number of bytes.
     ///
     /// # Errors
-    /// As [`Client::save`]; or bytes that are none for a terminal.
+    /// As [`Client::save`]; or binary data that no terminal shows.
     pub(in crate::cli) async fn get_to(
         &self,
         path: &str,
@@ -88,11 +88,11 @@ impl Client {
             Err(_) => (false, true),
         };
         if !is_file {
-            // A pipe or a device: nothing that could take the place of it.
+            // A pipe or a device is written in place: no file could take its place.
             let out = std::fs::OpenOptions::new().write(true).open(file).with_context(failed)?;
             return self.copy(response, out, refused, bar).await;
         }
-        // Of a link what it leads to.
+        // A link stays, and the file to which it leads is replaced.
         let place = if exists { file.canonicalize().with_context(failed)? } else { file.to_owned() };
         let folder = place.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let part = new_file(folder).with_context(failed)?;
@@ -101,7 +101,7 @@ impl Client {
         Ok(bytes)
     }
 
-    /// Copies a body; returns how many bytes it is.
+    /// Copies a body; returns its number of bytes.
     async fn copy(
         &self,
         mut response: Response,
@@ -125,7 +125,7 @@ impl Client {
     }
 }
 
-/// A file of its own, readable as files are that are made here.
+/// Makes a temporary file, readable as other files that are made in the folder.
 fn new_file(folder: &Path) -> std::io::Result<NamedTempFile> {
     use std::os::unix::fs::PermissionsExt;
     let mut builder = tempfile::Builder::new();

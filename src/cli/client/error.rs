@@ -1,4 +1,4 @@
-//! Why a service did not do what it was asked.
+//! Reasons why a service did not do what it was asked.
 
 use std::error::Error;
 use std::time::Duration;
@@ -11,46 +11,46 @@ use super::problem::Problem;
 /// Kind of problem of a path that the service does not have.
 const NO_ROUTE: &str = "urn:rubmap:problem:not-found";
 
-/// Why a service did not do what it was asked.
+/// Reason why a service did not do what it was asked.
 #[derive(Debug, thiserror::Error)]
 pub(in crate::cli) enum ClientError {
-    /// There was no connection, or it broke.
+    /// No connection, or one that broke.
     #[error("{server} does not answer: {cause}")]
     Unreachable {
-        /// Its address.
+        /// Address of the service.
         server: String,
-        /// In the words of the system.
+        /// Cause in the words of the system.
         cause: String,
     },
-    /// The service answered with a problem.
+    /// Answer of the service with a problem.
     #[error("{path}: {status}: {problem}")]
     Refused {
         /// Path of the request.
         path: String,
         /// Status of the answer.
         status: StatusCode,
-        /// The problem, as far as it is shown.
+        /// Problem, as far as it is shown.
         problem: Box<Problem>,
-        /// All of it.
+        /// Body of the answer, the whole problem.
         body: Value,
     },
-    /// The answer is none of a rubmap service.
+    /// Answer that does not come from a rubmap service.
     #[error("{url} does not answer as a rubmap service does ({status})\n  {cause}")]
     Strange {
-        /// Where it came from.
+        /// URL of the answer.
         url: String,
-        /// Its status.
+        /// Status of the answer.
         status: StatusCode,
-        /// What is strange about it.
+        /// Description of what is strange about the answer.
         cause: String,
     },
-    /// What was named is not there, is several things, or is not as it would have to be.
+    /// Named model, job or result that is not there, is ambiguous, or does not fit the command.
     #[error("{0}")]
     Unfit(String),
 }
 
 impl ClientError {
-    /// No answer from a server.
+    /// Error of a server that gives no answer.
     pub(super) fn unreachable(server: &str, error: &reqwest::Error) -> Self {
         Self::Unreachable { server: server.to_owned(), cause: innermost(error) }
     }
@@ -70,7 +70,7 @@ impl ClientError {
         }
     }
 
-    /// How long the service wants it left alone.
+    /// Time for which the service asks to be left alone.
     pub(super) fn retry_after(&self) -> Option<Duration> {
         match self {
             Self::Refused { problem, .. } => {
@@ -97,7 +97,7 @@ impl ClientError {
     }
 }
 
-/// The words of the cause that has no other, which says most.
+/// Words of the innermost cause, which say most.
 fn innermost(error: &reqwest::Error) -> String {
     let mut cause: &dyn Error = error;
     while let Some(next) = cause.source() {

@@ -16,12 +16,12 @@ use super::job::Job;
 /// Time between two looks at a job, and before events that broke off are asked for again.
 const INTERVAL: Duration = Duration::from_millis(200);
 
-/// A connection without an event for so long is made anew, as nothing tells whether it is still there. Keep-alive comments are no
-/// events; a job that computes changes more often, and one that waits is told again at once.
+/// Silence after which a connection without an event is made anew, as nothing tells whether it is still there. Keep-alive
+/// comments are no events; a job that computes changes more often, and one that waits is reported again at once.
 const SILENCE: Duration = Duration::from_secs(60);
 
 impl Client {
-    /// Follows a job to its end, however that is; `seen` gets it at once and whenever it has changed.
+    /// Follows a job to its end, whatever that is; `seen` gets the job at once and whenever it has changed.
     ///
     /// # Errors
     /// [`ClientError`].
@@ -49,7 +49,7 @@ impl Client {
         }
     }
 
-    /// `GET /v1/jobs/{id}/events`, if the service has it: the job at once and after every change.
+    /// Events of a job, from `GET /v1/jobs/{id}/events`, if the service has it: the job at once and after every change.
     async fn events(&self, id: &str) -> anyhow::Result<Option<impl Stream<Item = Answer<Job>> + Unpin>> {
         let path = format!("/v1/jobs/{id}/events");
         let request = || self.request(Method::GET, &path).header("accept", "text/event-stream");
@@ -58,19 +58,19 @@ impl Client {
             response => response?,
         };
         let events = SseByteStream::new(response.bytes_stream());
-        // What breaks off is asked for again.
+        // Events that break off are asked for again.
         let events = events.take_while(|event| ready(event.is_ok()));
         Ok(Some(events.filter_map(|event| ready(event.ok().as_ref().and_then(job)))))
     }
 }
 
-/// The job of an event.
+/// Job that an event carries.
 fn job(event: &Sse) -> Option<Answer<Job>> {
     let data = event.data.as_ref().filter(|_| event.event.as_deref() == Some("job"))?;
     serde_json::from_str(data).ok()
 }
 
-/// The job when it has ended; none if the events end before, or fall silent.
+/// Job of the last event, when it has ended; `None` if the events end before, or fall silent.
 async fn last(
     mut events: impl Stream<Item = Answer<Job>> + Unpin,
     seen: &mut impl FnMut(&Job),

@@ -1,4 +1,4 @@
-//! Requests and answers.
+//! Client of a service: requests and answers.
 
 use std::time::{Duration, Instant};
 
@@ -15,19 +15,19 @@ use super::job::Job;
 use crate::cli::terminal::Terminal;
 use crate::store::status::JobStatus;
 
-/// A server that takes no connection for so long is not there.
+/// Time for a connection to be made, after which a server is taken to be away.
 const CONNECT: Duration = Duration::from_secs(10);
 
-/// Wait before a request is sent again: at first, and at most.
+/// Shortest and longest wait before a request is sent again.
 const WAIT: [Duration; 2] = [Duration::from_millis(200), Duration::from_secs(3)];
 
-/// Most characters of an answer that nobody understands.
+/// Characters shown at most of an answer that is not understood.
 const EXCERPT: usize = 200;
 
-/// Most entries of a page of a list.
+/// Entries asked for at most in one page of a list.
 const PAGE: usize = 500;
 
-/// A page of a list.
+/// Page of a list.
 #[derive(Deserialize)]
 struct Page<T> {
     #[serde(alias = "jobs", alias = "models")]
@@ -35,21 +35,21 @@ struct Page<T> {
     next: Option<String>,
 }
 
-/// A client of one service.
+/// Client of one service.
 #[derive(Debug)]
 pub(in crate::cli) struct Client {
     /// Address of the service, without a slash at its end.
     pub(in crate::cli) server: String,
     http: reqwest::Client,
     token: Option<String>,
-    /// How long a service that cannot be reached, or asks for patience, is asked again.
+    /// Time for which a service that cannot be reached, or asks for patience, is asked again.
     patience: Duration,
-    /// Where it is told what goes on.
+    /// Terminal on which progress is reported.
     pub(in crate::cli) terminal: Terminal,
 }
 
 impl Client {
-    /// Of the service at an address, without a slash at its end, with a bearer token if there is one.
+    /// Makes a client of the service at an address, without a slash at its end, with a bearer token if there is one.
     ///
     /// # Errors
     /// Settings of the environment (a proxy) that cannot be used.
@@ -62,7 +62,7 @@ impl Client {
         Ok(Self { server, http, token, patience, terminal: Terminal::default() })
     }
 
-    /// Of a service in this process, which is asked once and by no proxy.
+    /// Makes a client of a service in this process, which is asked once and by no proxy.
     ///
     /// # Errors
     /// As [`Client::new`].
@@ -71,12 +71,12 @@ impl Client {
         Ok(Self { server, http, token: None, patience: Duration::ZERO, terminal: Terminal::default() })
     }
 
-    /// The answer to a GET.
+    /// Sends GET and reads the answer.
     pub(in crate::cli) async fn get<T: DeserializeOwned>(&self, path: &str) -> anyhow::Result<T> {
         Ok(self.patiently(|| async { self.read(self.request(Method::GET, path)).await }).await?.1)
     }
 
-    /// The answer to a POST that does the same however often it is sent: the service repeats its answer to the same key.
+    /// Sends POST and reads the answer. Sent again, the request does the same: the service repeats its answer to the same key.
     pub(in crate::cli) async fn post<T: DeserializeOwned>(
         &self,
         path: &str,
@@ -92,12 +92,12 @@ impl Client {
         self.post(path, body).await
     }
 
-    /// `GET /v1/jobs/{id}`.
+    /// Reads a job: `GET /v1/jobs/{id}`.
     pub(in crate::cli) async fn job(&self, id: &str) -> anyhow::Result<Answer<Job>> {
         self.get(&format!("/v1/jobs/{id}")).await
     }
 
-    /// Cancels a job that has not ended; returns it as it is then.
+    /// Cancels a job that has not ended; returns the job as it is then.
     ///
     /// # Errors
     /// [`ClientError`].
@@ -106,7 +106,7 @@ impl Client {
         self.patiently(|| async { Ok(self.read(self.request(Method::DELETE, &path)).await?.1) }).await
     }
 
-    /// Sets a job aside, or lets it go on; returns it as it is then.
+    /// Pauses a job, or lets it go on; returns the job as it is then.
     ///
     /// # Errors
     /// [`ClientError`].
@@ -120,8 +120,8 @@ impl Client {
         self.patiently(|| async { self.send(self.request(Method::DELETE, path)).await.map(drop) }).await
     }
 
-    /// The first entries, `most` at most, of a list that comes in pages, and whether there are more. `query` ends with & if it is not
-    /// empty.
+    /// Lists the first entries, `most` at most, of a list that comes in pages, and tells whether there are more. `query` ends with &
+    /// if it is not empty.
     pub(in crate::cli) async fn list<T: DeserializeOwned>(
         &self,
         what: &str,
@@ -155,7 +155,7 @@ impl Client {
         Ok(())
     }
 
-    /// A request, with the token.
+    /// Begins a request, with the token.
     pub(super) fn request(&self, method: Method, path: &str) -> RequestBuilder {
         let request = self.http.request(method, format!("{}{path}", self.server));
         match &self.token {
@@ -164,7 +164,7 @@ impl Client {
         }
     }
 
-    /// Does something again while the service cannot be reached or asks for patience, and says so once.
+    /// Repeats `attempt` while the service cannot be reached or asks for patience, and says so once.
     pub(super) async fn patiently<T, F: Future<Output = anyhow::Result<T>>>(
         &self,
         attempt: impl FnMut() -> F,
@@ -188,7 +188,7 @@ impl Client {
             .await
     }
 
-    /// The answer with its status.
+    /// Sends a request; returns its status and its answer.
     pub(super) async fn read<T: DeserializeOwned>(
         &self,
         request: RequestBuilder,
@@ -202,14 +202,14 @@ impl Client {
         }
     }
 
-    /// The response to a request, once.
+    /// Sends a request once; returns its response.
     ///
     /// # Errors
     /// [`ClientError`]: no response, or one that reports a problem.
     pub(super) async fn send(&self, request: RequestBuilder) -> anyhow::Result<Response> {
         let response = match request.send().await {
             Ok(response) => response,
-            // What cannot be a request: an address or a token with characters that none has.
+            // The request cannot be one: its address or token has characters that none may have.
             Err(error) if error.is_builder() => return Err(error.into()),
             Err(error) => return Err(ClientError::unreachable(&self.server, &error).into()),
         };

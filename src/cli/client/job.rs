@@ -6,7 +6,7 @@ use serde::Deserialize;
 use super::problem::Problem;
 use crate::store::status::JobStatus;
 
-/// A model.
+/// Model, as far as it is used.
 #[derive(Debug, Clone, Deserialize)]
 pub(in crate::cli) struct Model {
     pub(in crate::cli) id: String,
@@ -19,7 +19,7 @@ pub(in crate::cli) struct Model {
     pub(in crate::cli) created_at: String,
 }
 
-/// A job.
+/// Job, as far as it is used.
 #[derive(Debug, Clone, Deserialize)]
 pub(in crate::cli) struct Job {
     pub(in crate::cli) id: String,
@@ -39,7 +39,7 @@ pub(in crate::cli) struct Job {
     links: Vec<Link>,
 }
 
-/// Speeds of a job.
+/// Numbers of speeds of a job.
 #[derive(Debug, Clone, Default, Deserialize)]
 pub(in crate::cli) struct SpeedCounts {
     pub(in crate::cli) total: u32,
@@ -52,18 +52,18 @@ struct Link {
     href: String,
 }
 
-/// A job that did not end well.
+/// Error of a job that was not successful.
 #[derive(Debug, thiserror::Error)]
 pub(in crate::cli) enum JobError {
-    /// It could not be computed.
+    /// Job that could not be computed.
     #[error("job {id} failed: {why}")]
     Failed {
-        /// Of the job.
+        /// Id of the job.
         id: String,
-        /// The problem in words.
+        /// Problem in words.
         why: String,
     },
-    /// Somebody cancelled it.
+    /// Job that somebody cancelled, by its id.
     #[error("job {0} was cancelled")]
     Cancelled(String),
 }
@@ -75,16 +75,16 @@ impl Job {
         link.map(|link| link.href.as_str()).with_context(|| format!("job {} links to no {rel}", self.id))
     }
 
-    /// Paths of its results below its own.
+    /// Paths of the results of the job, below its own path.
     pub(in crate::cli) fn results(&self) -> Vec<&str> {
         let own = format!("/v1/jobs/{}/", self.id);
         self.links.iter().filter_map(|link| link.href.strip_prefix(&own)).collect()
     }
 
-    /// Nothing, if it ended well.
+    /// Succeeds if the job was successful.
     ///
     /// # Errors
-    /// That it did not.
+    /// [`JobError`], if the job failed, was cancelled or has not ended.
     pub(in crate::cli) fn check(&self) -> Result<(), JobError> {
         let id = self.id.clone();
         match (self.status, &self.error) {

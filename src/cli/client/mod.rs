@@ -1,4 +1,4 @@
-//! The user's side of the HTTP contract: nothing that curl could not do. All commands that speak to a service do it by this.
+//! Client of the HTTP contract, from the user's side: nothing that curl could not do. All commands that speak to a service do it by this.
 
 mod answer;
 mod download;

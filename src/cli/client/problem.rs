@@ -1,13 +1,13 @@
-//! What went wrong, as a service says it (RFC 9457).
+//! Problems that a service reports (RFC 9457).
 
 use std::fmt::{self, Display, Formatter};
 
 use serde::Deserialize;
 
-/// A problem, as far as it is shown.
+/// Problem, as far as it is shown.
 #[derive(Debug, Clone, Deserialize)]
 pub(in crate::cli) struct Problem {
-    /// Its kind, a URI.
+    /// Kind of the problem, a URI.
     #[serde(default)]
     pub(super) r#type: String,
     title: String,
@@ -28,14 +28,14 @@ struct ProblemItem {
 }
 
 impl Display for Problem {
-    /// In one text: what it is about, and all its items as a list; where it has none, its detail.
+    /// Writes the problem as one text: what it is about, and all its items as a list; where it has none, its detail.
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         if self.errors.is_empty() {
             return f.write_str(if self.detail.is_empty() { &self.title } else { &self.detail });
         }
         f.write_str(&self.title)?;
         for item in &self.errors {
-            // What is said of a file begins with its place.
+            // The detail of an item about a file begins with its place.
             let place = item.pointer.as_deref().or(item.parameter.as_deref());
             match place.filter(|place| item.file.is_none() && !place.is_empty()) {
                 Some(place) => write!(f, "\n  {place}: {}", item.detail)?,

@@ -1,4 +1,4 @@
-//! Which service, as arguments.
+//! Arguments that name a service.
 
 use std::path::PathBuf;
 use std::time::Duration;
@@ -8,7 +8,7 @@ use clap::Args;
 
 use super::http::Client;
 
-/// Which service, and how to come in.
+/// Address of a service, and the token for it.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Service")]
 pub(in crate::cli) struct ServerArgs {
@@ -21,13 +21,13 @@ pub(in crate::cli) struct ServerArgs {
     /// File with the token; goes before the environment
     #[arg(long, env = "RUBMAP_TOKEN_FILE", value_name = "FILE")]
     token_file: Option<PathBuf>,
-    /// How many seconds a service that does not answer, or asks for patience, is asked again
+    /// Seconds for which a service that does not answer, or asks for patience, is asked again
     #[arg(long, default_value_t = 20, value_name = "SECONDS", value_parser = clap::value_parser!(u64).range(..=86_400))]
     patience: u64,
 }
 
 impl ServerArgs {
-    /// A client of the service.
+    /// Makes a client of the service.
     ///
     /// # Errors
     /// A file of a token that cannot be read.
@@ -47,7 +47,7 @@ impl ServerArgs {
     }
 }
 
-/// An address, with its scheme and without a slash at its end.
+/// Reads an address, with its scheme and without a slash at its end.
 fn server(text: &str) -> Result<String, String> {
     let address = if text.contains("://") { text.to_owned() } else { format!("http://{text}") };
     let url: reqwest::Url = address.parse().map_err(|error| format!("it is no address ({error})"))?;

@@ -1,4 +1,4 @@
-//! Uploading a package, however large.
+//! Uploads of packages, however large.
 
 use std::path::Path;
 use std::sync::{Arc, Mutex};
@@ -17,7 +17,7 @@ use super::job::Model;
 /// Bytes that are read at once.
 const PIECE: usize = 1 << 18;
 
-/// What a model is to be called.
+/// Name, tags and notes for a model.
 #[derive(Debug, Default, Args)]
 pub(in crate::cli) struct UploadLabels {
     /// Name of the model [default: that of the package]
@@ -40,7 +40,7 @@ impl UploadLabels {
 }
 
 impl Client {
-    /// `POST /v1/models`: piece by piece, so that it takes no memory. Returns the model, and whether it is new to the service.
+    /// Uploads a package by `POST /v1/models`, piece by piece, so that it takes no memory. Returns the model, and whether it is new to the service.
     ///
     /// # Errors
     /// A file that cannot be read, or a [`ClientError`](super::ClientError).

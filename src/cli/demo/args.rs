@@ -1,4 +1,4 @@
-//! What the demo may be told.
+//! Arguments of the demo.
 
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
@@ -7,10 +7,10 @@ use clap::Args;
 
 use crate::analysis::request::AutoOr;
 
-/// Fewest and most revolutions: two of the fewest make the spectra.
+/// Fewest and most revolutions of a run: two of the fewest make the spectra.
 const REVOLUTIONS: RangeInclusive<u32> = 5..=10_000;
 
-/// What the demo computes and where it leaves its results.
+/// Input of the demo, and where it leaves its results.
 #[derive(Debug, Args)]
 pub(in crate::cli) struct DemoArgs {
     /// Folder for package, results and drawings; made if missing. A second run writes its results over the first's
@@ -20,8 +20,8 @@ pub(in crate::cli) struct DemoArgs {
     /// Threads that compute [default: one per core]
     #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(super) workers: Option<u16>,
-    /// Model package of your own in place of the generated impeller: the same for it, over speeds and in a casing that are chosen
-    /// from the package, said, and left in the folder as sweep-request.json
+    /// Model package of your own in place of the generated impeller: speeds and a casing are chosen from the package, printed,
+    /// and left in the folder as sweep-request.json
     #[arg(long)]
     pub(super) package: Option<PathBuf>,
     /// JSON file with the body of POST /v1/sweeps for the package, whose `model` may be left out, such as an edited sweep-request.json
@@ -39,10 +39,10 @@ pub(in crate::cli) struct DemoArgs {
     pub(super) full: bool,
 }
 
-/// Revolutions of a run, or that it ends by itself.
+/// Reads the revolutions of a run, or "auto": that it ends by itself.
 ///
 /// # Errors
-/// What is neither, in words.
+/// A message for a text that is neither.
 fn revolutions(text: &str) -> Result<AutoOr, String> {
     match text.parse() {
         _ if text == "auto" => Ok(AutoOr::Auto),

@@ -30,7 +30,7 @@ pub(super) fn run(args: &DemoArgs) -> anyhow::Result<ExitCode> {
     session.run(args.workers, async |client| play(args, client, &package).await)
 }
 
-/// What a user does: upload, post, wait, download, look.
+/// Plays the user: uploads, posts, waits, downloads, looks.
 async fn play(args: &DemoArgs, client: &Client, package: &Path) -> anyhow::Result<()> {
     let model = upload(client, package).await?;
     let modal_analysis = client.post_job("/v1/modal-analyses", &requests::modal_analysis(&model.id)).await?;

@@ -1,4 +1,4 @@
-//! The demo with a package of the user's own.
+//! Demo with a package of the user's own.
 
 use std::path::Path;
 use std::process::ExitCode;
@@ -16,13 +16,13 @@ use crate::cli::client::{Answer, Client, Job};
 use crate::cli::session::{Session, save, upload};
 use crate::cli::{progress, request};
 
-/// Where the request of the sweep is left.
+/// Name of the file in which the request of the sweep is left.
 const REQUEST: &str = "sweep-request.json";
 
-/// A Campbell diagram goes so much beyond the speeds of the sweep, where the stiffness is known so far.
+/// Highest speed of the Campbell diagram over that of the sweep, where the stiffness is known so far.
 const BEYOND: f64 = 1.05;
 
-/// Runs it; 130, as shells say it, if a signal stopped it.
+/// Runs the demo with the package; 130, as shells say it, if a signal stopped it.
 ///
 /// # Errors
 /// A file or folder that cannot be used, a package or request that the service refuses.
@@ -63,7 +63,7 @@ async fn play(args: &DemoArgs, client: &Client, package: &Path, given: Option<Va
         }
     };
     let sweep = of_model(body)?;
-    // Before anything is computed: what cannot be is said at once.
+    // The plan comes before anything is computed: an impossible request is refused at once.
     let plan: SweepPlan = client.post("/v1/sweeps/plan", &sweep).await?;
     let highest = highest_speed(plan)?;
     let known = facts.speeds_rad_s.last().copied().filter(|known| *known > 0.0).unwrap_or(f64::INFINITY);
@@ -89,7 +89,7 @@ async fn post(client: &Client, path: &str, body: &Value, name: &str) -> anyhow::
     progress::follow(client, &job, name).await
 }
 
-/// The lowest natural frequency of the wheel at rest, Hz.
+/// Lowest natural frequency of the wheel at rest, Hz.
 async fn lowest_frequency(client: &Client, model: &str) -> anyhow::Result<f64> {
     let body = serde_json::json!({"model": model, "families": 1, "speeds": {"values": [0], "unit": "rad_s"}});
     let job = post(client, "/v1/modal-analyses", &body, "at rest").await?;
@@ -99,14 +99,14 @@ async fn lowest_frequency(client: &Client, model: &str) -> anyhow::Result<f64> {
     lowest.context("the wheel has no natural frequency")
 }
 
-/// The highest speed of what is planned, rad/s.
+/// Highest speed of a planned sweep, rad/s.
 fn highest_speed(plan: SweepPlan) -> anyhow::Result<f64> {
     let refused = |_| anyhow!("the service did not understand its own plan");
     let sweep = ResolvedSweep::stored(plan.settings, 0).map_err(refused)?;
     sweep.speeds().ascending().last().copied().context("the request has no speeds")
 }
 
-/// Says what the sweep will take, where that is known.
+/// Prints what the sweep will take, where that is known.
 fn tell_cost(plan: &SweepPlan) {
     for warning in &plan.warnings {
         println!("warning   {warning}");

@@ -1,4 +1,4 @@
-//! What the demo says about its results.
+//! Words of the demo about its results.
 
 use std::f64::consts::TAU;
 use std::fmt::Write;
@@ -21,7 +21,7 @@ fn verdict(verdict: Verdict) -> &'static str {
     }
 }
 
-/// How far the numbers can be trusted, in a few lines.
+/// Credentials of a map: how far its numbers can be trusted, in a few lines.
 pub(super) fn credentials(map: &InteractionMap) -> String {
     let completed = map.points.iter().filter(|point| point.status == PointStatus::Completed);
     let count = |wanted: Verdict| {
@@ -72,7 +72,7 @@ pub(super) fn credentials(map: &InteractionMap) -> String {
     out
 }
 
-/// How long the speeds were marched that were to end once they repeat; nothing where a number of revolutions was asked for.
+/// Lengths of the runs that were to end once they repeat; empty where a number of revolutions was asked for.
 fn marches(map: &InteractionMap) -> String {
     let marches = || map.points.iter().filter_map(|point| point.march.as_ref());
     let ended =
@@ -91,7 +91,7 @@ fn marches(map: &InteractionMap) -> String {
     if words.is_empty() { String::new() } else { format!("marches: {}\n", words.join("; ")) }
 }
 
-/// The table of critical speeds beside the linear prediction.
+/// Table of critical speeds beside the linear prediction.
 pub(super) fn critical_speeds(table: &CriticalSpeeds) -> String {
     let unit = table.sensor.unit(&table.units);
     let mut out = String::new();
@@ -161,7 +161,7 @@ fn nearest_linear(speed: &CriticalSpeed) -> String {
     )
 }
 
-/// The nearest of the driven crossings with the peak's own engine order.
+/// Nearest of the driven crossings with the peak's own engine order.
 fn nearest_driven(speed: &CriticalSpeed, driven: &[DrivenCrossing]) -> String {
     let same =
         driven.iter().filter(|crossing| speed.dominant_engine_order == Some(crossing.engine_order.into()));
@@ -176,7 +176,7 @@ fn nearest_driven(speed: &CriticalSpeed, driven: &[DrivenCrossing]) -> String {
     }
 }
 
-/// Where everything of a user's own package is.
+/// List of the files that the demo left for a user's own package.
 pub(super) fn own_places(out: &Path, request: &Path, package: &Path) -> String {
     let folder = out.display();
     format!(
@@ -191,7 +191,7 @@ Ask       rubmap serve --data {folder}/data
     )
 }
 
-/// Where everything is; with `study`, what a study adds.
+/// List of the files that the demo left; with `study`, those that a study adds.
 pub(super) fn places(out: &Path, map: &str, study: bool) -> String {
     let folder = out.display();
     let (look, next) = if study {

@@ -1,4 +1,4 @@
-//! What the demo asks for, as a user would write it.
+//! Requests of the demo, as a user would write them.
 
 use serde_json::{Value, json};
 
@@ -8,7 +8,7 @@ use crate::cli::session::impeller::scene;
 /// Revolutions of the window where a run ends by itself.
 const WINDOW: u32 = 20;
 
-/// Natural frequencies from standstill to beyond the sweep.
+/// Request for natural frequencies from standstill to beyond the sweep.
 pub(super) fn modal_analysis(model: &str) -> Value {
     json!({
         "model": model,
@@ -20,7 +20,7 @@ pub(super) fn modal_analysis(model: &str) -> Value {
     })
 }
 
-/// The scene over the whole range of speeds.
+/// Request for a sweep of the scene over the whole range of speeds.
 pub(super) fn sweep(model: &str, speeds: u32, revolutions: AutoOr) -> Value {
     json!({
         "model": model,
@@ -36,7 +36,7 @@ pub(super) fn sweep(model: &str, speeds: u32, revolutions: AutoOr) -> Value {
     })
 }
 
-/// How every speed is integrated.
+/// Settings by which every speed is integrated.
 pub(super) fn integration(revolutions: AutoOr) -> Value {
     let window = match revolutions {
         AutoOr::Fixed(revolutions) => (2 * revolutions / 5).max(1),

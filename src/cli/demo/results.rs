@@ -7,13 +7,13 @@ use crate::cli::client::{Client, Job};
 use crate::cli::session::save;
 use crate::plot::{self, LevelColour, VerticalAxis, Window};
 
-/// What a modal analysis and a sweep found.
+/// Results of a modal analysis and a sweep.
 pub(super) struct Results {
     pub(super) map: InteractionMap,
     pub(super) critical: CriticalSpeeds,
 }
 
-/// Leaves results and drawings in the folder.
+/// Downloads results and drawings into the folder.
 pub(super) async fn download(
     client: &Client,
     modal_analysis: &Job,

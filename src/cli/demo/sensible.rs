@@ -1,4 +1,4 @@
-//! What is asked of a package that nobody has said anything about: speeds and a casing in proportion to the wheel.
+//! Requests for a package about which the user has said nothing: speeds and a casing in proportion to the wheel.
 
 use std::f64::consts::TAU;
 use std::fmt::Write;
@@ -17,7 +17,7 @@ const CLEARANCE: f64 = 0.002;
 /// Height of a lobe over the clearance: half of it stands inside the tips at rest, so that they touch twice a revolution.
 const LOBE: f64 = 1.5;
 
-/// Lobes of an ovalised casing.
+/// Number of lobes of an ovalised casing.
 const LOBES: u32 = 2;
 
 /// Half-width of a lobe, rad.
@@ -26,13 +26,13 @@ const WIDTH_RAD: f64 = 0.35;
 /// Modal damping ratio of a wheel of one piece in a gas.
 const DAMPING: f64 = 0.005;
 
-/// Where the sweep begins, over where it ends.
+/// Lowest speed of the sweep over its highest.
 const LOWEST: f64 = 1.0 / 3.0;
 
 /// Engine order that meets the lowest natural frequency at the highest speed, where the package names none.
 const LOWEST_ORDER: f64 = 3.0;
 
-/// Significant digits of what is chosen: who edits it wants numbers that one can read.
+/// Significant digits of chosen numbers: whoever edits them wants numbers that one can read.
 const DIGITS: i32 = 2;
 
 /// Speeds of a sweep, and why these.
@@ -43,7 +43,7 @@ pub(super) struct Range {
 }
 
 impl Range {
-    /// Up to the highest speed at which the package has its stiffness; none if that is standstill.
+    /// Range up to the highest speed at which the package has its stiffness; `None` if that is standstill.
     pub(super) fn of_package(facts: &ModelFacts) -> Option<Self> {
         let to_rad_s = facts.speeds_rad_s.last().copied().filter(|highest| *highest > 0.0)?;
         let why =
@@ -51,7 +51,7 @@ impl Range {
         Some(Self { from_rad_s: LOWEST * to_rad_s, to_rad_s, why })
     }
 
-    /// Where engine orders from [`LOWEST_ORDER`] on meet the lowest natural frequency: of a package without stiffness at speed.
+    /// Range in which engine orders from [`LOWEST_ORDER`] on meet the lowest natural frequency, for a package without stiffness at speed.
     pub(super) fn of_frequency(lowest_hz: f64) -> Self {
         let to_rad_s = round(TAU * lowest_hz / LOWEST_ORDER);
         let why = format!(
@@ -63,7 +63,7 @@ impl Range {
     }
 }
 
-/// The body of POST /v1/sweeps without its model, and what it rests on, in words.
+/// Body of POST /v1/sweeps without its model, and the reasons for it in words.
 pub(super) fn sweep(
     facts: &ModelFacts,
     radius: f64,
@@ -114,7 +114,7 @@ pub(super) fn sweep(
     (request, words)
 }
 
-/// Natural frequencies from standstill to the `highest` speed, rad/s, for the body of POST /v1/modal-analyses.
+/// Body of POST /v1/modal-analyses for natural frequencies from standstill to the `highest` speed, rad/s.
 pub(super) fn modal_analysis(highest: f64, lobes: u32) -> Value {
     json!({
         "families": 2,
@@ -124,13 +124,13 @@ pub(super) fn modal_analysis(highest: f64, lobes: u32) -> Value {
     })
 }
 
-/// Lobes that a request for a sweep names.
+/// Number of lobes that a request for a sweep names.
 pub(super) fn lobes_of(request: &Value) -> u32 {
     let count = request.pointer("/scene/casing/lobes/count").and_then(Value::as_u64);
     count.and_then(|count| count.try_into().ok()).unwrap_or(LOBES)
 }
 
-/// Down, as nothing is known beyond the highest speed; of wheels that hardly turn as it is.
+/// Speed in rpm, rounded down to a whole number, as nothing is known beyond the highest speed; below 100 rpm as it is.
 fn whole_rpm(speed_rad_s: f64) -> f64 {
     let rpm = rpm(speed_rad_s);
     if rpm < 100.0 { rpm } else { rpm.floor() }
@@ -140,10 +140,10 @@ fn round(value: f64) -> f64 {
     round_to(DIGITS, value)
 }
 
-/// To so many significant digits, but no digit before the point is lost.
+/// Rounds to so many significant digits, but loses no digit before the point.
 fn round_to(digits: i32, value: f64) -> f64 {
     let decimals = digits - 1 - value.abs().log10().floor() as i32;
-    // Written and read, so that it is the number that is nearest to what one reads.
+    // The number is written and read, so that it is the nearest to what one reads.
     format!("{value:.*}", decimals.max(0) as usize).parse().unwrap_or(value)
 }
 

@@ -1,4 +1,4 @@
-//! An archive as it is read: nothing in it is believed before it was held against its manifest.
+//! Archive of a job as it is read: nothing in it is believed before it was checked against its manifest.
 
 use std::collections::BTreeSet;
 use std::fs::File;
@@ -15,13 +15,13 @@ use crate::http::archive::manifest::{Entry, FORMAT, MANIFEST, Manifest};
 /// Bytes that even a small archive may expand to.
 const ALWAYS_EXPANDED: u64 = 1 << 30;
 
-/// Bytes beyond these for each byte of the file; zeros deflate to a thousandth, spectra to a third.
+/// Further bytes, beyond [`ALWAYS_EXPANDED`], to which an archive may expand for each of its own; zeros deflate to a thousandth, spectra to a third.
 const EXPANSION: u64 = 200;
 
 /// Longest entry that is read as a whole.
 const LONGEST_JSON: u64 = 256 << 20;
 
-/// An archive with a manifest.
+/// Archive of a job with its manifest.
 pub(super) struct Archive {
     path: PathBuf,
     pub(super) manifest: Manifest,
@@ -31,7 +31,7 @@ impl Archive {
     /// Opens an archive and reads its manifest.
     ///
     /// # Errors
-    /// A file that is no archive of a job, or of a form that this program does not know.
+    /// A file that is no archive of a job, or has a format that this program does not know.
     pub(super) fn open(path: &Path) -> anyhow::Result<Self> {
         let here = path.display();
         let mut zip = directory(path)?;
@@ -39,12 +39,12 @@ impl Archive {
             bail!("{here} has two entries of one name: it is no archive of a job");
         }
         let Ok(entry) = zip.by_name(MANIFEST) else {
-            // One that is cut off may end with the package, which is a zip itself.
+            // An archive that is cut off may end with the package, which is a zip itself.
             bail!("{here} is no archive of a job, or is not whole: there is no {MANIFEST} in it");
         };
         let mut text = Vec::new();
         entry.take(LONGEST_JSON).read_to_end(&mut text).with_context(|| format!("{MANIFEST} of {here}"))?;
-        // Another form may have other fields.
+        // Another format may have other fields.
         #[derive(serde::Deserialize)]
         struct Form {
             format: u32,
@@ -65,7 +65,7 @@ impl Archive {
         Ok(Self { path: path.to_owned(), manifest })
     }
 
-    /// What is not as the manifest says, entry by entry; empty if all is well.
+    /// Entries that are not as the manifest says, in words; empty if all is well.
     pub(super) fn wrong(&self) -> anyhow::Result<Vec<String>> {
         let mut zip = directory(&self.path)?;
         let mut wrong = Vec::new();
@@ -85,7 +85,7 @@ impl Archive {
         Ok(wrong)
     }
 
-    /// The entry of this name, if there is one.
+    /// Entry of this name, if there is one.
     pub(super) fn entry(&self, name: &str) -> Option<&Entry> {
         self.manifest.entries.iter().find(|entry| entry.name == name)
     }
@@ -99,7 +99,7 @@ impl Archive {
         copied.with_context(|| format!("{name} of {}", self.path.display()))
     }
 
-    /// Reads an entry in JSON.
+    /// Reads a JSON entry.
     pub(super) fn json<T: DeserializeOwned>(&self, name: &str) -> anyhow::Result<T> {
         if self.entry(name).is_some_and(|entry| entry.bytes > LONGEST_JSON) {
             bail!("{name} is too long to be read");
@@ -116,7 +116,7 @@ fn directory(path: &Path) -> anyhow::Result<ZipArchive<BufReader<File>>> {
         .with_context(|| format!("{} is no zip archive, or not whole", path.display()))
 }
 
-/// Copies an entry as far as the manifest says that it goes.
+/// Copies an entry up to the size that the manifest states.
 fn copy(zip: &mut ZipArchive<BufReader<File>>, entry: &Entry, to: &mut impl Write) -> anyhow::Result<()> {
     let source = zip.by_name(&entry.name).context("cannot be read")?;
     let mut source = Hashing { source: source.take(entry.bytes.saturating_add(1)), sha256: Sha256::new() };

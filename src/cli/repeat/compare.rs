@@ -1,4 +1,4 @@
-//! Two archives of the same request, bit by bit, but for what is a matter of time.
+//! Comparison of two archives of the same request, bit by bit, except for what is a matter of time.
 
 use std::collections::BTreeSet;
 
@@ -7,7 +7,7 @@ use serde_json::Value;
 use super::archive::Archive;
 use crate::http::archive::manifest::{RESULTS, SETTINGS};
 
-/// Fields that are no result: times, what was made of them, and which program it was.
+/// Fields that are no results: times, what was made of them, and which program it was.
 const NO_RESULTS: [&str; 9] = [
     "wall_time_s",
     "computing_time_s",
@@ -20,15 +20,15 @@ const NO_RESULTS: [&str; 9] = [
     "version",
 ];
 
-/// Most differences that are shown of an entry.
+/// Differences that are shown at most of an entry.
 const SHOWN: usize = 3;
 
-/// What a comparison found.
+/// Outcome of a comparison.
 #[derive(Debug, Default)]
 pub(super) struct Comparison {
-    /// Results that are the same.
+    /// Number of results that are the same.
     pub(super) same: usize,
-    /// What differs, result by result.
+    /// Differences, result by result.
     pub(super) different: Vec<String>,
 }
 
@@ -53,7 +53,7 @@ pub(super) fn compare(archived: &Archive, repeated: &Archive) -> anyhow::Result<
     Ok(found)
 }
 
-/// Where two results differ, in words; `None` where they do not.
+/// Differences of two results, in words; `None` where there are none.
 fn differences(before: &Value, now: &Value) -> Option<String> {
     let mut found = Vec::new();
     walk(before, now, &mut String::new(), &mut found);
@@ -87,7 +87,7 @@ fn walk(before: &Value, now: &Value, pointer: &mut String, found: &mut Vec<Strin
                 within(&index.to_string(), before, now);
             }
         }
-        // As they are written: 0 and -0 are equal numbers, and other bits.
+        // Values are compared as they are written: 0 and -0 are equal numbers, but different bits.
         _ => {
             let (before, now) = (excerpt(before), excerpt(now));
             if before != now {
@@ -97,7 +97,7 @@ fn walk(before: &Value, now: &Value, pointer: &mut String, found: &mut Vec<Strin
     }
 }
 
-/// A value as it is shown: whole if it is a number.
+/// Text by which a value is shown: in full if it is a number.
 fn excerpt(value: &Value) -> String {
     match value {
         Value::Array(list) => format!("a list of {}", list.len()),

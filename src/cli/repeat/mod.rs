@@ -1,4 +1,4 @@
-//! `rubmap repeat`: whether a result can be had again.
+//! `rubmap repeat`: computes the job of an archive again and compares the results.
 
 mod archive;
 mod compare;
@@ -20,10 +20,10 @@ use crate::analysis::run::{REVISION, vectors};
 use crate::http::archive::manifest::{PACKAGE, REQUEST};
 use crate::store::jobs::JobKind;
 
-/// Most results whose differences are shown.
+/// Results at most whose differences are shown.
 const SHOWN: usize = 10;
 
-/// Which archive is repeated.
+/// Archive to repeat.
 #[derive(Debug, Args)]
 pub(super) struct RepeatArgs {
     /// Archive of a job: GET /v1/jobs/{id}/archive
@@ -65,7 +65,7 @@ pub(super) fn run(args: &RepeatArgs) -> anyhow::Result<ExitCode> {
     Ok(if found == Some(false) { ExitCode::FAILURE } else { code })
 }
 
-/// Asks a service for the same once more, and downloads what it found.
+/// Posts the archived request to a service once more, and downloads an archive of its results.
 async fn repeat(archived: &Archive, client: &Client, folder: &Path, to: &Path) -> anyhow::Result<()> {
     let package = folder.join(PACKAGE);
     let mut file = File::create(&package).with_context(|| format!("cannot write {}", package.display()))?;
@@ -92,7 +92,7 @@ async fn repeat(archived: &Archive, client: &Client, folder: &Path, to: &Path) -
     client.save(job.link("archive")?, to).await
 }
 
-/// Says what came of it, and what may be behind a difference.
+/// Prints the outcome of a comparison, and what may be behind a difference.
 fn tell(archived: &Archive, comparison: &Comparison) {
     let Comparison { same, different } = comparison;
     if different.is_empty() {

@@ -1,4 +1,4 @@
-//! What there is to show: a generated impeller in the casing that the paper would give it.
+//! Impeller and scene that the demo shows: a generated impeller in the casing that the paper would give it.
 
 use std::fs::File;
 use std::io::BufWriter;
@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 
 use crate::impeller::{ImpellerParameters, PaperCasing, generate};
 
-/// Makes the impeller and keeps its package in the out folder.
+/// Makes the impeller and leaves its package in the out folder.
 pub(in crate::cli) fn make_package(out: &Path) -> anyhow::Result<PathBuf> {
     let path = out.join("impeller.zip");
     let package = generate(&ImpellerParameters::default())?;
@@ -26,7 +26,7 @@ pub(in crate::cli) fn make_package(out: &Path) -> anyhow::Result<PathBuf> {
     Ok(path)
 }
 
-/// A casing ovalised by more than the clearance, so that two lobes push every tip twice a revolution.
+/// Scene with a casing ovalised by more than the clearance, so that two lobes push every tip twice a revolution.
 pub(in crate::cli) fn scene() -> Value {
     let casing = PaperCasing::of(&ImpellerParameters::default());
     json!({

@@ -1,4 +1,4 @@
-//! A service in this process, and a user who works with it over HTTP: what commands that show something have in common.
+//! Sessions of a service in this process and a user who works with it over HTTP, for the commands that show something.
 
 pub(super) mod impeller;
 
@@ -14,13 +14,13 @@ use super::signals::stop_signal;
 use crate::app::App;
 use crate::config::Config;
 
-/// A folder to work in and since when.
+/// Session: the folder to work in and its beginning.
 pub(super) struct Session {
     out: PathBuf,
     begin: Instant,
 }
 
-/// How a session without errors ends.
+/// End of a session without errors.
 enum Ending {
     /// Everything was shown.
     Played,
@@ -29,7 +29,7 @@ enum Ending {
 }
 
 impl Session {
-    /// In a folder, which is made if it is missing.
+    /// Begins a session in a folder, which is made if it is missing.
     ///
     /// # Errors
     /// A folder that cannot be made.
@@ -86,7 +86,7 @@ async fn with_service(
             bail!("the service ended before its user had everything");
         }
         () = stop_signal => {
-            // Otherwise the jobs would go on at the next start, which is right for a service and wrong here.
+            // Without this the jobs would go on at the next start, which is right for a service and wrong here.
             client.cancel_unfinished_jobs().await.map(|()| Ending::Stopped)
         }
     };
@@ -95,7 +95,7 @@ async fn with_service(
     outcome
 }
 
-/// Uploads a package and says so.
+/// Uploads a package and prints the model's id.
 pub(super) async fn upload(client: &Client, package: &Path) -> anyhow::Result<Answer<Model>> {
     let (model, new) = client.upload(package, &UploadLabels::default()).await?;
     println!("model     {}{}", model.id, if new { "" } else { " (known from an earlier run)" });

@@ -1,4 +1,4 @@
-//! `rubmap cancel`: jobs that shall not be computed to their ends.
+//! `rubmap cancel`: cancels jobs that shall not be computed to their ends.
 
 use clap::Args;
 use serde_json::json;
@@ -8,7 +8,7 @@ use crate::cli::client::{Client, ServerArgs};
 use crate::cli::stdout::print_json;
 use crate::cli::verb::Verb;
 
-/// Which jobs.
+/// Jobs to cancel.
 #[derive(Debug, Args)]
 pub(in crate::cli) struct CancelArgs {
     /// Jobs: ids, their beginnings, or names. Those that have ended stay as they are

@@ -1,17 +1,17 @@
-//! Models and jobs by what people call them.
+//! Finds models and jobs by what people call them.
 
 use serde::Deserialize;
 
 use crate::cli::client::{Client, ClientError};
 use crate::store::jobs::JobId;
 
-/// Digits of the id of a model.
+/// Number of digits of the id of a model.
 const MODEL_DIGITS: usize = 64;
 
-/// Most candidates that are shown.
+/// Candidates that are shown at most.
 const SHOWN: usize = 5;
 
-/// A model or a job in a list.
+/// Model or job in a list.
 #[derive(Debug, Deserialize)]
 struct Listed {
     id: String,
@@ -19,7 +19,7 @@ struct Listed {
     name: Option<String>,
 }
 
-/// The id of a job that is called by its id, the beginning of it, or its name.
+/// Finds the id of a job that is called by its id, the beginning of it, or its name.
 pub(super) async fn job(client: &Client, called: &str) -> anyhow::Result<String> {
     if JobId::parse(called).is_some() {
         return Ok(called.to_owned());
@@ -27,7 +27,7 @@ pub(super) async fn job(client: &Client, called: &str) -> anyhow::Result<String>
     find(client, "jobs", called).await
 }
 
-/// The ids of jobs.
+/// Finds the ids of jobs.
 pub(super) async fn jobs(client: &Client, called: &[String]) -> anyhow::Result<Vec<String>> {
     let mut ids = Vec::with_capacity(called.len());
     for called in called {
@@ -36,7 +36,7 @@ pub(super) async fn jobs(client: &Client, called: &[String]) -> anyhow::Result<V
     Ok(ids)
 }
 
-/// The id of a model that is called by its id, the beginning of it, or its name.
+/// Finds the id of a model that is called by its id, the beginning of it, or its name.
 pub(super) async fn model(client: &Client, called: &str) -> anyhow::Result<String> {
     if called.len() == MODEL_DIGITS && called.bytes().all(|byte| byte.is_ascii_hexdigit()) {
         return Ok(called.to_owned());

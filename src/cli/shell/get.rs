@@ -1,4 +1,4 @@
-//! `rubmap get`: results, in all their forms.
+//! `rubmap get`: downloads results, in all their forms.
 
 use std::path::{Path, PathBuf};
 
@@ -13,10 +13,10 @@ use crate::cli::verb::Verb;
 /// Results of models; all others are of jobs.
 const OF_MODELS: [&str; 3] = ["mesh", "modes", "section"];
 
-/// Forms whose files are called by them.
+/// Forms of files whose names end with them.
 const FORMS: [&str; 8] = ["json", "csv", "npz", "svg", "png", "vtu", "vtp", "pvd"];
 
-/// Which result, and where it goes.
+/// Result to download, and where it goes.
 #[derive(Debug, Args)]
 pub(in crate::cli) struct GetArgs {
     /// Job, or model for its mesh, modes and section: an id, the beginning of it, or a name
@@ -29,7 +29,7 @@ pub(in crate::cli) struct GetArgs {
     /// Parameters of the result, such as sensor=1 or units=rpm; all are in openapi.yaml
     #[arg(value_name = "NAME=VALUE", value_parser = parameter)]
     parameters: Vec<(String, String)>,
-    /// Form of the result: json, csv, npz, svg, png … [default: what the name of the file ends with, or else the first that it has]
+    /// Form of the result: json, csv, npz, svg, png … [default: the end of the file's name, or else the first form that the result has]
     #[arg(long, short)]
     format: Option<String>,
     /// File to write, which is there when it is whole and not before [default: the output]
@@ -72,7 +72,7 @@ impl Verb for GetArgs {
 }
 
 impl GetArgs {
-    /// The form that is asked for.
+    /// Form that is asked for.
     fn form(&self, target: &Target) -> Option<String> {
         let ending = match target {
             Target::File(file) => file.extension().and_then(|ending| ending.to_str()),
@@ -82,14 +82,14 @@ impl GetArgs {
         self.format.clone().or_else(named)
     }
 
-    /// What there is in place of a result that does not exist.
+    /// List of the results that a job or model has, for the message about one that does not exist.
     async fn known(&self, client: &Client, path: &str) -> anyhow::Result<String> {
         let job = client.job(path.trim_start_matches("/v1/jobs/")).await?;
         Ok(format!("there is no result {}; the job has {}", self.result, job.results().join(", ")))
     }
 }
 
-/// The path of a result: nothing that leads elsewhere.
+/// Reads the path of a result; refuses one that leads elsewhere.
 fn result(text: &str) -> Result<String, String> {
     let is_name = |part: &str| {
         !part.is_empty() && part.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'-')
@@ -101,7 +101,7 @@ fn result(text: &str) -> Result<String, String> {
     }
 }
 
-/// A parameter and its value.
+/// Reads a parameter and its value.
 fn parameter(text: &str) -> Result<(String, String), String> {
     let (name, value) = text.split_once('=').ok_or("a parameter is like sensor=1")?;
     Ok((name.to_owned(), value.to_owned()))

@@ -2,29 +2,29 @@
 
 use clap::ValueEnum;
 
-/// What is to be computed.
+/// Kind of a job.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(super) enum Kind {
     /// Contact over a range of speeds
     Sweep,
     /// Natural frequencies over speed, and the linear criterion
     ModalAnalysis,
-    /// What happens at one speed
+    /// Motion, forces and energy at one speed
     CaseStudy,
     /// Periodic responses over speed, clearance, lobes or damping
     Branches,
-    /// A wheel whose speed changes: run-ups and run-downs
+    /// Run-ups and run-downs: a wheel whose speed changes
     RunUp,
     /// Contact over a range of speeds, of many designs of a scene
     Campaign,
-    /// What accuracy costs in time
+    /// Convergence study: what accuracy costs in time
     Study,
     /// A model from the parameters of the generator
     ModelGeneration,
 }
 
 impl Kind {
-    /// Where a job of this kind is posted.
+    /// Path to which a job of this kind is posted.
     pub(super) fn route(self) -> &'static str {
         match self {
             Self::Sweep => "/v1/sweeps",
@@ -38,7 +38,7 @@ impl Kind {
         }
     }
 
-    /// What the service calls it.
+    /// Name of the kind, as the service has it.
     pub(super) fn word(self) -> &'static str {
         match self {
             Self::Sweep => "sweep",

@@ -1,4 +1,4 @@
-//! `rubmap ls`: what a service has.
+//! `rubmap ls`: lists the jobs or models of a service.
 
 use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
@@ -11,7 +11,7 @@ use crate::cli::stdout::{print, print_json};
 use crate::cli::verb::Verb;
 use crate::store::status::JobStatus;
 
-/// What to list.
+/// Jobs or models to list.
 #[derive(Debug, Args)]
 pub(in crate::cli) struct LsArgs {
     /// Models in place of jobs
@@ -26,30 +26,30 @@ pub(in crate::cli) struct LsArgs {
     /// Only jobs of this model: its id, the beginning of it, or its name
     #[arg(long)]
     model: Option<String>,
-    /// Only what has this in its name
+    /// Only entries with this in their name
     #[arg(long)]
     name: Option<String>,
-    /// Only what has this tag
+    /// Only entries with this tag
     #[arg(long)]
     tag: Option<String>,
-    /// How many at most, the newest first
+    /// Number of entries at most, the newest first
     #[arg(long, default_value_t = 50, value_parser = clap::value_parser!(u32).range(1..))]
     limit: u32,
-    /// Print all the service says of them as JSON, {"jobs": [...]} or {"models": [...]}
+    /// Print all that the service says of them as JSON, {"jobs": [...]} or {"models": [...]}
     #[arg(long)]
     json: bool,
     #[command(flatten)]
     server: ServerArgs,
 }
 
-/// How far a job is.
+/// Status of a job.
 #[derive(Debug, Clone, Copy, ValueEnum)]
 enum Status {
-    /// Waits for its turn
+    /// Waiting for its turn
     Accepted,
     /// Being computed
     Running,
-    /// Set aside
+    /// Paused until it is continued
     Paused,
     /// Finished
     Successful,
@@ -138,7 +138,7 @@ fn model_line(model: &Model) -> String {
     format!("{id}  {sectors:>3} sectors  {:>8}  {}  {name}", size(*size_bytes), minute(created_at))
 }
 
-/// A time to the minute.
+/// Time to the minute.
 fn minute(time: &str) -> String {
     time.get(..16).unwrap_or(time).replace('T', " ")
 }

@@ -1,4 +1,4 @@
-//! The program as a client of a service: a file per command.
+//! Commands by which the program is a client of a service: a file per command.
 
 mod cancel;
 mod find;

@@ -1,4 +1,4 @@
-//! `rubmap open`: the service's page in a browser.
+//! `rubmap open`: opens the service's page in a browser.
 
 use clap::Args;
 
@@ -7,13 +7,13 @@ use crate::cli::client::{Client, ServerArgs};
 use crate::cli::stdout::print;
 use crate::cli::verb::Verb;
 
-/// What the environment names where there is a display; on a Mac there always is one.
+/// Variables that the environment has where there is a display; on a Mac there always is one.
 const DISPLAYS: [&str; 2] = ["DISPLAY", "WAYLAND_DISPLAY"];
 
-/// What is opened.
+/// View to open.
 #[derive(Debug, Args)]
 pub(in crate::cli) struct OpenArgs {
-    /// Job: its id, the beginning of it, or its name [default: the page as it begins]
+    /// Job to open: its id, the beginning of it, or its name [default: the page as it begins]
     job: Option<String>,
     #[command(flatten)]
     server: ServerArgs,
@@ -27,7 +27,7 @@ impl Verb for OpenArgs {
     async fn play(&self, client: &Client) -> anyhow::Result<()> {
         let address = match &self.job {
             Some(called) => {
-                // That it is there is better known before a browser opens.
+                // Whether the job exists is better known before a browser opens.
                 let id = find::job(client, called).await?;
                 format!("{}/#/jobs/{}", client.server, client.job(&id).await?.id)
             }

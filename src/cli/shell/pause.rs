@@ -1,4 +1,4 @@
-//! `rubmap pause` and `rubmap continue`: jobs that are set aside, and go on where they were.
+//! `rubmap pause` and `rubmap continue`: pause jobs, and let them go on where they were.
 
 use clap::Args;
 use serde_json::json;
@@ -8,7 +8,7 @@ use crate::cli::client::{Client, ServerArgs};
 use crate::cli::stdout::print_json;
 use crate::cli::verb::Verb;
 
-/// Which jobs.
+/// Jobs to pause or continue.
 #[derive(Debug, Args)]
 pub(in crate::cli) struct PauseArgs {
     /// Jobs: ids, their beginnings, or names
@@ -21,7 +21,7 @@ pub(in crate::cli) struct PauseArgs {
     server: ServerArgs,
 }
 
-/// The same jobs, let go on.
+/// Jobs to continue.
 #[derive(Debug, Args)]
 pub(in crate::cli) struct ContinueArgs {
     #[command(flatten)]
@@ -29,7 +29,7 @@ pub(in crate::cli) struct ContinueArgs {
 }
 
 impl PauseArgs {
-    /// Sets the jobs aside, or lets them go on.
+    /// Pauses the jobs, or lets them go on.
     async fn set(&self, client: &Client, paused: bool) -> anyhow::Result<()> {
         let mut bodies = Vec::new();
         for id in find::jobs(client, &self.jobs).await? {

@@ -1,4 +1,4 @@
-//! `rubmap plan`: what a request would do and cost.
+//! `rubmap plan`: prints what a request would do and cost.
 
 use std::fmt::Write;
 
@@ -17,12 +17,12 @@ use crate::cli::stdout::{print, print_json};
 use crate::cli::verb::Verb;
 use crate::impeller::GenerationPlan;
 
-/// What is asked for.
+/// Request to plan.
 #[derive(Debug, Args)]
 pub(in crate::cli) struct PlanArgs {
     #[command(flatten)]
     request: RequestArgs,
-    /// What would be computed
+    /// Kind of the job that would be computed
     #[arg(long, default_value = "sweep", value_parser =
         PossibleValuesParser::new(["sweep", "modal-analysis", "branches", "run-up", "campaign", "model-generation"]).try_map(|kind| Kind::from_str(&kind, false)))]
     kind: Kind,
@@ -157,7 +157,7 @@ fn times_of(words: &mut String, machine: Option<&Machine>) {
     }
 }
 
-/// Time and memory; `[least, most]`: what else the bounds of the time are of.
+/// Adds time and memory to the plan; `[least, most]` say what else the bounds of the time belong to.
 fn cost(words: &mut String, estimate: &Estimate, [least, most]: [&str; 2]) {
     let (free, contact) = (time(estimate.wall_time_s.free), time(estimate.wall_time_s.contact));
     let _ = writeln!(
@@ -211,7 +211,7 @@ fn warnings(mut words: String, warnings: &[String]) -> String {
     words
 }
 
-/// A time in the unit that people would say it in.
+/// Time in the unit that people would use.
 fn time(seconds: f64) -> String {
     match seconds {
         seconds if seconds < 99.5 => format!("{seconds:.0} s"),

@@ -1,4 +1,4 @@
-//! `rubmap rm`: jobs or models that nobody needs any more.
+//! `rubmap rm`: deletes jobs or models that nobody needs any more.
 
 use clap::Args;
 use serde_json::json;
@@ -8,16 +8,16 @@ use crate::cli::client::{Client, ClientError, ServerArgs};
 use crate::cli::stdout::print_json;
 use crate::cli::verb::Verb;
 
-/// What goes.
+/// Jobs or models to delete.
 #[derive(Debug, Args)]
 pub(in crate::cli) struct RmArgs {
-    /// Jobs that have ended, which go with their results: ids, their beginnings, or names
+    /// Jobs that have ended, deleted with their results: ids, their beginnings, or names
     #[arg(required = true, value_name = "JOB")]
     called: Vec<String>,
-    /// They are models, which go with their packages and reductions
+    /// Delete models in place of jobs, with their packages and reductions
     #[arg(long)]
     models: bool,
-    /// Print the ids of what is gone as JSON, {"deleted": [...]}
+    /// Print the ids of the deleted jobs or models as JSON, {"deleted": [...]}
     #[arg(long)]
     json: bool,
     #[command(flatten)]

@@ -1,4 +1,4 @@
-//! `rubmap sweep` and `rubmap submit`: a request becomes a job.
+//! `rubmap sweep` and `rubmap submit`: post a request, which becomes a job.
 
 use std::path::{Path, PathBuf};
 
@@ -12,7 +12,7 @@ use crate::cli::request::{Setting, read};
 use crate::cli::stdout::{print, print_json};
 use crate::cli::verb::Verb;
 
-/// What is asked for.
+/// Request for a job, its model and its changes.
 #[derive(Debug, Args)]
 pub(super) struct RequestArgs {
     /// File with the request, in JSON or YAML; - is the input
@@ -26,7 +26,7 @@ pub(super) struct RequestArgs {
 }
 
 impl RequestArgs {
-    /// The body, with its model and as it was changed.
+    /// Body of the request, with its model and its changes.
     pub(super) async fn body(&self, client: &Client, kind: Kind) -> anyhow::Result<Value> {
         let mut body = read(&self.request, kind.route())?;
         for setting in &self.settings {
@@ -49,7 +49,7 @@ impl RequestArgs {
     }
 }
 
-/// A sweep, and what to do about it.
+/// Request for a sweep, and whether to wait for it.
 #[derive(Debug, Args)]
 pub(in crate::cli) struct SweepArgs {
     #[command(flatten)]
@@ -57,17 +57,17 @@ pub(in crate::cli) struct SweepArgs {
     /// Follow the job to its end
     #[arg(long)]
     wait: bool,
-    /// Print all the service says of the job, as JSON [default: its id]
+    /// Print all that the service says of the job, as JSON [default: its id]
     #[arg(long)]
     json: bool,
     #[command(flatten)]
     server: ServerArgs,
 }
 
-/// A job of any kind, and what to do about it.
+/// Request for a job of any kind, and whether to wait for it.
 #[derive(Debug, Args)]
 pub(in crate::cli) struct SubmitArgs {
-    /// What is to be computed
+    /// Kind of the job
     #[arg(long, value_enum)]
     kind: Kind,
     #[command(flatten)]

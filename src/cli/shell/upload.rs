@@ -1,4 +1,4 @@
-//! `rubmap upload`: a model package goes to a service.
+//! `rubmap upload`: sends a model package to a service.
 
 use std::path::PathBuf;
 
@@ -9,14 +9,14 @@ use crate::cli::client::{Client, ServerArgs, UploadLabels};
 use crate::cli::stdout::{print, print_json};
 use crate::cli::verb::Verb;
 
-/// Which package goes where.
+/// Package to upload, and its service.
 #[derive(Debug, Args)]
 pub(in crate::cli) struct UploadArgs {
     /// Model package, a zip file
     package: PathBuf,
     #[command(flatten)]
     labels: UploadLabels,
-    /// Print all the service says of the model, as JSON [default: its id]
+    /// Print all that the service says of the model, as JSON [default: its id]
     #[arg(long)]
     json: bool,
     #[command(flatten)]

@@ -1,4 +1,4 @@
-//! `rubmap watch`: jobs on their way.
+//! `rubmap watch`: follows jobs to their ends.
 
 use clap::Args;
 use futures::future::try_join_all;
@@ -12,7 +12,7 @@ use crate::cli::signals::stop_signal;
 use crate::cli::stdout::{print, print_json};
 use crate::cli::verb::Verb;
 
-/// Which jobs.
+/// Jobs to follow.
 #[derive(Debug, Args)]
 pub(in crate::cli) struct WatchArgs {
     /// Jobs: ids, their beginnings, or names
@@ -47,10 +47,10 @@ impl Verb for WatchArgs {
     }
 }
 
-/// Follows jobs to their ends, however those are. When a signal comes it says how to go on.
+/// Follows jobs to their ends, whatever those are. On a signal prints how to go on.
 ///
 /// # Errors
-/// [`Interrupted`], or what following them says.
+/// [`Interrupted`], or an error in following the jobs.
 pub(super) async fn to_the_end(client: &Client, ids: &[String]) -> anyhow::Result<Vec<Answer<Job>>> {
     let stop = stop_signal()?;
     let all = try_join_all(ids.iter().map(|id| follow_one(client, id)));
@@ -69,7 +69,7 @@ async fn follow_one(client: &Client, id: &str) -> anyhow::Result<Answer<Job>> {
     follow_any(client, id, &name).await
 }
 
-/// That a job has failed; that one was cancelled, if none has.
+/// Error if a job has failed; if none has, error if one was cancelled.
 fn worst(jobs: &[Answer<Job>]) -> anyhow::Result<()> {
     let wrong: Vec<_> = jobs.iter().filter_map(|job| job.check().err()).collect();
     let (failed, cancelled): (Vec<_>, Vec<_>) =

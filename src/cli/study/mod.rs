@@ -1,4 +1,4 @@
-//! `rubmap study`: what accuracy costs in time, over HTTP as any user would find out.
+//! `rubmap study`: shows what accuracy costs in time, over HTTP as any user would find out.
 
 mod report;
 pub(super) mod request;
@@ -16,7 +16,7 @@ use crate::analysis::result::Quantity;
 use crate::analysis::run::{Histories, WorkPrecision};
 use crate::{export, plot};
 
-/// What is studied and where the results are left.
+/// Model and request of a study, and where the results are left.
 #[derive(Debug, Args)]
 pub(crate) struct StudyArgs {
     /// Model package [default: the impeller of the demo]
@@ -55,7 +55,7 @@ pub(super) fn run(args: &StudyArgs) -> anyhow::Result<ExitCode> {
     })
 }
 
-/// Posts a study of an uploaded model, waits for it, draws it and tells what it says.
+/// Posts a study of an uploaded model, waits for it, draws it and prints its results.
 pub(super) async fn play(client: &Client, body: Value, model: &str, out: &Path) -> anyhow::Result<()> {
     let body = bodies::of_model(body, model)?;
     let job = client.post_job("/v1/studies", &body).await?;
@@ -86,7 +86,7 @@ pub(super) async fn play(client: &Client, body: Value, model: &str, out: &Path) 
     Ok(())
 }
 
-/// What the names of a speed's files say of it: its index, as the service counts, and rpm; nothing if it is the only one.
+/// Part of the names of a speed's files that tells the speed: its index, as the service counts, and rpm; empty if it is the only one.
 fn name(found: &WorkPrecision, index: usize) -> String {
     match found.speeds.len() {
         1 => String::new(),

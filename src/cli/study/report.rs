@@ -1,4 +1,4 @@
-//! What a study says, in the terminal.
+//! Words about a study in the terminal.
 
 use std::f64::consts::TAU;
 use std::fmt::Write;
@@ -13,7 +13,7 @@ pub(super) fn rpm(speed_rad_s: f64) -> f64 {
     speed_rad_s * 60.0 / TAU
 }
 
-/// Errors and times of the runs on the Pareto front of the amplitude, in ascending time, and of the reference.
+/// Table of the runs on the Pareto front of the amplitude, in ascending time, and of the reference, with errors and times.
 pub(super) fn front(speed: &SpeedStudy) -> String {
     let mut out = String::new();
     // Writing to a string cannot fail, here and below.
@@ -58,7 +58,7 @@ fn scheme(scheme: SchemeChoice, kept_modes: AutoOr) -> String {
     }
 }
 
-/// Four columns; the amplitude with its standard error where it has one.
+/// Four columns of a run's errors; the amplitude with its standard error where it has one.
 fn errors(run: &StudyRun) -> String {
     let Some(errors) = &run.errors else { return format!("{:<46}", "    -") };
     let percent = |quantity| errors.of(quantity).map_or_else(|| "-".to_owned(), percent);
@@ -72,7 +72,7 @@ fn errors(run: &StudyRun) -> String {
     )
 }
 
-/// A share in per cent.
+/// Share in per cent.
 fn percent(share: f64) -> String {
     match 100.0 * share {
         0.0 => "0".to_owned(),
@@ -81,7 +81,7 @@ fn percent(share: f64) -> String {
     }
 }
 
-/// Observed orders of every size and scheme.
+/// List of the observed orders of every size and scheme.
 pub(super) fn orders(speed: &SpeedStudy) -> String {
     let mut out = "Observed orders in the time step, from the first revolutions\n\n".to_owned();
     let observed: Vec<_> = speed.orders.iter().filter(|order| !order.orders.is_empty()).collect();
@@ -107,7 +107,7 @@ pub(super) fn orders(speed: &SpeedStudy) -> String {
     out
 }
 
-/// Where everything is.
+/// List of the files that a study left.
 pub(super) fn places(out: &Path, speed: &str) -> String {
     let folder = out.display();
     format!(

@@ -1,10 +1,10 @@
-//! What a study asks for.
+//! Request for a study.
 
 use serde_json::{Value, json};
 
 use crate::cli::session::impeller::scene;
 
-/// The demo's scene at one speed; the grid is the service's own.
+/// Study of the demo's scene at one speed; the grid is the service's own.
 pub(in crate::cli) fn default() -> Value {
     json!({
         "speeds": {"values": [24000], "unit": "rpm"},

@@ -1,20 +1,20 @@
-//! What is written.
+//! Field of the wheel to be written to a file.
 
 use crate::analysis::fields::{Field, FieldSector, Part};
 
-/// A field that is written.
+/// Field to be written.
 #[derive(Debug)]
 pub struct FieldFile {
-    /// Where.
+    /// Sector on which the field is: nodes, elements and places.
     pub sector: FieldSector,
-    /// What.
+    /// Values of the field.
     pub field: Field,
-    /// How much of it.
+    /// Part of the wheel that is written.
     pub part: Part,
 }
 
 impl FieldFile {
-    /// With words on where stress is claimed, in this unit of length.
+    /// Adds a note on where stress is claimed, in this unit of length.
     #[must_use]
     pub fn claiming(mut self, length: &str) -> Self {
         if let Some(excluded) = self.sector.excluded() {

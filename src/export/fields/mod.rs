@@ -16,34 +16,34 @@ use std::io::{self, Write};
 pub use file::FieldFile;
 
 impl FieldFile {
-    /// All elements, as VTK's UnstructuredGrid; single points where there is no mesh. The first frame.
+    /// Writes all elements as VTK's UnstructuredGrid; single points where there is no mesh. Only the first frame.
     ///
     /// # Errors
-    /// Those of writing, here and below.
+    /// Errors of writing.
     pub fn vtu(&self, out: &mut dyn Write) -> io::Result<()> {
         vtu::write(self, 0, out)
     }
 
-    /// The skin, as VTK's PolyData; single points where there is no mesh. The first frame.
+    /// Writes the skin as VTK's PolyData; single points where there is no mesh. Only the first frame.
     ///
     /// # Errors
-    /// Those of writing.
+    /// Errors of writing.
     pub fn vtp(&self, out: &mut dyn Write) -> io::Result<()> {
         vtp::write(self, 0, out)
     }
 
-    /// All frames, as arrays of numpy.
+    /// Writes all frames as arrays of numpy.
     ///
     /// # Errors
-    /// Those of writing.
+    /// Errors of writing.
     pub fn npz(&self, out: &mut dyn Write) -> io::Result<()> {
         npz::write(self, out)
     }
 
-    /// All frames, as a zip with ParaView's list of them, `series.pvd`, and a `.vtu` each.
+    /// Writes all frames as a zip with ParaView's list of them, `series.pvd`, and a `.vtu` each.
     ///
     /// # Errors
-    /// Those of writing.
+    /// Errors of writing.
     pub fn pvd(&self, out: &mut dyn Write) -> io::Result<()> {
         series::write(self, out)
     }

@@ -1,4 +1,4 @@
-//! Arrays of numpy.
+//! Fields as arrays of numpy.
 
 use std::io::{self, Write};
 
@@ -24,7 +24,7 @@ pub(super) fn write(file: &FieldFile, out: &mut dyn Write) -> io::Result<()> {
     npz.integers("sector", &[count], of_nodes().map(|(sector, _)| sector as i64))?;
     npz.integers("contact", &[count], of_nodes().map(|(_, place)| i64::from(of.contact(place))))?;
     npz.reals("position", &[count, 3], of_nodes().flat_map(|(sector, place)| of.position(sector, place)))?;
-    // Every frame of every sector.
+    // Calls `take` with every frame of every sector.
     let each = |take: &mut dyn FnMut(&Frame, usize) -> io::Result<()>| {
         field.frames.iter().try_for_each(|frame| sectors().try_for_each(|sector| take(frame, sector)))
     };

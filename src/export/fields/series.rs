@@ -1,4 +1,4 @@
-//! ParaView's time series: a list of files, and the files.
+//! Fields as ParaView's time series: a list of files, and the files.
 
 use std::io::{self, BufWriter, Write};
 

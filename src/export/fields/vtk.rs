@@ -1,4 +1,4 @@
-//! What all VTK files of a field have: their points and what is said of each.
+//! Parts that all VTK files of a field have: points and point data.
 
 use std::io::{self, Write};
 
@@ -10,7 +10,7 @@ use crate::solid::element::ElementKind;
 /// VTK's number of a single point.
 pub(super) const VERTEX: u8 = 1;
 
-/// VTK's number of an element, and its nodes in VTK's order, as places in CalculiX's.
+/// VTK's number of an element, and its nodes in VTK's order, as places in CalculiX's order.
 ///
 /// Both number corners and then the middles of edges alike, but for wedges: VTK sees their first triangle from outside, CalculiX from
 /// inside.
@@ -40,7 +40,7 @@ pub(super) fn notes(file: &FieldFile) -> Vec<&str> {
         .collect()
 }
 
-/// Writes point data of a frame, and the points.
+/// Writes the points, and point data of a frame.
 pub(super) fn write_points(
     file: &FieldFile,
     points: &Points<'_>,

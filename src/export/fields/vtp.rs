@@ -1,4 +1,4 @@
-//! VTK's PolyData: the skin.
+//! VTK's PolyData: the skin of the wheel.
 
 use std::io::{self, Write};
 

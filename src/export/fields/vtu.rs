@@ -1,4 +1,4 @@
-//! VTK's UnstructuredGrid.
+//! VTK's UnstructuredGrid: the elements of the wheel.
 
 use std::io::{self, Write};
 
@@ -7,7 +7,7 @@ use super::vtk::{VERTEX, cell, notes, write_points};
 use super::xml::{array, begin};
 use crate::analysis::fields::Points;
 
-/// Writes a frame.
+/// Writes a frame: all elements and their nodes.
 pub(super) fn write(file: &FieldFile, frame: usize, out: &mut dyn Write) -> io::Result<()> {
     let FieldFile { sector: of, part, .. } = file;
     let points = Points::all(of, *part);
@@ -56,7 +56,7 @@ pub(super) fn write(file: &FieldFile, frame: usize, out: &mut dyn Write) -> io::
     writeln!(out, "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>")
 }
 
-/// Writes a cell for each point.
+/// Writes a VTK cell for each point.
 pub(super) fn single_points(count: usize, out: &mut dyn Write) -> io::Result<()> {
     let count_to = |first: usize| {
         move |put: &mut dyn FnMut(&[i64]) -> io::Result<()>| {

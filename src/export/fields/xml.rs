@@ -5,7 +5,7 @@ use std::io::{self, BufWriter, Write};
 use base64::engine::general_purpose::STANDARD;
 use base64::write::EncoderWriter;
 
-/// Writes what begins a file of this type, with a comment about it.
+/// Writes the beginning of a file of this type, with a comment about the field.
 pub(super) fn begin(out: &mut dyn Write, kind: &str, notes: &[&str]) -> io::Result<()> {
     writeln!(out, "<?xml version=\"1.0\"?>")?;
     for note in notes {
@@ -18,11 +18,11 @@ pub(super) fn begin(out: &mut dyn Write, kind: &str, notes: &[&str]) -> io::Resu
     )
 }
 
-/// A type of numbers.
+/// Number type of a data array.
 pub(super) trait Number: Copy {
-    /// VTK's name of it.
+    /// VTK's name of the type.
     const NAME: &'static str;
-    /// Its bytes, the low one first.
+    /// Writes the bytes of the number, the low one first.
     fn put(self, out: &mut dyn Write) -> io::Result<()>;
 }
 
@@ -39,7 +39,7 @@ macro_rules! numbers {
 
 numbers!(f64 = "Float64", u64 = "UInt64", i64 = "Int64", i32 = "Int32", u8 = "UInt8");
 
-/// Writes an array of so many numbers, `components` to a tuple, which `give` hands over in pieces.
+/// Writes an array of so many numbers, `components` to a tuple, which `give` passes in pieces.
 pub(super) fn array<T: Number>(
     out: &mut dyn Write,
     name: &str,

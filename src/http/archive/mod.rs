@@ -1,4 +1,4 @@
-//! A job as a file: all that is needed to repeat it, and what it found.
+//! Archive of a job: a file with all that is needed to repeat the job, and with its results.
 
 pub mod manifest;
 mod writer;
@@ -31,7 +31,7 @@ use crate::store::{Store, StoreError};
 use crate::tokens::Principal;
 use crate::version;
 
-/// A zip file; docs/figures.md says what is in it.
+/// Archive of a job, a zip file; docs/figures.md lists its entries.
 #[derive(ToSchema)]
 #[schema(value_type = String, format = Binary)]
 #[expect(dead_code, reason = "describes the body in the OpenAPI document only")]
@@ -39,9 +39,10 @@ pub(super) struct ArchiveZip(Vec<u8>);
 
 /// Download a job as an archive, from which `rubmap repeat` computes it again and compares bit by bit.
 ///
-/// A zip file: `request.json`, which asks for the same when it is posted again; `settings.json`, as results repeat them;
-/// `package.zip`, the model byte by byte; `results/`; and `manifest.json` with the SHA-256 of every entry, the revision of the
-/// numerics and the kind of vectors of the processor that computed it. The same job always gives the same bytes.
+/// The archive is a zip file of `request.json`, which starts the same computation when it is posted again; `settings.json`, the
+/// settings as results repeat them; `package.zip`, the model byte by byte; `results/`; and `manifest.json` with the SHA-256 of
+/// every entry, the revision of the numerics and the kind of vectors of the processor that computed the job. The archive of a job
+/// always has the same bytes.
 #[utoipa::path(get, path = "/v1/jobs/{id}/archive", operation_id = "get_archive", tag = "results",
     params(("id" = String, Path, description = "Id of a job.")),
     responses(
@@ -75,7 +76,7 @@ pub(super) async fn get_archive(
     Ok(stream::zip(leave, &format!("rubmap-{id}.zip"), move |mut out| contents.write(&mut out)))
 }
 
-/// The model of a job that can be repeated, and the request that repeats it.
+/// Model of a job that can be repeated, and the request that repeats the job.
 fn repeatable(job: &Job) -> Result<(String, RequestBody), Problem> {
     expect_successful(job, "an archive is made of a job that was successful")?;
     let request = match &job.request {
@@ -109,7 +110,7 @@ fn repeatable(job: &Job) -> Result<(String, RequestBody), Problem> {
     }
 }
 
-/// What goes into an archive.
+/// Contents of an archive.
 struct Contents {
     job: Job,
     model: String,
@@ -165,7 +166,7 @@ impl Contents {
         Ok(())
     }
 
-    /// What the store has; a job that was deleted meanwhile has no archive.
+    /// Waits for an answer of the store; fails if the job was deleted meanwhile, which leaves no archive.
     fn read<T>(&self, question: impl Future<Output = Result<Option<T>, StoreError>>) -> io::Result<T> {
         let answer = self.runtime.block_on(question).map_err(io::Error::other)?;
         answer.ok_or_else(|| io::Error::other("a result is gone: the job was deleted"))

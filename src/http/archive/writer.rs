@@ -1,4 +1,4 @@
-//! Writing a zip that says what is in it.
+//! Writer of zip files that lists the digests of their entries.
 
 use std::io::{self, Write};
 
@@ -8,10 +8,10 @@ use zip::{CompressionMethod, DateTime, ZipWriter};
 
 use super::manifest::Entry;
 
-/// Entries that are as long as this may not know their length in four bytes.
+/// Length in bytes above which an entry is written as a large one: its true length may not fit into four bytes.
 const LARGE: u64 = u32::MAX as u64 / 2;
 
-/// A zip that is written from its beginning to its end, and the digests of its entries. The same entries give the same bytes.
+/// Zip file that is written from beginning to end, and the digests of its entries. The same entries give the same bytes.
 pub(super) struct Writer<W: Write> {
     zip: ZipWriter<StreamWriter<W>>,
     entries: Vec<Entry>,
@@ -22,7 +22,7 @@ impl<W: Write> Writer<W> {
         Self { zip: ZipWriter::new_stream(out), entries: Vec::new() }
     }
 
-    /// Adds an entry of about so many `bytes`; what is a zip itself is not deflated once more.
+    /// Adds an entry of about `bytes` bytes; an entry that is a zip file itself is not deflated again.
     pub(super) fn add(
         &mut self,
         name: &str,
@@ -48,7 +48,7 @@ impl<W: Write> Writer<W> {
         self.add(name, bytes, |out| Ok(serde_json::to_writer(out, value)?))
     }
 
-    /// What was added so far.
+    /// Entries added so far.
     pub(super) fn entries(&self) -> &[Entry] {
         &self.entries
     }
@@ -58,7 +58,7 @@ impl<W: Write> Writer<W> {
     }
 }
 
-/// Hashes what is written.
+/// Output that hashes and counts the bytes written to it.
 struct Hashing<'a, W> {
     out: &'a mut W,
     sha256: Sha256,

@@ -1,6 +1,6 @@
-//! Holds a JSON document against its shape while it is read: everything that is wrong with its structure at once, each
-//! at its RFC 6901 pointer. Nothing of the document is kept, and only what has a place in the shape is descended into, so
-//! that neither size nor depth of what is wrong costs anything.
+//! Checks a JSON document against its shape while it is read, and finds everything that is wrong with its structure at once, each
+//! at its RFC 6901 pointer. Nothing of the document is stored, and only values that have a place in the shape are descended into,
+//! so that neither size nor depth of wrong values costs anything.
 
 use std::fmt::Write as _;
 
@@ -10,24 +10,24 @@ use super::super::problem::{EXCERPT, MOST_ITEMS, excerpt};
 use super::shape::{Field, Scalar, Shape, names};
 use crate::analysis::error::Violation;
 
-/// Names that are alike are at least this similar (Jaro; 1 is equal).
+/// Least similarity of a name that is suggested in place of an unknown one (Jaro; 1 is equal).
 const ALIKE: f64 = 0.75;
 
-/// What is wrong with a document.
+/// Violations found in a document.
 #[derive(Debug, Default)]
 pub(crate) struct Findings {
-    /// The first of all violations, as many as are shown.
+    /// First violations, as many as are shown.
     pub(crate) first: Vec<Violation>,
-    /// How many there are.
+    /// Number of all violations.
     pub(crate) total: usize,
-    /// How many of them are fields that do not exist.
+    /// Number of violations that are fields that do not exist.
     pub(crate) unknown_fields: usize,
 }
 
-/// Holds `body` against `shape`.
+/// Checks `body` against `shape`.
 ///
 /// # Errors
-/// If it is not JSON.
+/// If `body` is not JSON.
 pub(crate) fn check(shape: &Shape, body: &[u8]) -> serde_json::Result<Findings> {
     let mut reader = Reader { pointer: String::new(), found: Findings::default() };
     let mut deserializer = serde_json::Deserializer::from_slice(body);
@@ -36,7 +36,7 @@ pub(crate) fn check(shape: &Shape, body: &[u8]) -> serde_json::Result<Findings> 
     Ok(reader.found)
 }
 
-/// Where the reader is and what it has found.
+/// Position of the reader in a document, and its findings so far.
 struct Reader {
     pointer: String,
     found: Findings,
@@ -66,7 +66,7 @@ impl Reader {
         });
     }
 
-    /// Does something one step further down.
+    /// Does `work` one step further down in the document.
     fn within<T>(&mut self, step: impl std::fmt::Display, work: impl FnOnce(&mut Self) -> T) -> T {
         let above = self.pointer.len();
         // Writing to a String cannot fail.
@@ -92,7 +92,7 @@ fn what_exists(name: &str, fields: &[Field]) -> String {
     }
 }
 
-/// A value to be held against its shape.
+/// Value to be checked against its shape.
 struct Place<'a> {
     shape: &'a Shape,
     reader: &'a mut Reader,

@@ -1,5 +1,5 @@
-//! The published contract as requests are held against it: bodies by the schema of their type, query strings by the
-//! parameters of their route. What the document says is what is checked, so that neither can be forgotten.
+//! Checks of requests against the published contract: bodies by the schema of their type, query strings by the parameters of their
+//! route. The published document is itself the rule, so that neither can be forgotten.
 
 mod check;
 mod published;

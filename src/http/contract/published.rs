@@ -1,4 +1,4 @@
-//! What the published contract says of bodies and parameters.
+//! Shapes of bodies and parameters, read from the published contract.
 
 use std::collections::BTreeMap;
 
@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use super::shape::Shape;
 
-/// What requests may be.
+/// Contract of requests: the shapes of their bodies and parameters.
 #[derive(Debug)]
 pub struct Contract {
     /// JSON bodies by the name of their schema.
@@ -23,7 +23,7 @@ pub(super) struct Parameter {
 }
 
 impl Contract {
-    /// What an `OpenAPI` document says.
+    /// Reads the contract from an `OpenAPI` document.
     pub fn of(document: &Value) -> Self {
         let schemas = &document["components"]["schemas"];
         let mut contract = Self { bodies: BTreeMap::new(), parameters: BTreeMap::new() };
@@ -47,7 +47,7 @@ impl Contract {
         contract
     }
 
-    /// The JSON body whose schema has this name.
+    /// Shape of the JSON body whose schema has this name.
     pub(crate) fn body(&self, name: &str) -> Option<&Shape> {
         self.bodies.get(name)
     }

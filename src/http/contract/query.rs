@@ -1,4 +1,4 @@
-//! Query strings: a parameter that its route does not know, or cannot take, is refused, and never ignored.
+//! Checks of query strings: a parameter that its route does not know, or a value that it cannot take, is refused and never ignored.
 
 use std::sync::Arc;
 
@@ -11,8 +11,7 @@ use super::super::problem::{Kind, Problem, excerpt};
 use super::published::{Contract, Parameter};
 use super::shape::{Scalar, Shape};
 
-/// Middleware around all routes: holds the query string against the contract. A path that the contract does not have takes
-/// no parameters.
+/// Middleware around all routes: checks the query string against the contract. A path that is not in the contract takes no parameters.
 pub(crate) async fn refuse_unknown_parameters(
     contract: State<Arc<Contract>>,
     path: Option<MatchedPath>,
@@ -57,7 +56,7 @@ fn check(parameters: &[Parameter], query: &Uri) -> Result<(), Problem> {
     Ok(())
 }
 
-/// Whether what was written may be read as such a value.
+/// Whether `text` may be read as a value of this shape.
 fn admits(shape: &Shape, text: &str) -> bool {
     let finite = text.parse().ok().filter(|number: &f64| number.is_finite());
     shape.admits(Scalar::Text(text))
@@ -66,7 +65,7 @@ fn admits(shape: &Shape, text: &str) -> bool {
         || finite.is_some_and(|number| shape.admits(Scalar::Number(number)))
 }
 
-/// A parameter that may be left away is not said to be null.
+/// Shape of a parameter as messages describe it: without `null`, which only means that the parameter may be left out.
 fn without_null(shape: &Shape) -> Shape {
     match shape {
         Shape::OneOf(choices) => {

@@ -1,27 +1,27 @@
-//! What a JSON value must look like, read from a JSON schema and said in words.
+//! Shape of a JSON value, read from a JSON schema and described in words.
 
 use serde_json::Value;
 
-/// What a value must be.
+/// Shape that a JSON value must have.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Shape {
     /// `null`.
     Null,
     /// `true` or `false`.
     Truth,
-    /// A whole number of a range.
+    /// A whole number from `least` to `most`.
     Whole { least: i128, most: i128 },
-    /// A number of a range.
+    /// A number within bounds.
     Number(Bounds),
-    /// A text of at most so many characters.
+    /// A text of at most `longest` characters.
     Text { longest: Option<usize> },
-    /// One of these words.
+    /// A text that is one of these words.
     Word(Vec<String>),
-    /// A list.
+    /// A list of `shortest` to `longest` entries.
     List { entries: Box<Shape>, shortest: usize, longest: Option<usize> },
     /// An object that has these fields and no others.
     Object(Vec<Field>),
-    /// One of these.
+    /// A value of one of these shapes.
     OneOf(Vec<Shape>),
 }
 
@@ -53,7 +53,7 @@ pub(super) enum Scalar<'a> {
 }
 
 impl Shape {
-    /// The shape that a schema describes; `schemas` are those that it may refer to.
+    /// Reads the shape from a schema; `schemas` has those that it may refer to.
     pub(super) fn of(schema: &Value, schemas: &Value) -> Self {
         if let Some(name) = schema["$ref"].as_str().and_then(|path| path.rsplit('/').next()) {
             return Self::of(&schemas[name], schemas);
@@ -118,7 +118,7 @@ impl Shape {
         }
     }
 
-    /// Whether it admits this value.
+    /// Whether the shape admits this value.
     pub(super) fn admits(&self, value: Scalar) -> bool {
         match (self, value) {
             (Self::OneOf(choices), value) => choices.iter().any(|choice| choice.admits(value)),
@@ -134,7 +134,7 @@ impl Shape {
         }
     }
 
-    /// The list that it may be: its entries, and how few and many.
+    /// List that the shape admits: the shape of its entries, and their least and greatest number.
     pub(super) fn list(&self) -> Option<(&Self, usize, usize)> {
         match self {
             Self::OneOf(choices) => choices.iter().find_map(Self::list),
@@ -145,7 +145,7 @@ impl Shape {
         }
     }
 
-    /// The fields of the object that it may be.
+    /// Fields of the object that the shape admits.
     pub(super) fn fields(&self) -> Option<&[Field]> {
         match self {
             Self::OneOf(choices) => choices.iter().find_map(Self::fields),
@@ -164,7 +164,7 @@ impl Bounds {
     }
 }
 
-/// As in "expected a whole number from 1 to 100".
+/// Describes the shape, as in "expected a whole number from 1 to 100".
 impl std::fmt::Display for Shape {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
@@ -214,12 +214,12 @@ impl std::fmt::Display for Shape {
     }
 }
 
-/// As in "a, b, c".
+/// Joins the names of fields, as in "a, b, c".
 pub(super) fn names<'a>(fields: impl IntoIterator<Item = &'a Field>) -> String {
     fields.into_iter().map(|field| field.name.as_str()).collect::<Vec<_>>().join(", ")
 }
 
-/// As in " from 0 to 1" and " above 0 and below 1".
+/// Describes the bounds, as in " from 0 to 1" and " above 0 and below 1".
 impl std::fmt::Display for Bounds {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         if let (Some(least), Some(most)) = (self.least, self.most) {
@@ -241,7 +241,7 @@ impl std::fmt::Display for Bounds {
     }
 }
 
-/// A number without strings of zeros.
+/// Number that is written without strings of zeros.
 struct Brief(f64);
 
 impl std::fmt::Display for Brief {
@@ -255,7 +255,7 @@ impl std::fmt::Display for Brief {
     }
 }
 
-/// As in "not the text "fast"".
+/// Describes the value, as in "not the text "fast"".
 impl std::fmt::Display for Scalar<'_> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {

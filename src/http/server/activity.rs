@@ -1,4 +1,4 @@
-//! What a connection waits for, as told by those who read, answer and write on it.
+//! Activity of a connection: what it waits for, as reported by those who read, answer and write on it.
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
@@ -6,26 +6,26 @@ use std::time::{Duration, Instant};
 use super::limits::Limits;
 use crate::http::pace::Pace;
 
-/// How long a client is waited for, even if others want its place: an honest one sends its request at once.
+/// Wait for the head of a request before others may take the connection's place: an honest client sends its request at once.
 const PATIENCE_FOR_HEADS: Duration = Duration::from_secs(1);
 
-/// The same for 64 KiB of a body or an answer, where a poor line may pause.
+/// Wait for the next 64 KiB of a body or an answer before others may take the connection's place: a poor line may pause.
 const PATIENCE_WITHIN: Duration = Duration::from_secs(5);
 
-/// What one connection waits for, and since when.
+/// Activity of one connection: what it waits for, and since when.
 #[derive(Debug)]
 pub(super) struct Activity(Mutex<State>);
 
 #[derive(Debug)]
 struct State {
     phase: Phase,
-    /// Begin of the phase or, of a rest, the last piece of the answer before it that the system took.
+    /// Begin of the phase or, for a rest, the time at which the system took the last piece of the answer before it.
     since: Instant,
-    /// Since when the system takes nothing more of what is written, because the client reads nothing.
+    /// Time since which the system takes no more of the answer, because the client reads nothing.
     blocked: Option<Instant>,
-    /// Of the body of this request.
+    /// Pace of the body of this request.
     body: Pace,
-    /// Of what is written.
+    /// Pace of the answers that are written.
     answer: Pace,
 }
 
@@ -39,37 +39,37 @@ enum Phase {
     Body,
     /// The next step is the service's.
     Work,
-    /// An answer is under way that lasts as long as there is something to tell.
+    /// An answer is under way that lasts as long as there are changes to report.
     Lasting,
 }
 
-/// Why a connection is closed though its client might want it open.
+/// Reason why a connection is closed though its client might want it open.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Overdue {
     /// The head of a request takes too long.
     Head,
-    /// It rests for too long.
+    /// The connection rests for too long.
     Rest,
     /// The client does not take its answer.
     Answer,
 }
 
-/// How readily a connection is given up for another, the most readily last.
+/// Rank of a connection when one is given up for another; the highest rank goes first.
 pub(super) type Dispensability = (Loss, Duration);
 
-/// What its client loses with a connection, the least last.
+/// Loss of a client whose connection is given up, the least last.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Loss {
-    /// An answer that tells it of changes as they come, for which it can ask again.
+    /// An answer that reports changes as they come, for which the client can ask again.
     Lasting,
     /// A request or an answer that does not move.
     Stalled,
-    /// Nothing.
+    /// Nothing: no request is under way.
     Rest,
 }
 
 impl Activity {
-    /// Of a new connection.
+    /// Starts with the head of a request, which a new connection expects.
     pub(super) fn new() -> Self {
         Self(Mutex::new(State {
             phase: Phase::Head,
@@ -80,7 +80,7 @@ impl Activity {
         }))
     }
 
-    /// Something has come.
+    /// Notes that bytes of a request have come.
     pub(super) fn read(&self) {
         let mut state = self.lock();
         if state.phase == Phase::Rest {
@@ -88,14 +88,14 @@ impl Activity {
         }
     }
 
-    /// The head of a request is complete.
+    /// Notes that the head of a request is complete.
     pub(super) fn request(&self) {
         let mut state = self.lock();
         state.enter(Phase::Work);
         (state.body, state.answer) = (Pace::default(), Pace::default());
     }
 
-    /// More of the body is needed and has not come.
+    /// Notes that more of the body is needed and has not come.
     pub(super) fn body_expected(&self) {
         let mut state = self.lock();
         if state.phase != Phase::Body {
@@ -103,7 +103,7 @@ impl Activity {
         }
     }
 
-    /// So many bytes more of the body are there.
+    /// Notes that `bytes` more of the body are there.
     pub(super) fn body_came(&self, bytes: u64) {
         let mut state = self.lock();
         let waited = if state.phase == Phase::Body { state.since.elapsed() } else { Duration::ZERO };
@@ -111,22 +111,22 @@ impl Activity {
         state.enter(Phase::Work);
     }
 
-    /// The answer has begun and lasts as long as there is something to tell.
+    /// Notes that the answer has begun and lasts as long as there are changes to report.
     pub(super) fn lasts(&self) {
         self.lock().enter(Phase::Lasting);
     }
 
-    /// The answer is complete, though the system may not have taken all of it.
+    /// Notes that the answer is complete, though the system may not have taken all of it.
     pub(super) fn answered(&self) {
         self.lock().enter(Phase::Rest);
     }
 
-    /// The system takes no more of the answer until the client reads.
+    /// Notes that the system takes no more of the answer until the client reads.
     pub(super) fn blocked(&self) {
         self.lock().blocked.get_or_insert_with(Instant::now);
     }
 
-    /// The system took so many bytes.
+    /// Notes that the system took `bytes` more of the answer.
     pub(super) fn written(&self, bytes: u64) {
         let mut state = self.lock();
         let waited = state.blocked.take().map_or(Duration::ZERO, |since| since.elapsed());
@@ -142,7 +142,7 @@ impl Activity {
         matches!(state.phase, Phase::Rest | Phase::Head) && state.blocked.is_none()
     }
 
-    /// Which limit it has passed, if any. Bodies are looked after where they are read, so that their requests are answered.
+    /// Limit that the connection has passed, if any. Bodies are checked where they are read, so that their requests are answered.
     pub(super) fn overdue(&self, now: Instant, limits: &Limits) -> Option<Overdue> {
         let state = self.lock();
         let waited = state.waited(now);
@@ -154,8 +154,8 @@ impl Activity {
         }
     }
 
-    /// How readily it is given up for another; `None` as long as its client does nothing unusual. Those at rest go first, then
-    /// the one that has waited longest, and of answers that last the one that began first.
+    /// Rank of the connection when one is given up for another; `None` as long as its client does nothing unusual. Connections at
+    /// rest go first, then the one that has waited longest, and of answers that last the one that began first.
     pub(super) fn dispensability(&self, now: Instant) -> Option<Dispensability> {
         let state = self.lock();
         let (loss, patience) = match (state.blocked, state.phase) {
@@ -175,7 +175,7 @@ impl Activity {
 }
 
 impl State {
-    /// For how long the client has kept the service waiting: since the phase began, or for this piece of a body or an answer.
+    /// Time for which the client has kept the service waiting: since the phase began, or for this piece of a body or an answer.
     fn waited(&self, now: Instant) -> Duration {
         match (self.blocked, self.phase) {
             (Some(blocked), _) => self.answer.waited() + now.saturating_duration_since(blocked),

@@ -1,4 +1,4 @@
-//! One connection: its requests one after the other, from the first byte to the last.
+//! Service of one connection: its requests one after the other, from the first byte to the last.
 
 use std::convert::Infallible;
 use std::net::SocketAddr;
@@ -21,14 +21,14 @@ use tower::ServiceExt;
 use super::activity::Activity;
 use super::stream::ClientStream;
 
-/// Most bytes of a request's head: far more than any client of this service has to say.
+/// Largest head of a request in bytes: far more than any client of this service needs.
 const HEAD_BYTES: usize = 64 << 10;
 
-/// Extension of answers that tell of changes as they come, for as long as there may be any.
+/// Extension of answers that report changes as they come, for as long as there may be any.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::http) struct Lasting;
 
-/// Serves a connection until it ends, or the request under way when `stop` is told.
+/// Serves a connection until it ends or, once `stop` is cancelled, until the request under way has ended.
 pub(super) async fn serve(
     stream: TcpStream,
     peer: SocketAddr,
@@ -80,7 +80,7 @@ async fn answer(
     Ok(response.map(|body| Outgoing { body, activity }))
 }
 
-/// The body of a request, which tells when the service waits for it.
+/// Body of a request that reports when the service waits for it.
 struct Awaited {
     body: Incoming,
     activity: Arc<Activity>,
@@ -114,7 +114,7 @@ impl hyper::body::Body for Awaited {
     }
 }
 
-/// The body of an answer, which tells when all of it is on its way.
+/// Body of an answer that reports when all of it is on its way.
 struct Outgoing {
     body: Body,
     activity: Arc<Activity>,

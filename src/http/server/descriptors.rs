@@ -2,14 +2,14 @@
 
 use rustix::process::{Resource, Rlimit, getrlimit, setrlimit};
 
-/// Files that are not for connections: the databases with their logs (some forty), packages and checkpoints being read and
+/// Files that connections may not take: the databases with their logs (some forty), packages and checkpoints being read and
 /// written, and what the system needs.
 pub const RESERVE: u64 = 128;
 
-/// Each connection may be an upload, which has a file of its own.
+/// Files of one connection, which may be an upload that has a file of its own.
 const PER_CONNECTION: u64 = 2;
 
-/// Fewer connections than this make no service.
+/// Fewest connections with which the service starts.
 const FEWEST_CONNECTIONS: u64 = 16;
 
 /// Raises the limit of open files as far as this process may, and returns it; `None` for no limit.
@@ -27,18 +27,18 @@ pub fn raise_limit() -> Option<u64> {
     }
 }
 
-/// The limit of open files; `None` for no limit.
+/// Limit of open files; `None` for no limit.
 pub fn limit() -> Option<u64> {
     getrlimit(Resource::Nofile).current
 }
 
-/// Files open now; `None` where the system does not say, or has no file left to say it with.
+/// Number of files open now; `None` where the system does not report it, or has no file left to report it with.
 pub fn open() -> Option<u64> {
     // One of them is the folder being listed.
     Some((std::fs::read_dir("/dev/fd").ok()?.count() as u64).saturating_sub(1))
 }
 
-/// Connections that `limit` open files allow, at most `wanted`; `None` if these are too few to serve anybody.
+/// Number of connections that `limit` open files allow, at most `wanted`; `None` if these are too few to serve anybody.
 pub fn connections(wanted: u32, limit: Option<u64>) -> Option<usize> {
     let Some(limit) = limit else { return Some(wanted as usize) };
     let allowed = limit.saturating_sub(RESERVE) / PER_CONNECTION;

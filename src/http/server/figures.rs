@@ -1,20 +1,20 @@
-//! Connections, counted.
+//! Counters of connections.
 
 use std::sync::atomic::{AtomicU64, AtomicUsize};
 
-/// What became of connections.
+/// Counters of connections, with the number of open ones.
 #[derive(Debug, Default)]
 pub struct Figures {
-    /// Open now.
+    /// Number of connections that are open now.
     pub open: AtomicUsize,
-    /// Accepted since the start.
+    /// Number of connections accepted since the start.
     pub accepted: AtomicU64,
-    /// Closed because the head of a request took too long.
+    /// Number of connections closed because the head of a request took too long.
     pub overdue_heads: AtomicU64,
-    /// Closed because nothing came for too long.
+    /// Number of connections closed because nothing came for too long.
     pub overdue_rests: AtomicU64,
-    /// Closed because the client did not take its answer.
+    /// Number of connections closed because the client did not take its answer.
     pub overdue_answers: AtomicU64,
-    /// Closed to make room for others.
+    /// Number of connections closed to make room for others.
     pub given_up: AtomicU64,
 }

@@ -1,11 +1,10 @@
 //! Connections: how many there are, how long they may keep the service waiting, and their end.
 //!
 //! `axum::serve` takes every connection and keeps it for as long as its client likes, so a few hundred lazy clients leave no open
-//! file to anybody, the database included. Here there is a bound. Beyond it the newcomer waits, not yet served, until a
-//! connection ends, or one that keeps the service waiting is given up for it: first those at rest between two requests, then
-//! those whose request is not coming, then those who follow a job and can ask again. Nobody else who keeps sending, or waits for an
-//! answer, is given up. There is no share per
-//! address: behind a gateway all clients have one.
+//! file to anybody, the database included. Here there is a limit. Beyond it a new connection waits, not yet served, until another
+//! ends, or one that keeps the service waiting is closed for it: first those at rest between two requests, then those whose request
+//! is not coming, then those whose client follows a job and can ask again. No other connection is closed whose client keeps
+//! sending, or waits for an answer. There is no share per address: behind a gateway all clients have one.
 
 mod activity;
 mod connection;
@@ -32,13 +31,13 @@ pub(super) use connection::Lasting;
 pub use figures::Figures;
 pub use limits::Limits;
 
-/// How often connections are looked after.
+/// Time between two checks of all connections.
 const ROUND: Duration = Duration::from_millis(100);
 
-/// How long requests may take to end once the service is told to stop.
+/// Time that requests may take to end once the service is told to stop.
 const LAST_REQUESTS: Duration = Duration::from_secs(3);
 
-/// Serves connections until `stop`. Those at rest are closed then; requests under way have a moment to end.
+/// Serves connections until `stop`. Connections at rest are closed then; requests under way have a moment to end.
 pub async fn serve(
     listener: TcpListener,
     router: Router,
@@ -72,7 +71,7 @@ pub async fn serve(
     }
 }
 
-/// The next connection. What goes wrong is the client's affair, or passes.
+/// Accepts the next connection. Errors are logged at most: they are the client's affair, or pass.
 async fn accept(listener: &TcpListener) -> (TcpStream, SocketAddr) {
     loop {
         match listener.accept().await {
@@ -89,7 +88,7 @@ async fn accept(listener: &TcpListener) -> (TcpStream, SocketAddr) {
     }
 }
 
-/// All open connections.
+/// Open connections, and the tasks that serve them.
 struct Connections<'a> {
     router: Router,
     limits: &'a Limits,
@@ -97,7 +96,7 @@ struct Connections<'a> {
     stop: CancellationToken,
     tasks: JoinSet<()>,
     open: HashMap<Id, (AbortHandle, Arc<Activity>)>,
-    /// Whether the log knows that there was no room.
+    /// Whether the log already has that there was no room.
     full: bool,
 }
 
@@ -131,7 +130,7 @@ impl<'a> Connections<'a> {
         self.count();
     }
 
-    /// Whether there is a place for one more, which another may have to make.
+    /// Whether there is room for one more connection, for which another may be closed.
     fn has_room(&mut self) -> bool {
         if self.open.len() < self.limits.connections {
             self.full = false;
@@ -173,7 +172,7 @@ impl<'a> Connections<'a> {
         }
     }
 
-    /// Closes those with which nothing is lost.
+    /// Closes the connections with which nothing is lost.
     fn close_free(&mut self) {
         let free: Vec<_> =
             self.open.iter().filter(|(_, (_, activity))| activity.is_free()).map(|(id, _)| *id).collect();

@@ -1,4 +1,4 @@
-//! A client's connection that tells how reading and writing go.
+//! Stream of a client's connection that reports how reading and writing go.
 
 use std::io::{IoSlice, Result};
 use std::pin::Pin;
@@ -10,7 +10,7 @@ use tokio::net::TcpStream;
 
 use super::activity::Activity;
 
-/// A client's connection.
+/// Stream of a client's connection, with the activity that it reports to.
 #[derive(Debug)]
 pub(super) struct ClientStream {
     stream: TcpStream,

@@ -1,4 +1,4 @@
-//! When a worker asks its queue for tasks.
+//! Polling of a queue: when a worker asks it for tasks.
 
 use std::pin::Pin;
 use std::sync::Arc;
@@ -26,7 +26,7 @@ impl Awake {
 }
 
 impl PollStrategy for Awake {
-    /// Only arranges to be woken: the worker asks its queue whenever it is polled.
+    /// Arranges only to be woken: the worker asks its queue whenever it is polled.
     fn poll_drive(&mut self, cx: &mut Context<'_>, _: &PollSnapshot) -> Poll<Option<()>> {
         while self.notifications.as_mut().poll_next(cx).is_ready() {}
         while self.interval.poll_tick(cx).is_ready() {}

@@ -27,9 +27,9 @@ pub(super) use self::whose::Whose;
 /// Tasks on their way to the workers.
 #[derive(Debug)]
 pub(super) enum Tasks {
-    /// Of this process alone.
+    /// Tasks of this process alone.
     Own(OwnTasks),
-    /// Of all machines that share a database.
+    /// Tasks of all machines that share a database.
     #[cfg(feature = "cluster")]
     Shared(SharedTasks),
 }
@@ -78,7 +78,7 @@ impl Tasks {
         }
     }
 
-    /// Has a job prepared on a machine with these vectors.
+    /// Queues a job for preparation on a machine with these vectors.
     pub(super) fn prepare_elsewhere(&self, job: JobId, vectors: &str) {
         match self {
             Self::Own(_) => {
@@ -89,7 +89,7 @@ impl Tasks {
         }
     }
 
-    /// Has speeds of a job run in this order, when it is their turn.
+    /// Queues speeds of a job to run in this order, in their turn.
     pub(super) fn run(&self, whose: Whose<'_>, speeds: impl IntoIterator<Item = u32>) {
         match self {
             Self::Own(tasks) => tasks.run(whose.owner, whose.job, speeds),
@@ -98,7 +98,7 @@ impl Tasks {
         }
     }
 
-    /// Makes place for the next preparation when what this returns is dropped.
+    /// Marks the preparation of a job as under way; the guard makes place for the next one when dropped.
     pub(super) fn preparing(&self, job: JobId) -> Option<Place<'_, ()>> {
         match self {
             Self::Own(tasks) => Some(tasks.preparing(job)),
@@ -107,7 +107,7 @@ impl Tasks {
         }
     }
 
-    /// The same of a speed.
+    /// Marks a speed as under way; the guard makes place for the next one when dropped.
     pub(super) fn running(&self, task: RunSpeed) -> Option<Place<'_, u32>> {
         match self {
             Self::Own(tasks) => Some(tasks.running(task)),

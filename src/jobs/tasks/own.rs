@@ -9,7 +9,7 @@ use crate::jobs::turns::Turns;
 use crate::store::jobs::JobId;
 use crate::store::tasks::RunSpeed;
 
-/// Preparations beyond one per thread.
+/// Number of preparations beyond one per thread.
 const WAITING_PREPARATIONS: usize = 16;
 
 /// Preparations of one owner under way at once, with so many threads that compute: those that wait for another job's reduction take no

@@ -1,4 +1,4 @@
-//! Where a task of this process is out.
+//! Guards of tasks of this process that are out.
 
 use std::hash::Hash;
 
@@ -7,7 +7,7 @@ use tokio::sync::Notify;
 use crate::jobs::turns::Turns;
 use crate::store::jobs::JobId;
 
-/// The place of a task that is out.
+/// Guard of a task that is out; when dropped, it makes place for the next.
 pub(in crate::jobs) struct Place<'a, T: Copy + Eq + Hash> {
     pub(super) turns: &'a Turns<T>,
     pub(super) turn: &'a Notify,

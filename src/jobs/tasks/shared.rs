@@ -18,7 +18,7 @@ use crate::store::machines::WorkerProcess;
 use crate::store::shared_queue::SharedQueue;
 use crate::store::tasks::{PrepareJob, RunSpeed};
 
-/// How often a queue is asked for tasks without having been told of any.
+/// Time after which a queue is asked for tasks without having been notified.
 const IDLE_POLL: Duration = Duration::from_secs(2);
 
 /// Longest time to give tasks back: a process that is told to stop has little.
@@ -28,13 +28,13 @@ const GIVING_BACK: Duration = Duration::from_secs(1);
 #[derive(Debug)]
 pub(in crate::jobs) struct SharedTasks {
     queue: SharedQueue,
-    /// What no other process is called.
+    /// Name of this process, which no other process has.
     process: String,
-    /// What its workers are called, those that ended as well.
+    /// Names of the workers of this process, those that ended as well.
     workers: Mutex<Vec<String>>,
-    /// Notified when there may be something new to prepare, by [`Kind`].
+    /// Notification, by [`Kind`], that there may be something new to prepare.
     new_preparation: [Arc<Notify>; 2],
-    /// Notified when there may be new speeds.
+    /// Notification that there may be new speeds.
     new_speeds: [Arc<Notify>; 2],
 }
 
@@ -50,19 +50,19 @@ impl SharedTasks {
         }
     }
 
-    /// The queue itself.
+    /// Shared queue itself.
     pub(in crate::jobs) fn queue(&self) -> &SharedQueue {
         &self.queue
     }
 
-    /// A name for a worker of this process that no other worker has.
+    /// Makes a name for a worker of this process that no other worker has.
     pub(in crate::jobs) fn name(&self, worker: &str) -> String {
         let name = format!("{}-{worker}", self.process);
         self.workers.lock().unwrap_or_else(PoisonError::into_inner).push(name.clone());
         name
     }
 
-    /// Says which machine this process computes on.
+    /// Announces which machine this process computes on.
     pub(in crate::jobs) async fn announce(&self, worker: &WorkerProcess) -> Result<(), StoreError> {
         self.queue.announce(&self.process, worker).await
     }
@@ -82,21 +82,21 @@ impl SharedTasks {
         }
     }
 
-    /// Where a worker takes jobs to be prepared from.
+    /// Source from which a worker takes jobs to be prepared.
     pub(in crate::jobs) fn preparations(&self, of: Kind) -> PollWith<PostgresStorage<PrepareJob>, Awake> {
         self.queue
             .preparations(of.vectors().as_deref())
             .poll_with_strategy(Awake::by(&self.new_preparation[of as usize], IDLE_POLL))
     }
 
-    /// Where a worker takes speeds from.
+    /// Source from which a worker takes speeds.
     pub(in crate::jobs) fn speeds(&self, of: Kind) -> PollWith<PostgresStorage<RunSpeed>, Awake> {
         self.queue
             .speeds(of.vectors().as_deref())
             .poll_with_strategy(Awake::by(&self.new_speeds[of as usize], IDLE_POLL))
     }
 
-    /// There may be new tasks.
+    /// Wakes the workers: there may be new tasks.
     pub(in crate::jobs) fn wake(&self) {
         for new in self.new_preparation.iter().chain(&self.new_speeds) {
             new.notify_one();
@@ -118,7 +118,7 @@ impl SharedTasks {
 
     pub(super) fn withdraw(&self, job: JobId) {
         let queue = self.queue.clone();
-        // What is not withdrawn finds that its job has ended.
+        // A task that is not withdrawn finds that its job has ended.
         tokio::spawn(async move {
             if let Err(error) = queue.withdraw(job).await {
                 tracing::debug!(job.id = %job, %error, "could not withdraw the tasks of a job");

@@ -1,4 +1,4 @@
-//! One process, one question after the other.
+//! Contract of the store for one process: one query after the other.
 
 use serde_json::json;
 
@@ -50,7 +50,7 @@ async fn models_belong_to_those_who_uploaded_them() {
             names(ModelFilter { before: Some(newest.number), ..ModelFilter::default() }).await,
             ['b', 'a']
         );
-        // Of letters a to z alone, and nothing stands for anything else.
+        // Case is ignored for the letters a to z alone, and no character is a wildcard.
         for (name, found) in [
             ("gRÖSSE", &[][..]),
             ("GRöße", &['a']),
@@ -171,7 +171,7 @@ async fn a_job_of_one_kind_stays_with_the_processors_that_began_it() {
         assert_eq!(kind(any).await.as_deref(), Some("several"));
         assert_eq!(kind(one).await.as_deref(), Some("here"));
 
-        // Alone, a machine of another kind takes it up from the beginning; otherwise its own may come back.
+        // On SQLite, another kind of machine restarts the job; on a server, its own kind may come back.
         store.restart_outdated().await.unwrap();
         let left = async |job| store.finished_speeds(job).await.unwrap().len();
         let is_alone = store.dialect == Dialect::Sqlite;
@@ -194,7 +194,7 @@ async fn legs_of_branches_are_kept_with_the_course_after_them() {
             .keep_leg(job, (Followed::Branches, 1), ("[22]", None), None, Some("{\"at\": 2}"))
             .await
             .unwrap();
-        // Somebody was slower.
+        // A slower process stores the leg again.
         store.keep_leg(job, (Followed::Branches, 0), ("[3]", None), None, Some("{\"at\": 3}")).await.unwrap();
         let text = async |document| store.document(job, document).await.unwrap();
         assert_eq!(store.legs(job, Followed::Branches).await.unwrap(), 2);
@@ -202,7 +202,7 @@ async fn legs_of_branches_are_kept_with_the_course_after_them() {
         assert_eq!(text(Document::BranchCourse).await.as_deref(), Some("{\"at\": 2}"));
         assert_eq!(store.job(job).await.unwrap().unwrap().stored_bytes, 7);
         store.keep_leg(job, (Followed::Branches, 2), ("[4]", None), None, None).await.unwrap();
-        // What lies beside a leg comes and stays with it.
+        // The document beside a leg comes and stays with it.
         for (leg, spectra) in [("[5]", "[55]"), ("[6]", "[66]")] {
             store
                 .keep_leg(
@@ -340,7 +340,7 @@ async fn limits_and_keys_refuse_what_is_too_much() {
         };
         let limits = Limits { queued_speeds: Some(5), ..Limits::default() };
         let some = sweep('a', 3);
-        // Its facts are missing, which the table of jobs refuses; nothing of it stays.
+        // The request lacks its facts, which the table of jobs refuses; nothing of it stays.
         assert!(insert(&some, limits, Some(&answer("eve", "k"))).await.is_err());
         assert_eq!(store.answer("eve", "k").await.unwrap(), None);
         queue(&store, "eve", 'a', 3, &Labels::default()).await;
@@ -371,7 +371,7 @@ async fn limits_and_keys_refuse_what_is_too_much() {
     }
 }
 
-/// A calibration in which all costs are `cost`.
+/// Calibration in which all costs are `cost`.
 pub(super) fn calibration(cost: f64) -> Calibration {
     let step = json!({"fixed": cost, "per_product": cost, "per_transform": cost});
     let mut effects = json!({});
@@ -380,7 +380,7 @@ pub(super) fn calibration(cost: f64) -> Calibration {
             "spectra": cost, "stress": cost});
         match serde_json::from_value(calibration) {
             Ok(calibration) => return calibration,
-            // Of which effects it has costs it knows best.
+            // The error names the next effect whose costs are missing.
             Err(error) => {
                 let missing = error.to_string().split(' ').next_back().unwrap().to_owned();
                 assert!(effects.get(&missing).is_none(), "{error}");
@@ -451,7 +451,7 @@ async fn what_can_be_computed_again_is_kept_with_its_model() {
     }
 }
 
-/// What no text of a database can hold, or what ends one in another language.
+/// Texts that might break a query, such as SQL or wildcards, are plain text.
 #[tokio::test]
 async fn text_is_text() {
     for store in stores().await {

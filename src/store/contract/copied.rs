@@ -1,4 +1,4 @@
-//! A data folder, copied into a database and an object store.
+//! Contract of copying a data folder into a database and an object store.
 
 use std::collections::BTreeSet;
 use std::fs::File;
@@ -21,10 +21,10 @@ use crate::store::status::JobStatus;
 use crate::store::testing::{TestStore, stores};
 use crate::store::{Copied, CopyError, Store, copy, sqlite};
 
-/// Tables that are not copied: which migrations were run, and whether a service could write.
+/// Tables that are not copied: the migrations run so far, and the probe of readiness.
 const NOT_COPIED: [&str; 2] = ["_sqlx_migrations", "readiness"];
 
-/// From where to where.
+/// Source and targets of a copy.
 struct Move {
     data: TempDir,
     objects: TempDir,
@@ -32,7 +32,7 @@ struct Move {
 }
 
 impl Move {
-    /// None where there is no PostgreSQL.
+    /// Prepares a copy; none without PostgreSQL.
     async fn new() -> Option<Self> {
         let target = stores().await.pop()?;
         target.url.as_ref()?;
@@ -53,7 +53,7 @@ impl Move {
     }
 }
 
-/// Jobs of every end in the data folder `data`, and a row in every table: successful, failed, unfinished.
+/// Fills the data folder `data` with a row in every table, and returns a successful, a failed and an unfinished job.
 async fn fill(data: &Path) -> [JobId; 3] {
     let store = Store::open(data).await.unwrap();
     store.probe().await.unwrap();
@@ -102,7 +102,7 @@ async fn count(connection: &mut AnyConnection, table: &str) -> i64 {
     sqlx::query_scalar(count).fetch_one(connection).await.unwrap()
 }
 
-/// What files in a folder contain, but for those that a reader of the database leaves.
+/// Contents of the files in a folder, except those that a reader of the database leaves.
 fn contents(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
     let mut waiting = vec![folder.to_owned()];
     let mut found = Vec::new();
@@ -141,7 +141,7 @@ async fn everything_arrives_and_a_second_copy_changes_nothing() {
     assert_eq!(rows.unsigned_abs(), copied.rows);
     source.close().await.unwrap();
 
-    // Read by a process of the cluster, whose data folder is empty.
+    // A process of the cluster, whose data folder is empty, reads the copy.
     let alone = Store::open(to.data.path()).await.unwrap();
     let folder = tempfile::tempdir().unwrap();
     let there = Store::connect(folder.path(), to.target.url.as_deref().unwrap()).await.unwrap();
@@ -169,7 +169,7 @@ async fn everything_arrives_and_a_second_copy_changes_nothing() {
     assert_eq!(part, Some(vec![1, 2, 3]));
     alone.close().await;
 
-    // Another measured what computing costs there.
+    // Another process measured the costs there.
     there.insert_calibration("eight", &calibration(2.0)).await.unwrap();
     let again = to.copy().await.unwrap();
     assert_eq!(again, Copied { new_rows: 0, new_files: 0, ..copied });
@@ -228,7 +228,7 @@ async fn a_folder_in_use_of_another_version_or_without_a_package_is_refused() {
     assert_eq!(count(&mut target, "models").await, 0);
 }
 
-/// Columns are read from the data folder alone.
+/// Columns of both databases are equal, as copies read them from the data folder alone.
 #[tokio::test]
 async fn both_databases_have_the_same_columns() {
     let Some(to) = Move::new().await else { return };
@@ -241,7 +241,7 @@ async fn both_databases_have_the_same_columns() {
         };
         let here = sqlx::query("select name from pragma_table_info($1)").bind(table);
         let here = names(here.fetch_all(&mut source).await.unwrap());
-        // Rows are numbered there by a column of its own.
+        // The server numbers its rows in a column of its own.
         let there = "select column_name::text from information_schema.columns
              where table_schema = current_schema() and table_name = $1 and is_identity = 'NO'";
         let there = names(sqlx::query(there).bind(table).fetch_all(&mut *target).await.unwrap());

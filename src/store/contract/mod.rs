@@ -1,4 +1,4 @@
-//! What the store answers, on every database that the program was built for.
+//! Contract of the store, tested on every database that the program was built for.
 
 mod alone;
 #[cfg(feature = "cluster")]
@@ -17,7 +17,7 @@ use crate::analysis::request::{Component, Sensor};
 use crate::analysis::result::{ContactForces, Point, SensorSpectrum, SpeedResult, SpeedSpectra, WearMap};
 use crate::analysis::run::ModelFacts;
 
-/// The id of a model, of one letter.
+/// Id of a model, made of one letter.
 fn model_id(letter: char) -> String {
     letter.to_string().repeat(64)
 }
@@ -35,7 +35,7 @@ fn labels(name: &str, tags: &[&str]) -> Labels {
     Labels { name: Some(name.to_owned()), tags, notes: None }
 }
 
-/// Uploads a model for `owner`. Whether it is new to him.
+/// Uploads a model for `owner`. Returns whether it is new to the owner.
 async fn upload(store: &Store, owner: &str, letter: char, labels: &Labels) -> bool {
     let upload = store.new_upload().await.unwrap().into_temp_path();
     std::fs::write(&upload, "package").unwrap();
@@ -48,7 +48,7 @@ fn sweep(letter: char, speeds: u32) -> JobRequest {
     sweep_on(letter, speeds, false)
 }
 
-/// The same, on one kind of processor or on any.
+/// Sweep over the model of this letter, on one kind of processor or on any.
 fn sweep_on(letter: char, speeds: u32, one_kind: bool) -> JobRequest {
     let values: Vec<u32> = (1..=speeds).collect();
     let request = json!({
@@ -81,7 +81,7 @@ fn point(index: u32, status: &str) -> Point {
     serde_json::from_value(point).unwrap()
 }
 
-/// A finished speed with everything a speed may have.
+/// Result of a finished speed with everything that a speed may have.
 fn result(index: u32) -> SpeedResult {
     let spectrum = SensorSpectrum {
         sensor: Sensor::at_contact(0, 1, Component::Radial),
@@ -97,12 +97,12 @@ fn result(index: u32) -> SpeedResult {
     }
 }
 
-/// Takes a job in hand, on one kind of processor. Whether it wants work.
+/// Starts a job on one kind of processor. Returns whether the job wants work.
 async fn begin(store: &Store, job: JobId) -> bool {
     store.begin_job(job, "V3").await.unwrap() == Begun::Yes
 }
 
-/// Keeps a finished speed. How many there are now.
+/// Stores a finished speed. Returns the number of finished speeds.
 async fn keep(store: &Store, job: JobId, result: &SpeedResult) -> Option<u32> {
     store.insert_speed(job, &PackedSpeed::of(result).unwrap()).await.unwrap()
 }

@@ -1,4 +1,4 @@
-//! Several processes that write at once. On `SQLite` they are one, as its data folder allows no more.
+//! Contract of the store for several processes that write at once. On `SQLite` they are one process, as a data folder allows no more.
 
 use futures::future::join_all;
 
@@ -15,7 +15,7 @@ use crate::store::results::Document;
 use crate::store::status::JobStatus;
 use crate::store::testing::stores;
 
-/// Processes.
+/// Number of processes.
 const PROCESSES: usize = 4;
 
 #[tokio::test(flavor = "multi_thread")]
@@ -27,7 +27,7 @@ async fn every_speed_counts_once() {
         assert!(
             join_all(processes.iter().map(|store| begin(store, job))).await.into_iter().all(|begun| begun)
         );
-        // Each speed twice, by two of them.
+        // Two processes store each speed.
         let speeds = (0..32).map(|i: u32| (&processes[i as usize % PROCESSES], result((i + i / 16) % 16)));
         join_all(speeds.map(async |(store, result)| keep(store, job, &result).await)).await;
         let done = store.job(job).await.unwrap().unwrap();
@@ -202,7 +202,7 @@ async fn numerics_do_not_mix_within_a_job() {
             assert_eq!(keep(&store, job, &result(1)).await, Some(1), "nor what we computed for it");
             assert_eq!(kept().await, 1);
         }
-        // Later programs may be at work on a server; a data folder is of one program, also of an older one that came back.
+        // Later programs may run on a server; a data folder belongs to one program, which may also be an older one that came back.
         store.restart_outdated().await.unwrap();
         assert_eq!(kept().await, usize::from(store.dialect == Dialect::Postgres));
         is_of(REVISION - 1).await;

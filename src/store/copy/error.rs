@@ -1,57 +1,57 @@
-//! Why a data folder was not copied.
+//! Errors of copying a data folder.
 
 use std::path::PathBuf;
 
 use crate::store::error::StoreError;
 
-/// Why a data folder was not copied.
+/// Error of copying a data folder.
 #[derive(Debug, thiserror::Error)]
 pub enum CopyError {
-    /// The folder, the database or the object store failed.
+    /// Failure of the folder, the database or the object store.
     #[error(transparent)]
     Store(#[from] StoreError),
-    /// A service works on the folder.
+    /// Folder that a service works on.
     #[error("a service has the data folder {}: stop it, or copy a backup (`rubmap backup`)", .0.display())]
     InUse(PathBuf),
-    /// Its tables are not those of this program.
+    /// Tables that are not those of this program.
     #[error(
         "its database has version {found}, this program knows {known}: start the service once to bring it up to date, or take the \
          program that wrote it"
     )]
     Version {
-        /// What was found.
+        /// Version that was found.
         found: i64,
-        /// The last that this program knows.
+        /// Latest version that this program knows.
         known: i64,
     },
-    /// A column of a type that is not copied: a defect.
+    /// Column of a type that is not copied: a defect.
     #[error("column {column} of the table {table} is of the type {kind}, which is not copied")]
     Column {
-        /// The table.
+        /// Name of the table.
         table: String,
-        /// Its column.
+        /// Name of the column.
         column: String,
-        /// What it is said to hold.
+        /// Declared type of the column.
         kind: String,
     },
-    /// What is there is not what the folder has.
+    /// Existing rows or objects that differ from those of the folder.
     #[error(
         "what is there already is not what the data folder has; it was left as it is, and no row was copied: {0}"
     )]
     Differs(Differences),
 }
 
-/// Rows and objects that are not what a data folder has.
+/// Rows and objects that differ from those of a data folder.
 #[derive(Debug, Default)]
 pub struct Differences {
-    /// The first of them.
+    /// Names of the first differences.
     named: Vec<String>,
-    /// How many there are.
+    /// Number of differences.
     count: usize,
 }
 
 impl Differences {
-    /// How many are named.
+    /// Largest number of differences that are named.
     const NAMED: usize = 20;
 
     pub(super) fn add(&mut self, name: impl FnOnce() -> String) {

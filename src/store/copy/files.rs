@@ -1,4 +1,4 @@
-//! Files of a data folder, put into an object store.
+//! Files of a data folder, copied into an object store.
 
 use std::collections::BTreeSet;
 use std::io;
@@ -15,11 +15,11 @@ use crate::store::objects::Objects;
 use crate::store::packages::package_path;
 use crate::store::{bases, checkpoints};
 
-/// A file that is copied.
+/// File to be copied.
 struct Original {
     path: PathBuf,
     bytes: u64,
-    /// A package, which cannot be computed again: its content is compared, not only its size.
+    /// Whether the file is a package, which cannot be computed again: its content is compared, not only its size.
     is_package: bool,
 }
 
@@ -54,7 +54,7 @@ pub(super) async fn copy(
     Ok(())
 }
 
-/// Packages, and of bases, stress and checkpoints what this version of the program can read.
+/// Files to be copied: packages, and the bases, stress and checkpoints that this version of the program can read.
 async fn originals(data: &Path, source: &mut AnyConnection) -> Result<Vec<Original>, StoreError> {
     let models: Vec<String> =
         sqlx::query_scalar("select id from models order by id").fetch_all(source).await?;
@@ -83,7 +83,7 @@ async fn originals(data: &Path, source: &mut AnyConnection) -> Result<Vec<Origin
     Ok(originals)
 }
 
-/// Whether what the object store has is the same; none if it has nothing of that name.
+/// Whether the object of the same name is equal; none if there is no such object.
 async fn is_there(objects: &Objects, original: &Original) -> Result<Option<bool>, StoreError> {
     let Some(bytes) = objects.size(&original.path).await.map_err(StoreError::Objects)? else {
         return Ok(None);

@@ -1,8 +1,8 @@
-//! A data folder, copied into the database and the object store that the processes of a cluster share.
+//! Copy of a data folder into the database and the object store that the processes of a cluster share.
 //!
-//! Files go first, one by one, and those that are there already are left out: a copy that broke off goes on with the next. Rows go in one
-//! transaction, read back and compared before it ends: services and workers that run meanwhile see a job with all its results or not at
-//! all. Nothing that is there is ever overwritten.
+//! Files go first, one by one, and files that are there already are left out: an interrupted copy continues with the next file. Rows go in
+//! one transaction, read back and compared before it ends: services and workers that run meanwhile see a job with all its results or not at
+//! all. Existing rows and objects are never overwritten.
 
 mod error;
 mod files;
@@ -26,11 +26,11 @@ use super::objects::{Address, Objects};
 use super::reserve::Reserve;
 use super::{postgres, sqlite};
 
-/// Copies all that the data folder `data` knows, on which no service may run, into the database at `url`, which is brought up to date,
-/// and the object store at `address`. The folder is only read. Jobs that have not ended wait there for a worker.
+/// Copies all contents of the data folder `data`, on which no service may run, into the database at `url`, which is brought up to date, and
+/// the object store at `address`. The folder is only read. Unfinished jobs wait there for a worker.
 ///
 /// # Errors
-/// Where something there is not what the folder has; no row is brought then.
+/// Existing rows or objects that differ from those of the folder; no row is copied then.
 pub async fn copy(
     data: &Path,
     url: &str,
@@ -57,7 +57,7 @@ pub async fn copy(
     Ok(copied)
 }
 
-/// Takes the data folder as a service would. One without the file, a backup, no service has ever had.
+/// Locks the data folder as a service does; none where no service has ever run, as in a backup.
 fn lock(data: &Path) -> Result<Option<File>, CopyError> {
     let file = match File::open(data.join(LOCK)) {
         Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),

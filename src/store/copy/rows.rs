@@ -1,4 +1,4 @@
-//! Rows of a data folder, put into the tables of a server.
+//! Rows of a data folder, copied into the tables of a server.
 
 use std::collections::HashMap;
 
@@ -11,26 +11,26 @@ use super::tables::{Column, Kind, Table, tables};
 use super::tally::{Copied, CopyProgress};
 use crate::store::error::StoreError;
 
-/// Rows that are sent at once: a statement takes 65,535 values.
+/// Largest number of rows sent at once: a statement takes 65,535 values.
 const ROWS: usize = 100;
 
-/// Bytes after which no more rows are added to those that are sent at once.
+/// Size in bytes from which a batch of rows is sent.
 const BYTES: usize = 8 << 20;
 
-/// A table whose rows stay as they are there: what was measured by those who compute there is as good.
+/// Table whose existing rows stay: costs measured by the processes there are as good.
 const MEASURED: &str = "calibrations";
 
-/// A value of a row.
+/// Value of a row.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 enum Value {
     Integer(Option<i64>),
-    /// Its bits.
+    /// Bits of the number.
     Real(Option<u64>),
     Text(Option<String>),
     Blob(Option<Vec<u8>>),
 }
 
-/// Copies all rows of `source` that `target` does not have, and looks whether it has what was sent.
+/// Copies all rows of `source` that `target` lacks, and checks that `target` has what was sent.
 pub(super) async fn copy(
     source: &mut AnyConnection,
     target: &mut AnyConnection,
@@ -79,7 +79,8 @@ async fn count(source: &mut AnyConnection, table: &Table) -> Result<u64, StoreEr
     Ok(rows.unsigned_abs())
 }
 
-/// All rows in the order in which they came: models are listed by it. What was running waits, for nobody computes it yet.
+/// Query of all rows in the order of their insertion, in which models are listed. Running jobs become accepted, as nobody computes them
+/// yet.
 fn select(table: &Table) -> String {
     let columns = table.columns.iter().map(|column| match (table.name.as_str(), column.name.as_str()) {
         ("jobs", "status") => "case status when 'running' then 'accepted' else status end".to_owned(),
@@ -118,7 +119,7 @@ impl Batch<'_> {
         self.rows.len() >= ROWS || self.bytes >= BYTES
     }
 
-    /// Puts those rows into `target` that it does not have, and compares. How many are new.
+    /// Inserts the rows that `target` lacks, and compares all. Returns the number of new ones.
     async fn send(
         &self,
         target: &mut AnyConnection,
@@ -164,7 +165,7 @@ impl Batch<'_> {
         values.filter(|(column, _)| column.is_key).map(|(_, value)| value.clone()).collect()
     }
 
-    /// A row in words.
+    /// Name of a row: its table and key.
     fn name(&self, key: &[Value]) -> String {
         let keys = self.table.columns.iter().filter(|column| column.is_key).zip(key);
         let keys: Vec<String> = keys.map(|(column, value)| format!("{} {value}", column.name)).collect();
@@ -176,7 +177,7 @@ fn names<'a>(columns: impl Iterator<Item = &'a Column>) -> String {
     columns.map(|column| format!("\"{}\"", column.name)).collect::<Vec<_>>().join(", ")
 }
 
-/// Places for the values of so many rows of so many columns.
+/// Placeholders for the values of `rows` rows of `columns` columns.
 fn places(rows: usize, columns: usize) -> String {
     let row = |row: usize| {
         let places: Vec<String> =
@@ -209,7 +210,7 @@ impl Value {
     }
 }
 
-/// For names of rows: what they are known by is there, and short.
+/// Display of key values in names of rows: always present and short.
 impl std::fmt::Display for Value {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {

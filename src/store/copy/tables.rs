@@ -1,4 +1,4 @@
-//! The tables of a data folder, as its database describes them.
+//! Tables of a data folder, as its database describes them.
 
 use std::collections::BTreeSet;
 
@@ -7,27 +7,26 @@ use sqlx::AnyConnection;
 use super::error::CopyError;
 use crate::store::error::StoreError;
 
-/// What is not copied: the history of migrations, which the other database has of its own, and a mark that a service writes to see
-/// whether it can.
+/// Tables that are not copied: the history of migrations, which the other database has of its own, and the probe of readiness.
 pub(super) const LEFT_OUT: [&str; 2] = ["_sqlx_migrations", "readiness"];
 
-/// A table.
+/// Table to be copied.
 #[derive(Debug)]
 pub(super) struct Table {
     pub(super) name: String,
     pub(super) columns: Vec<Column>,
 }
 
-/// A column.
+/// Column of a table.
 #[derive(Debug)]
 pub(super) struct Column {
     pub(super) name: String,
     pub(super) kind: Kind,
-    /// Whether rows are known by it.
+    /// Whether the column belongs to the primary key.
     pub(super) is_key: bool,
 }
 
-/// What a column may hold, beside nothing.
+/// Type of the values of a column, which may be null as well.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Kind {
     Integer,
@@ -48,7 +47,7 @@ impl Kind {
     }
 }
 
-/// The tables that are copied, each after those that its rows refer to.
+/// Tables to be copied, each after those that its rows refer to.
 pub(super) async fn tables(source: &mut AnyConnection) -> Result<Vec<Table>, CopyError> {
     let names = "select name from sqlite_master where type = 'table' and name not like 'sqlite\\_%' escape '\\' order by name";
     let names: Vec<String> =
@@ -68,7 +67,7 @@ pub(super) async fn tables(source: &mut AnyConnection) -> Result<Vec<Table>, Cop
     {
         ordered.push(waiting.remove(next).0);
     }
-    // A circle of references would be refused by the other database row by row.
+    // The other database would refuse circular references row by row.
     ordered.extend(waiting.into_iter().map(|(table, _)| table));
     Ok(ordered)
 }

@@ -1,27 +1,27 @@
-//! What a copy of a data folder tells of itself.
+//! Progress and outcome of a copy of a data folder.
 
-/// How far a copy is.
+/// Progress of a copy.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CopyProgress {
-    /// Bytes of files, and how many there are.
+    /// Bytes of files copied, and of all files.
     Files(u64, u64),
-    /// Rows, and how many there are.
+    /// Number of rows copied, and of all rows.
     Rows(u64, u64),
 }
 
-/// What a copy found and brought.
+/// Numbers of models, jobs, files and rows that a copy found and added.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Copied {
-    /// Models of the data folder.
+    /// Number of models of the data folder.
     pub models: u64,
-    /// Its jobs.
+    /// Number of jobs of the data folder.
     pub jobs: u64,
-    /// Its files.
+    /// Number of files of the data folder.
     pub files: u64,
-    /// Files that were not there before.
+    /// Number of files that were new to the object store.
     pub new_files: u64,
-    /// Rows of its tables.
+    /// Number of rows of the data folder.
     pub rows: u64,
-    /// Rows that were not there before.
+    /// Number of rows that were new to the database.
     pub new_rows: u64,
 }

@@ -1,4 +1,4 @@
-//! The life of a job: from its beginning to its end.
+//! Status changes of jobs: from start to end.
 
 use super::job::{Failure, JobId};
 use super::row::status_of;
@@ -11,20 +11,20 @@ use crate::store::results::Document;
 use crate::store::status::JobStatus;
 use crate::store::time::now;
 
-/// What came of taking a job in hand.
+/// Outcome of starting a job.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Begun {
-    /// It is running from here on.
+    /// Job that is running from here on.
     Yes,
-    /// It wants no work any more.
+    /// Job that wants no work any more.
     Unwanted,
-    /// It belongs to processors with this other kind of vectors.
+    /// Job that belongs to processors with this other kind of vectors.
     Elsewhere(String),
 }
 
 impl Store {
-    /// Moves a job on, if the transition table allows it. Returns the status it has now; `None` if there is no
-    /// such job. `failure` goes with [`JobStatus::Failed`] and with nothing else.
+    /// Moves a job to another status, if the transition table allows it. Returns the status it has now; `None` if there is no such job.
+    /// `failure` belongs to [`JobStatus::Failed`] and to no other status.
     pub async fn advance_job(
         &self,
         id: JobId,
@@ -63,12 +63,12 @@ impl Store {
         self.with_reserve(|| self.advance_job(id, JobStatus::Dismissed, None)).await
     }
 
-    /// Sets a job aside, on a full disk as well. Returns the status it has now; `None` if there is no such job.
+    /// Pauses a job, on a full disk as well. Returns the status it has now; `None` if there is no such job.
     pub async fn pause_job(&self, id: JobId) -> Result<Option<JobStatus>, StoreError> {
         self.with_reserve(|| self.advance_job(id, JobStatus::Paused, None)).await
     }
 
-    /// Takes a job in hand on a processor with this kind of vectors; of other numerics it is unwanted here.
+    /// Starts a job on a processor with this kind of vectors; a job of another revision of the numerics is unwanted here.
     pub async fn begin_job(&self, id: JobId, vectors: &str) -> Result<Begun, StoreError> {
         let mut write = self.write().await?;
         let begun = sqlx::query(
@@ -99,8 +99,8 @@ impl Store {
         Ok(kept.flatten().map_or(Begun::Unwanted, Begun::Elsewhere))
     }
 
-    /// Ends a running job well: keeps the `documents` computed at its end (as JSON) or the id of the model it `made`,
-    /// and marks it successful, in one transaction. False if the job was not running any more.
+    /// Completes a running job: stores the `documents` computed at its end (as JSON) or the id of the model it `made`, and marks it
+    /// successful, in one transaction. False if the job was not running any more.
     pub async fn complete_job(
         &self,
         id: JobId,

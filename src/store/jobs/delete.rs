@@ -1,4 +1,4 @@
-//! Deleting jobs, and giving their room back to the file system.
+//! Deletion of jobs, and release of their disk space.
 
 use chrono::{TimeDelta, Utc};
 use sqlx::AnyConnection;
@@ -10,20 +10,20 @@ use crate::store::error::StoreError;
 use crate::store::handle::Store;
 use crate::store::time::timestamp;
 
-/// Speeds that one transaction deletes: others get to write in between.
+/// Number of speeds that one transaction deletes: others may write in between.
 const SPEEDS_AT_ONCE: i64 = 64;
 
-/// Pages of the database given back at once.
+/// Number of database pages released at once.
 const PAGES_AT_ONCE: u32 = 1024;
 
-/// What became of a job that was to be deleted.
+/// Outcome of deleting a job.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum JobDeletion {
-    /// Nobody sees it any more; [`Store::purge`] gives its room back.
+    /// Deleted job, hidden from all listings; [`Store::purge`] releases its disk space.
     Deleted,
-    /// There is no such job.
+    /// Unknown job.
     Unknown,
-    /// It still wants work.
+    /// Unfinished job, which still wants work.
     Unfinished,
 }
 
@@ -54,7 +54,7 @@ impl Store {
         Ok(outcome)
     }
 
-    /// Deletes the jobs that ended more than so many days ago, on a full disk as well. Returns how many.
+    /// Deletes the jobs that ended more than `days` days ago, on a full disk as well. Returns how many.
     pub async fn delete_older_jobs(&self, days: u32) -> Result<u64, StoreError> {
         self.with_reserve(|| self.mark_older_deleted(days)).await
     }
@@ -70,8 +70,7 @@ impl Store {
         Ok(deleted.rows_affected())
     }
 
-    /// Removes the rows of deleted jobs, a few at a time, and gives their room back to the file system. Goes on where it
-    /// was if it is interrupted.
+    /// Removes the rows of deleted jobs, a few at a time, and releases their disk space. Continues after an interruption.
     pub async fn purge(&self) -> Result<(), StoreError> {
         self.with_reserve(|| self.remove_deleted()).await?;
         self.reserve.keep().await?;
@@ -84,7 +83,7 @@ impl Store {
         for id in &deleted {
             loop {
                 let mut write = self.write_removal().await?;
-                // Two that remove the same rows would each find that none are left.
+                // Of two processes that remove the same rows, each would find that none are left.
                 write.guard(Guarded::Job(read_id(id)?)).await?;
                 let removed = sqlx::query(
                     "delete from speed_results where job = $1 and speed in
@@ -104,16 +103,16 @@ impl Store {
                 }
             }
         }
-        // PostgreSQL gives room to what comes later, by itself.
+        // PostgreSQL reuses free space by itself.
         if deleted.is_empty() || self.dialect == Dialect::Postgres { Ok(()) } else { self.give_back().await }
     }
 
-    /// Gives free pages back to the file system, some at a time, and what the write-ahead log has grown to.
+    /// Releases free pages to the file system, some at a time, and the grown part of the write-ahead log.
     async fn give_back(&self) -> Result<(), StoreError> {
         let mut before = i64::MAX;
         loop {
             let free: i64 = sqlx::query_scalar("pragma freelist_count").fetch_one(&self.readers).await?;
-            // A database of an earlier version that could not be made anew keeps them.
+            // A database of an earlier version that could not be rebuilt keeps its free pages.
             if free == 0 || free >= before {
                 break;
             }
@@ -123,7 +122,7 @@ impl Store {
         self.pragma("pragma wal_checkpoint(truncate)".to_owned()).await
     }
 
-    /// A statement that writes and wants no transaction around it.
+    /// Runs a writing statement that allows no transaction around it.
     async fn pragma(&self, statement: String) -> Result<(), StoreError> {
         let mut writer = self.writer.acquire().await?;
         if let Err(error) = sqlx::query(sqlx::AssertSqlSafe(statement)).fetch_all(&mut *writer).await {
@@ -134,7 +133,7 @@ impl Store {
     }
 }
 
-/// Nobody is to be told again that a deleted job is accepted: its idempotency key is free.
+/// Frees the idempotency keys of deleted jobs: a repeated request must not get the old answer.
 async fn forget_answers(connection: &mut AnyConnection) -> Result<(), StoreError> {
     sqlx::query(
         "delete from idempotency_keys where location in (select '/v1/jobs/' || id from jobs where deleted = 1)",

@@ -1,4 +1,4 @@
-//! One job, or a page of them.
+//! Queries of one job or of a page of jobs.
 
 use sqlx::AssertSqlSafe;
 
@@ -11,26 +11,26 @@ use crate::store::handle::Store;
 use crate::store::labels::quoted;
 use crate::store::status::JobStatus;
 
-/// Which jobs to list.
+/// Filter of a listing of jobs.
 #[derive(Debug, Clone, Default)]
 pub struct JobFilter {
-    /// Only of this owner.
+    /// Owner whose jobs are listed; all owners if none.
     pub owner: Option<String>,
-    /// Only with this status.
+    /// Status of the jobs listed.
     pub status: Option<JobStatus>,
-    /// Only of this kind.
+    /// Kind of the jobs listed.
     pub kind: Option<JobKind>,
-    /// Only of this model.
+    /// Model of the jobs listed.
     pub model: Option<String>,
-    /// Only with this in their names; letters a to z may be capitals or not.
+    /// Text that the names of the jobs contain; case is ignored for the letters a to z.
     pub name: Option<String>,
-    /// Only with this among their tags.
+    /// Tag of the jobs listed.
     pub tag: Option<String>,
-    /// Only older than this one: the last of the previous page.
+    /// Job that all listed ones are older than: the last of the previous page.
     pub before: Option<JobId>,
 }
 
-/// Ids of the jobs of a page, all of it answered by one index.
+/// Query of the ids of the jobs of a page, answered by one index.
 fn page(dialect: Dialect) -> String {
     format!(
         "select id from jobs {}
@@ -43,7 +43,7 @@ fn page(dialect: Dialect) -> String {
 }
 
 impl Store {
-    /// The job `id`.
+    /// Finds the job `id`.
     pub async fn job(&self, id: JobId) -> Result<Option<Job>, StoreError> {
         sqlx::query("select * from jobs where id = $1 and deleted = 0")
             .bind(id.to_string())
@@ -53,7 +53,7 @@ impl Store {
             .transpose()
     }
 
-    /// What lists say of the job `id`: cheap, however much it asks for.
+    /// Finds the job `id` as lists show it: cheap, however large its request is.
     pub async fn job_head(&self, id: JobId) -> Result<Option<JobHead>, StoreError> {
         sqlx::query(AssertSqlSafe(format!("select {HEAD} from jobs where id = $1 and deleted = 0")))
             .bind(id.to_string())
@@ -63,7 +63,7 @@ impl Store {
             .transpose()
     }
 
-    /// Up to `limit` jobs that pass `filter`, newest first.
+    /// Finds up to `limit` jobs that pass `filter`, newest first.
     pub async fn jobs(&self, filter: JobFilter, limit: u32) -> Result<Vec<JobHead>, StoreError> {
         let page = page(self.dialect);
         sqlx::query(AssertSqlSafe(format!("select {HEAD} from jobs where id in ({page}) order by id desc")))
@@ -91,7 +91,7 @@ mod tests {
 
     use super::*;
 
-    /// Ten thousand jobs with requests of several pages of the database each: a listing must not read them.
+    /// Jobs, ten thousand of them, with requests of several database pages each: a listing must not read the requests.
     #[tokio::test]
     async fn a_page_of_many_jobs_is_found_in_one_index() {
         const JOBS: u32 = 10_000;
@@ -133,7 +133,7 @@ mod tests {
         assert_eq!(names(&find(named).await), ["Wheel 7799", "Wheel 7798", "Wheel 7797"]);
         let nobody = JobFilter { name: Some("%".to_owned()), ..JobFilter::default() };
         assert!(find(nobody).await.is_empty());
-        // Some milliseconds; a minute of a loaded machine is not what this is about.
+        // The query takes some milliseconds; the bound of a minute allows for a loaded machine.
         assert!(begin.elapsed() < Duration::from_secs(2), "{:?}", begin.elapsed());
         eprintln!("four listings of {JOBS} jobs: {:?}", begin.elapsed());
     }

@@ -1,4 +1,4 @@
-//! Keeping a new job.
+//! Insertion of a new job.
 
 use super::job::JobId;
 use super::job_kind::JobKind;
@@ -12,22 +12,22 @@ use crate::store::labels::Labels;
 use crate::store::limits::{LimitReached, Limits};
 use crate::store::time::now;
 
-/// What became of a job that was to be kept.
+/// Outcome of inserting a job.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Insertion {
-    /// It is accepted.
+    /// Accepted job.
     Accepted,
-    /// Its model is not there (any more).
+    /// Model that does not exist (any more).
     UnknownModel,
-    /// The idempotency key was used meanwhile; nothing was kept.
+    /// Idempotency key that was used meanwhile; nothing was stored.
     KeyTaken,
-    /// Its owner has too much already.
+    /// Limit of the owner that is reached.
     Limit(LimitReached),
 }
 
 impl Store {
-    /// Keeps a new job of `owner`, within `limits`, called as `labels` say, with the answer its idempotency key will repeat. `facts`
-    /// are those of the model it computes from, if it does.
+    /// Stores a new job of `owner`, within `limits`, with the names and tags of `labels`, and with the answer its idempotency key will
+    /// repeat. `facts` are those of the model it computes from, if it does.
     pub async fn insert_job(
         &self,
         id: JobId,
@@ -39,7 +39,7 @@ impl Store {
     ) -> Result<Insertion, StoreError> {
         let mut transaction = self.write().await?;
         transaction.guard(Guarded::Owner(owner)).await?;
-        // In one order, or two that compare the same models could wait for each other.
+        // One order of models: otherwise two jobs that compare the same models could wait for each other.
         let mut models: Vec<&str> = request.model().into_iter().chain(request.compared_model()).collect();
         models.sort_unstable();
         for model in models {
@@ -97,7 +97,7 @@ impl Store {
         Ok(Insertion::Accepted)
     }
 
-    /// Whether others can read a job that was just kept: only then may its client be told so.
+    /// Checks that other connections can read a job that was just stored: only then may its client be told so.
     async fn seen(&self, id: JobId) -> Result<(), StoreError> {
         let seen = sqlx::query("select id from jobs where id = $1")
             .bind(id.to_string())

@@ -1,4 +1,4 @@
-//! A job as it is remembered.
+//! Job as it is stored.
 
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
@@ -17,7 +17,7 @@ use crate::store::status::JobStatus;
 pub struct JobId(Uuid);
 
 impl JobId {
-    /// A new id, greater than all before it.
+    /// Creates an id greater than all before it.
     pub fn new() -> Self {
         Self(Uuid::now_v7())
     }
@@ -42,101 +42,101 @@ impl std::fmt::Display for JobId {
     }
 }
 
-/// Why a job failed.
+/// Failure of a job, with its reason.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Failure {
-    /// Which kind of failure.
+    /// Cause of the failure.
     pub cause: FailureCause,
-    /// What happened, in words an engineer can act on.
+    /// Description of the failure, in words an engineer can act on.
     pub message: String,
-    /// Offending fields of the request, if it was the request.
+    /// Invalid fields of the request, if the request caused the failure.
     #[serde(default)]
     pub violations: Vec<Violation>,
 }
 
-/// Kinds of failure.
+/// Causes of failure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum FailureCause {
-    /// The request asks for something that only the reduced model shows to be impossible.
+    /// Request for something that only the reduced model shows to be impossible.
     Refused,
-    /// The model cannot be reduced or evaluated.
+    /// Model that cannot be reduced or evaluated.
     Model,
-    /// The stored package could not be read again.
+    /// Stored package that could not be read again.
     Package,
-    /// It needs more memory than allowed.
+    /// Job that needs more memory than allowed.
     Memory,
-    /// Its owner has too much already.
+    /// Owner whose limits are reached.
     Limit,
-    /// No speed of a sweep was integrated to its end.
+    /// Sweep of which no speed was integrated to its end.
     NothingCompleted,
-    /// A defect of this program: a computation panicked.
+    /// Defect of this program: a computation panicked.
     Defect,
-    /// The database or the disk failed.
+    /// Database or disk that failed.
     Storage,
 }
 
-/// Settings that were chosen for a job, and why.
+/// Settings that the service chose for a job, with the reasons.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum Chosen {
-    /// For a sweep, by pilot runs.
+    /// Settings of a sweep, chosen by pilot runs.
     Setting(Choice),
-    /// For a modal analysis, by its reductions.
+    /// Modes per speed of a modal analysis, chosen by its reductions.
     Modes(ModesChoice),
 }
 
-/// A stored job as lists show it.
+/// Stored job as lists show it.
 #[derive(Debug, Clone)]
 pub struct JobHead {
-    /// Its id.
+    /// Id of the job.
     pub id: JobId,
-    /// Whose it is; empty where the service knows no owners.
+    /// Owner of the job; empty where the service knows no owners.
     pub owner: String,
-    /// Its kind.
+    /// Kind of the job.
     pub kind: JobKind,
-    /// What its owner calls it.
+    /// Name, tags and notes that the owner gave the job.
     pub labels: Labels,
-    /// How far it is.
+    /// Status of the job.
     pub status: JobStatus,
-    /// The model it computes from, or the one that a finished generation made.
+    /// Model that the job computes from, or that a finished generation made.
     pub model: Option<String>,
-    /// Percent of the work done.
+    /// Progress, percent of the work.
     pub progress: u8,
-    /// What runs now, in words.
+    /// Phase of the computation, in words.
     pub phase: String,
-    /// Its speeds.
+    /// Numbers of speeds of the job.
     pub speeds: SpeedCounts,
-    /// Bytes that its results take in the database.
+    /// Size of its results in the database, bytes.
     pub stored_bytes: u64,
-    /// Why it failed.
+    /// Failure of the job, if it failed.
     pub failure: Option<Failure>,
-    /// RFC 3339, as all below.
+    /// Time at which the job was accepted, RFC 3339.
     pub created_at: String,
-    /// When computing began.
+    /// Time at which computing began, RFC 3339.
     pub started_at: Option<String>,
-    /// When it became final.
+    /// Time at which the status became final, RFC 3339.
     pub finished_at: Option<String>,
-    /// When anything of the above last changed.
+    /// Time at which anything of the above last changed, RFC 3339.
     pub updated_at: String,
 }
 
-/// A stored job.
+/// Stored job.
 #[derive(Debug, Clone)]
 pub struct Job {
-    /// What lists show of it.
+    /// Part of the job that lists show.
     pub head: JobHead,
-    /// Facts of the model it computes from when it was accepted.
+    /// Facts of the model that the job computes from, when the job was accepted.
     pub facts: Option<ModelFacts>,
-    /// The whole request as resolved, and as revised since: see [`Store::revise_request`](crate::store::Store::revise_request).
+    /// Request as resolved in full, and as revised since: see [`Store::revise_request`](crate::store::Store::revise_request).
     pub request: JobRequest,
-    /// What a sweep was expected to cost when its first speeds were queued.
+    /// Expected cost of a sweep when its first speeds were queued.
     pub plan: Option<Estimate>,
-    /// The settings that were chosen for it.
+    /// Settings that the service chose for the job.
     pub choice: Option<Chosen>,
-    /// Revision of the numerics that its results are of.
+    /// Revision of the numerics that computed its results.
     pub revision: u32,
-    /// Kind of vectors of the processor that it was computed on; unknown of jobs of earlier versions.
+    /// Kind of vectors of the processor that computed the job; unknown for jobs of earlier versions.
     pub vectors: Option<String>,
 }
 
@@ -148,15 +148,15 @@ impl std::ops::Deref for Job {
     }
 }
 
-/// Speeds of a job, counted.
+/// Numbers of speeds of a job.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 pub struct SpeedCounts {
-    /// Asked for, and added by `refine` or for a threshold so far: grows while such a job runs.
+    /// Number of speeds requested, and added by `refine` or for a threshold so far: grows while such a job runs.
     pub total: u32,
-    /// With a result, whichever.
+    /// Number of speeds with a result, whatever the outcome.
     pub finished: u32,
-    /// Of the finished ones: stopped because the response grew beyond any physical bound.
+    /// Number of finished speeds that were stopped because the response grew beyond any physical bound.
     pub diverged: u32,
-    /// Of the finished ones: could not be integrated.
+    /// Number of finished speeds that could not be integrated.
     pub failed: u32,
 }

@@ -13,22 +13,22 @@ pub enum JobKind {
     Sweep,
     /// Natural frequencies over speeds.
     ModalAnalysis,
-    /// A model from the parameters of the generator.
+    /// Model generated from the parameters of the generator.
     ModelGeneration,
-    /// Errors and times of a grid of settings.
+    /// Study of errors and times over a grid of settings.
     Study,
-    /// What happens at chosen speeds.
+    /// Case study: detailed results at chosen speeds.
     CaseStudy,
-    /// Periodic responses over a number of their scene.
+    /// Branches of periodic responses over a parameter of their scene.
     Branches,
-    /// A scene whose speed changes.
+    /// Run-ups: a scene whose speed changes.
     RunUp,
     /// Contact simulations over speeds, of many designs of a scene.
     Campaign,
 }
 
 impl JobKind {
-    /// The word on the wire and in the database.
+    /// Word for the kind in requests, in answers and in the database.
     pub fn as_str(self) -> &'static str {
         match self {
             Self::Sweep => "sweep",
@@ -42,7 +42,7 @@ impl JobKind {
         }
     }
 
-    /// The kind that a column holds.
+    /// Kind that a column holds.
     pub(super) fn from_column(text: &str) -> Result<Self, StoreError> {
         let kinds = [
             Self::Sweep,

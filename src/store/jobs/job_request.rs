@@ -1,4 +1,4 @@
-//! What a job computes, and how the table of jobs keeps it.
+//! Request of a job, and its form in the table of jobs.
 
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
@@ -12,41 +12,41 @@ use crate::analysis::resolved::{
 use crate::impeller::ImpellerParameters;
 use crate::store::error::StoreError;
 
-/// What a job computes: checked, and with every default filled in.
+/// Request of a job: checked, and with every default filled in.
 #[derive(Debug, Clone, PartialEq)]
 pub enum JobRequest {
     /// Contact simulations over speeds.
     Sweep(Box<ResolvedSweep>),
     /// Natural frequencies over speeds.
     ModalAnalysis(Box<ResolvedModalAnalysis>),
-    /// A model from the parameters of the generator.
+    /// Model generated from the parameters of the generator.
     ModelGeneration(Box<ImpellerParameters>),
-    /// Errors and times of a grid of settings.
+    /// Study of errors and times over a grid of settings.
     Study(Box<ResolvedStudy>),
-    /// What happens at chosen speeds.
+    /// Case study: detailed results at chosen speeds.
     CaseStudy(Box<ResolvedCaseStudy>),
-    /// Periodic responses over a number of their scene.
+    /// Branches of periodic responses over a parameter of their scene.
     Branches(Box<ResolvedBranches>),
-    /// A scene whose speed changes.
+    /// Run-ups: a scene whose speed changes.
     RunUps(Box<ResolvedRunUps>),
     /// Contact simulations over speeds, of many designs of a scene.
     Campaign(Box<ResolvedCampaign>),
 }
 
-/// Version of the form in which requests are kept; a change of it needs a migration.
+/// Version of the form in which requests are stored; a change of it needs a migration.
 const SCHEMA: u32 = 1;
 
-/// A request as it is kept.
+/// Request as it is stored.
 #[derive(Serialize, Deserialize)]
 struct Kept<R> {
     schema: u32,
-    /// How many of the last lists of speeds `refine` has added.
+    /// Number of the last lists of speeds that `refine` has added.
     rounds: u32,
     request: R,
 }
 
 impl JobRequest {
-    /// Its kind.
+    /// Kind of the job.
     pub fn kind(&self) -> JobKind {
         match self {
             Self::Sweep(_) => JobKind::Sweep,
@@ -60,12 +60,12 @@ impl JobRequest {
         }
     }
 
-    /// Whether all of it must be computed on processors with one kind of vectors.
+    /// Whether the whole job must be computed on processors with one kind of vectors.
     pub fn is_of_one_kind(&self) -> bool {
         matches!(self, Self::Sweep(request) if request.is_of_one_kind())
     }
 
-    /// The model it computes from, if it does.
+    /// Model that the job computes from, if it does.
     pub fn model(&self) -> Option<&str> {
         match self {
             Self::Sweep(request) => Some(request.model()),
@@ -79,7 +79,7 @@ impl JobRequest {
         }
     }
 
-    /// Another model that it computes from, if it compares two.
+    /// Second model that the job computes from, if it compares two.
     pub fn compared_model(&self) -> Option<&str> {
         match self {
             Self::Campaign(campaign) => campaign.compared_model(),
@@ -87,13 +87,13 @@ impl JobRequest {
         }
     }
 
-    /// How many speeds it has by now, of all its designs together.
+    /// Number of speeds by now, of all designs together.
     pub fn speeds(&self) -> u32 {
         match self {
             Self::Sweep(request) => request.speeds().count(),
             Self::ModalAnalysis(request) => request.speeds().count(),
             Self::ModelGeneration(_) => 0,
-            // Runs are what it computes one after the other.
+            // Each run counts as one speed.
             Self::RunUps(asked) => asked.runs(),
             Self::Study(request) => request.speeds().count(),
             Self::CaseStudy(case) => case.speeds().len() as u32,
@@ -102,7 +102,7 @@ impl JobRequest {
         }
     }
 
-    /// How many speeds it may come to, as far as it says.
+    /// Largest number of speeds that the request may reach, as far as it tells.
     pub fn speeds_at_most(&self) -> u32 {
         match self {
             Self::Campaign(campaign) => campaign.simulations_at_most(),
@@ -110,7 +110,7 @@ impl JobRequest {
         }
     }
 
-    /// `modes_per_speed` of the reduction that its results rest on, if there is one and it is known.
+    /// Number `modes_per_speed` of the reduction that the results rest on, if there is one and it is known.
     pub fn modes_per_speed(&self) -> Option<u32> {
         match self {
             Self::Sweep(request) => request.modes().given(),
@@ -203,7 +203,7 @@ mod tests {
         }
     }
 
-    /// Defaults are filled in before a request is kept: one that changes later changes nothing that was asked for.
+    /// Defaults are filled in before a request is stored: a later change of a default changes no stored request.
     #[test]
     fn what_is_kept_marches_as_long_as_was_asked() {
         let integration = |kept: &JobRequest| {
@@ -211,7 +211,7 @@ mod tests {
             kept.pointer("/request/integration/revolutions").cloned()
         };
         let speeds = json!({"values": [1.0], "unit": "hz"});
-        // Kept when 50 revolutions were the default, before a march could end by itself.
+        // Stored when 50 revolutions were the default, before a simulation could end by itself.
         let before = json!({
             "scheme": "auto", "kept_modes": "auto", "steps_per_revolution": "auto", "revolutions": 50,
             "ramp_revolutions": 1.0, "window_revolutions": 20
@@ -222,7 +222,7 @@ mod tests {
         assert_eq!(integration(&read), Some(json!(50)));
         let JobRequest::Sweep(resolved) = &read else { panic!("{read:?}") };
         assert_eq!(resolved.unrefined().integration.revolutions(), 50);
-        // And what is asked for now, in words, not by what is left away.
+        // New requests store the word `auto` instead of omitting the value.
         let now = JobRequest::from_json(JobKind::Sweep, &sweep(speeds, 0)).unwrap();
         assert_eq!(integration(&now), Some(json!("auto")));
     }

@@ -1,4 +1,4 @@
-//! Calling a job otherwise.
+//! Changes of the labels of a job.
 
 use super::job::JobId;
 use crate::store::error::StoreError;

@@ -1,4 +1,4 @@
-//! Jobs: what was asked for and how far it is.
+//! Jobs: their requests, their progress and their end.
 
 mod advance;
 mod delete;

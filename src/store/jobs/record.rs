@@ -1,4 +1,4 @@
-//! What becomes known of a job while it runs.
+//! Records of a job while it runs: progress, choice and plan.
 
 use super::job::{Chosen, JobId};
 use crate::analysis::run::Estimate;
@@ -23,7 +23,7 @@ impl Store {
         write.commit_job(id).await
     }
 
-    /// Keeps the settings that were chosen for a job, and why.
+    /// Stores the settings that were chosen for a job, with the reasons.
     pub async fn record_choice(&self, id: JobId, choice: &Chosen) -> Result<(), StoreError> {
         let mut write = self.write().await?;
         sqlx::query("update jobs set choice = $1 where id = $2")
@@ -34,7 +34,7 @@ impl Store {
         write.commit_job(id).await
     }
 
-    /// Keeps what a sweep is expected to cost; the first estimate stays.
+    /// Stores the expected cost of a sweep; the first estimate stays.
     pub async fn record_plan(&self, id: JobId, estimate: &Estimate) -> Result<(), StoreError> {
         let mut write = self.write().await?;
         sqlx::query("update jobs set plan = $1 where id = $2 and plan is null")

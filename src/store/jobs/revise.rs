@@ -1,4 +1,4 @@
-//! Another request for a job that is running.
+//! Revision of the request of a running job.
 
 use super::job::JobId;
 use super::job_request::JobRequest;
@@ -7,9 +7,8 @@ use crate::store::handle::Store;
 use crate::store::time::now;
 
 impl Store {
-    /// Gives a running job another request of the same kind, with so many `speeds`. What is finished stays, so speeds keep
-    /// their indices. False if the job is not running any more, or has been given more speeds since: their number never
-    /// falls.
+    /// Replaces the request of a running job by another of the same kind, with this number of `speeds`. Finished speeds stay, so speeds
+    /// keep their indices. False if the job is not running any more, or has been given more speeds since: their number never falls.
     pub async fn revise_request(
         &self,
         id: JobId,
@@ -70,7 +69,7 @@ mod tests {
                 async |modes, speeds| store.revise_request(job, &sweep(modes, speeds), speeds).await.unwrap();
             assert!(!revise(20, 6).await, "nobody has it in hand");
             assert_eq!(store.begin_job(job, "V3").await.unwrap(), Begun::Yes);
-            // Twice is as once.
+            // A repetition changes nothing.
             assert!(revise(30, 6).await && revise(30, 6).await);
             assert!(!revise(20, 5).await, "it has six by now");
             let kept: (String, i64, i64) =

@@ -1,4 +1,4 @@
-//! Rows of jobs as jobs.
+//! Conversion of rows to jobs.
 
 use sqlx::Row;
 use sqlx::any::AnyRow;
@@ -26,7 +26,7 @@ pub(super) fn read_id(text: &str) -> Result<JobId, StoreError> {
     JobId::parse(text).ok_or_else(|| StoreError::Unknown { column: "jobs.id", value: text.to_owned() })
 }
 
-/// The columns of [`read_head`].
+/// Columns that [`read_head`] reads.
 pub(super) const HEAD: &str = "id, owner, kind, status, model, progress, phase, speeds, finished, diverged, failed, stored_bytes, error,
     created_at, started_at, finished_at, updated_at, name, tags, notes";
 
@@ -35,7 +35,7 @@ pub(super) fn read_head(row: &AnyRow) -> Result<JobHead, StoreError> {
     let status = JobStatus::from_column(row.try_get("status")?)?;
     let total = number(row, "speeds")?;
     let finished = match (kind, status) {
-        // These compute their speeds together.
+        // These kinds of jobs compute all their speeds together.
         (
             JobKind::ModalAnalysis | JobKind::Study | JobKind::CaseStudy | JobKind::Branches,
             JobStatus::Successful,

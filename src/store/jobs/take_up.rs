@@ -1,4 +1,4 @@
-//! Taking up unfinished jobs when a service starts, and counting those it died under.
+//! Recovery of unfinished jobs when a service starts, and counts of the crashes they may have caused.
 
 use sqlx::AssertSqlSafe;
 
@@ -10,21 +10,20 @@ use crate::store::error::StoreError;
 use crate::store::handle::Store;
 use crate::store::sql::of;
 
-/// A job that still wants work.
+/// Unfinished job that still wants work.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Unfinished {
-    /// Its id.
+    /// Id of the job.
     pub id: JobId,
-    /// Whose it is.
+    /// Owner of the job.
     pub owner: String,
-    /// Times the service died while something was being computed for it, since anything of it was last finished.
+    /// Number of times the service died while the job was being computed, since any part of it was last finished.
     pub crashes: u32,
 }
 
 impl Store {
-    /// Counts one more death of the service for the jobs that something was being computed for when it last died; those
-    /// that only waited beside them are not to blame. A job of which something was finished before, a part of its
-    /// reduction, begins anew. For a service that starts.
+    /// Counts one more crash of the service for the jobs that were being computed when it last died, not for those that only waited beside
+    /// them. For a job of which a part of its reduction was finished before, the count begins anew. For a service that starts.
     pub async fn count_crashes(&self) -> Result<(), StoreError> {
         let marked = self.marked()?;
         if marked.is_empty() {
@@ -44,7 +43,7 @@ impl Store {
                 (Some(model), Some(modes)) => {
                     self.checkpoints(&model, of("jobs.modes_per_speed", modes)?).parts().await?
                 }
-                // Of many reductions, or of one not chosen yet.
+                // The job has many reductions, or one not chosen yet.
                 (Some(model), None) => self.parts_of_model(&model).await?,
                 (None, _) => 0,
             };
@@ -60,10 +59,10 @@ impl Store {
         self.forget_marked()
     }
 
-    /// Lets unfinished jobs begin anew that another revision of the numerics began: all speeds of a sweep are of one. The same of those
-    /// of one kind of vectors that another kind began, unless there may be machines of that one: on a server, which may have later programs
-    /// as well, whose jobs are left to them. Settings that
-    /// were chosen and speeds that were added before stay, as if they had been asked for. For a service that starts.
+    /// Restarts unfinished jobs that another revision of the numerics began: all speeds of a sweep belong to one revision. Restarts as well
+    /// jobs bound to one kind of vectors that another kind began, except on a server: it may have machines of that kind, and later
+    /// programs, to which their jobs are left. Chosen settings and added speeds stay, as if they had been requested. For a service that
+    /// starts.
     pub async fn restart_outdated(&self) -> Result<(), StoreError> {
         const OUTDATED: &str = "status in ('accepted', 'running', 'paused') and (revision < $1 or $2 is not null and (revision > $1 or one_kind = 1 and vectors <> $2))";
         let own = (self.dialect == Dialect::Sqlite).then(vectors);
@@ -108,7 +107,7 @@ impl Store {
         Ok(())
     }
 
-    /// All jobs that still want work, oldest first.
+    /// Lists all jobs that still want work, oldest first.
     pub async fn unfinished_jobs(&self) -> Result<Vec<Unfinished>, StoreError> {
         let jobs: Vec<(String, String, i64)> = sqlx::query_as(
             "select id, owner, crashes from jobs where status in ('accepted', 'running') order by id",
@@ -142,7 +141,7 @@ mod tests {
             .await
             .unwrap();
             let crash = async || {
-                // What a service leaves that dies while it computes.
+                // State that a service leaves which dies while it computes.
                 std::fs::write(store.folder.path().join("computing").join(job.to_string()), "").unwrap();
                 store.count_crashes().await.unwrap();
                 let jobs = store.unfinished_jobs().await.unwrap();

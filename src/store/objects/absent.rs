@@ -1,11 +1,11 @@
-//! No object store: the program was built without the feature `cluster`. Nothing here can be called.
+//! Stub of the object store: the program was built without the feature `cluster`. Nothing here can be called.
 
 use std::io;
 use std::path::Path;
 
 use super::address::Address;
 
-/// What there is none of.
+/// Object store that cannot exist in this build.
 #[derive(Debug)]
 pub(super) enum Remote {}
 

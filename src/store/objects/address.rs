@@ -1,41 +1,41 @@
-//! Where an object store is.
+//! Addresses of object stores.
 
 use std::fmt;
 use std::path::PathBuf;
 use std::str::FromStr;
 
-/// Where an object store is: `s3://bucket/prefix`, `file:///folder`, or a folder.
+/// Address of an object store: `s3://bucket/prefix`, `file:///folder`, or a folder.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Address {
-    /// Objects of a bucket whose names begin with the prefix and a slash; all where it is empty.
+    /// Bucket whose objects are used if their names begin with the prefix and a slash; all where the prefix is empty.
     Bucket {
         /// Name of the bucket.
         bucket: String,
-        /// Without slashes at its ends.
+        /// Prefix of the names, without slashes at its ends.
         prefix: String,
     },
-    /// A folder that several machines see.
+    /// Folder that several machines see.
     Folder(PathBuf),
 }
 
-/// Why something is no address of an object store.
+/// Error of an invalid address of an object store.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum AddressError {
-    /// The program was built without.
+    /// Program built without object storage.
     #[error(
         "this rubmap was built without object storage; build it with `cargo build --release --features cluster`"
     )]
     NotBuilt,
-    /// Of nothing that we know.
+    /// Scheme that is not supported.
     #[error("it begins with s3:// or file:///, or is a folder")]
     Scheme,
-    /// No bucket, or with more than its name.
+    /// Bucket that is missing, or has more than its name.
     #[error(
         "s3:// is followed by the name of a bucket and, if need be, a slash and a prefix; keys and the endpoint are taken from the \
          environment (AWS_ACCESS_KEY_ID, AWS_SECRET_ACCESS_KEY, AWS_ENDPOINT)"
     )]
     Bucket,
-    /// A prefix that names would not keep.
+    /// Prefix that object names would not preserve.
     #[error("a prefix has no empty parts, no `.` and no `..` between its slashes")]
     Prefix,
 }

@@ -1,46 +1,46 @@
-//! What goes wrong with an object store, as errors of files.
+//! Errors of an object store, as errors of files.
 
 use std::io::{self, ErrorKind};
 
 use super::address::Address;
 
-/// Something of an object store failed.
+/// Error of an object store.
 #[derive(Debug, thiserror::Error)]
 #[error("object store {address}: {}{failure}", name.as_ref().map(|name| format!("{name}: ")).unwrap_or_default())]
 struct ObjectError {
     address: Address,
-    /// The object; none where it is about the store.
+    /// Name of the object; none where the error concerns the store.
     name: Option<String>,
     failure: Failure,
 }
 
-/// What failed.
+/// Kind of failure of an object store.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum Failure {
-    /// It may answer later.
+    /// Store that cannot be reached now, but may answer later.
     #[error("it cannot be reached or cannot serve now: {0}")]
     Away(String),
-    /// The store refuses.
+    /// Store that refuses access.
     #[error(
         "it refuses access: whose the keys are (AWS_ACCESS_KEY_ID, AWS_SECRET_ACCESS_KEY), or who runs the service, must be allowed to \
          list, read, write and delete there"
     )]
     Denied,
-    /// There is nothing of that name.
+    /// Object that does not exist.
     #[error("it is not there")]
     Absent,
-    /// There is no store.
+    /// Bucket that does not exist.
     #[error("there is no such bucket: make it, or correct its name")]
     NoBucket,
-    /// A shared folder has no room.
+    /// Shared folder without room.
     #[error("there is no room left: {0}")]
     Full(String),
-    /// It ended before its length.
+    /// Object that ended before its length.
     #[error("it was cut off after {found} of {expected} bytes")]
     Cut {
-        /// Bytes that came.
+        /// Number of bytes received.
         found: u64,
-        /// Its length.
+        /// Length of the object, bytes.
         expected: u64,
     },
     /// Settings that make no sense.
@@ -49,7 +49,7 @@ pub(super) enum Failure {
 }
 
 impl Failure {
-    /// As an error of a file: its kind says whether it may pass.
+    /// Converts the failure to an error of a file, whose kind says whether it may pass.
     pub(super) fn of(self, address: &Address, name: Option<&str>) -> io::Error {
         let kind = match &self {
             Self::Away(_) | Self::Cut { .. } => ErrorKind::HostUnreachable,

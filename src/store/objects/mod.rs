@@ -1,8 +1,8 @@
-//! Object storage that several processes share: what is true of packages, bases, stress and checkpoints; the data folder of each
-//! process is a cache of it. Without it the data folder is all there is.
+//! Object storage that several processes share: the master copy of packages, bases, stress and checkpoints; the data folder of each process
+//! is a cache of it. Without it the data folder is all there is.
 //!
-//! Objects have the names that files have in the data folder. A file is written whole and flushed here before it is put there, and
-//! fetched into an unfinished file before it gets its name here: neither place ever shows a part of one.
+//! Objects have the names that files have in the data folder. A file is written whole and flushed here before it is uploaded, and fetched
+//! into an unfinished file before it gets its name here: neither place ever shows a part of one.
 
 #[cfg(not(feature = "cluster"))]
 mod absent;
@@ -30,7 +30,7 @@ use self::absent::Remote;
 #[cfg(feature = "cluster")]
 use self::remote::Remote;
 
-/// The object store of a data folder, if it has one.
+/// Object store of a data folder, if it has one.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Objects {
     shared: Option<Arc<Shared>>,
@@ -41,12 +41,12 @@ struct Shared {
     data: PathBuf,
     reserve: Reserve,
     remote: Remote,
-    /// For threads that compute.
+    /// Runtime for requests of computing threads.
     runtime: Handle,
 }
 
 impl Objects {
-    /// That at `address`, of which the data folder `data` is a cache.
+    /// Opens the object store at `address`, of which the data folder `data` is a cache.
     pub(super) async fn open(address: &Address, data: &Path, reserve: Reserve) -> io::Result<Self> {
         Ok(Self::over(Remote::open(address).await?, data, reserve))
     }
@@ -56,24 +56,24 @@ impl Objects {
         Self { shared: Some(Arc::new(shared)) }
     }
 
-    /// Whether there is one.
+    /// Whether there is an object store.
     pub(super) fn are_shared(&self) -> bool {
         self.shared.is_some()
     }
 
-    /// Puts a file of the data folder there.
+    /// Uploads a file of the data folder to the object store.
     pub(super) async fn publish(&self, path: &Path) -> io::Result<()> {
         let Some(shared) = &self.shared else { return Ok(()) };
         shared.remote.put(&shared.name(path)?, path).await
     }
 
-    /// [`Self::publish`], on a thread that computes.
+    /// Uploads a file like [`Self::publish`], from a computing thread.
     pub(super) fn publish_blocking(&self, path: &Path) -> io::Result<()> {
         let Some(shared) = &self.shared else { return Ok(()) };
         shared.runtime.block_on(self.publish(path))
     }
 
-    /// Fetches a file of the data folder from there, if `accept` takes what came. False if it is not there.
+    /// Fetches a file of the data folder from the object store, if `accept` takes its content. False if there is no such object.
     pub(super) async fn fetch(
         &self,
         path: &Path,
@@ -104,8 +104,8 @@ impl Objects {
         Ok(true)
     }
 
-    /// What `read` makes of files of the data folder, on a thread that computes. Those that are not here are fetched, and all where
-    /// they are not what they should be: they may be of an earlier reduction, or damaged.
+    /// Runs `read` on files of the data folder, from a computing thread. Missing files are fetched before a second attempt, and all files
+    /// where they are not what they should be: they may be of an earlier reduction, or damaged.
     pub(super) fn reading<T>(
         &self,
         paths: &[PathBuf],
@@ -127,39 +127,39 @@ impl Objects {
         read()
     }
 
-    /// Whether a file of the data folder is there.
+    /// Whether a file of the data folder is in the object store.
     pub(super) async fn have(&self, path: &Path) -> io::Result<bool> {
         let Some(shared) = &self.shared else { return Ok(false) };
         shared.remote.has(&shared.name(path)?).await
     }
 
-    /// The length of a file of the data folder there.
+    /// Length of a file of the data folder in the object store, bytes.
     #[cfg(feature = "cluster")]
     pub(super) async fn size(&self, path: &Path) -> io::Result<Option<u64>> {
         let Some(shared) = &self.shared else { return Ok(None) };
         shared.remote.size(&shared.name(path)?).await
     }
 
-    /// SHA-256 of a file of the data folder there, as it is read back.
+    /// SHA-256 of a file of the data folder in the object store, as it is read back.
     #[cfg(feature = "cluster")]
     pub(super) async fn sha256(&self, path: &Path) -> io::Result<Option<[u8; 32]>> {
         let Some(shared) = &self.shared else { return Ok(None) };
         shared.remote.sha256(&shared.name(path)?).await
     }
 
-    /// Removes a file of the data folder there.
+    /// Removes a file of the data folder from the object store.
     pub(super) async fn remove(&self, path: &Path) -> io::Result<()> {
         let Some(shared) = &self.shared else { return Ok(()) };
         shared.remote.remove(&shared.name(path)?).await
     }
 
-    /// [`Self::remove`], on a thread that computes.
+    /// Removes a file like [`Self::remove`], from a computing thread.
     pub(super) fn remove_blocking(&self, path: &Path) -> io::Result<()> {
         let Some(shared) = &self.shared else { return Ok(()) };
         shared.runtime.block_on(self.remove(path))
     }
 
-    /// Removes the folders in `root`, a folder of the data folder, whose names are so, there.
+    /// Removes from the object store the folders in `root`, a folder of the data folder, whose names `which` selects.
     pub(super) async fn remove_folders(&self, root: &Path, which: impl Fn(&str) -> bool) -> io::Result<()> {
         let Some(shared) = &self.shared else { return Ok(()) };
         let root = shared.name(root)?;
@@ -171,7 +171,7 @@ impl Objects {
 }
 
 impl Shared {
-    /// The name of an object: that of the file in the data folder.
+    /// Name of an object: the path of the file in the data folder.
     fn name(&self, path: &Path) -> io::Result<String> {
         let name = path.strip_prefix(&self.data).ok().and_then(Path::to_str);
         name.map(ToOwned::to_owned).ok_or_else(|| {

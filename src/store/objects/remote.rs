@@ -19,31 +19,31 @@ use tokio::io::{AsyncReadExt, AsyncWriteExt};
 use super::address::Address;
 use super::error::Failure;
 
-/// What is sent at once. Larger files go in parts of so many bytes, or of a [`MOST_PARTS`]th of their length.
+/// Size of an upload at once, bytes. Larger files go in parts of this size, or of a [`MOST_PARTS`]th of their length.
 const PART: u64 = 8 << 20;
 
-/// S3 takes 10,000 parts.
+/// Largest number of parts of an upload; S3 takes 10,000.
 const MOST_PARTS: u64 = 9_000;
 
-/// Parts of one file that are on their way at once.
+/// Number of parts of one file that are uploaded at once.
 const PARTS_AT_ONCE: usize = 2;
 
-/// Time for a part to be taken, or for the next bytes to come.
+/// Time limit for a part to be taken, or for the next bytes to come.
 const SILENCE: &str = "30 seconds";
 
-/// Attempts after the first; who asks has a patience of its own.
+/// Number of attempts after the first; callers have timeouts of their own.
 const RETRIES: usize = 2;
 
-/// Time after which nothing is tried again: two silences and what lies between them.
+/// Time after which nothing is tried again: two silences and the pauses between them.
 const RETRYING: Duration = Duration::from_secs(90);
 
-/// An object store. Its settings and keys come from the environment (`AWS_…`).
+/// Connection to an object store. Its settings and keys come from the environment (`AWS_…`).
 pub(super) struct Remote {
     address: Address,
     store: Arc<dyn ObjectStore>,
 }
 
-/// Without the store: it has the keys.
+/// Debug output without the store, which contains the keys.
 impl std::fmt::Debug for Remote {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("Remote").field("address", &self.address).finish_non_exhaustive()
@@ -51,7 +51,7 @@ impl std::fmt::Debug for Remote {
 }
 
 impl Remote {
-    /// The store at `address`, which answers.
+    /// Opens the store at `address` and checks that it answers.
     pub(super) async fn open(address: &Address) -> io::Result<Self> {
         let store = connect(address).map_err(|failure| failure.of(address, None))?;
         Self::over(address, store).await
@@ -59,13 +59,13 @@ impl Remote {
 
     pub(super) async fn over(address: &Address, store: Arc<dyn ObjectStore>) -> io::Result<Self> {
         let remote = Self { address: address.clone(), store };
-        // One page of names: keys and bucket are right.
+        // One page of names proves that keys and bucket are right.
         let first = remote.store.list(None).next().await;
         first.transpose().map_err(|error| failure(error).of(address, None))?;
         Ok(remote)
     }
 
-    /// Puts the file at `path` there, whole or not at all.
+    /// Uploads the file at `path`, whole or not at all.
     pub(super) async fn put(&self, name: &str, path: &Path) -> io::Result<()> {
         let mut file = tokio::fs::File::open(path).await?;
         let length = file.metadata().await?.len();
@@ -84,7 +84,7 @@ impl Remote {
         match self.send(name, file, &mut upload).await {
             Ok(()) => upload.finish().await.map(drop).map_err(|e| self.error(name, e)),
             Err(error) => {
-                // What was sent would be kept and paid for. That it cannot be dropped says no more than `error` does.
+                // Parts of an aborted upload would be stored and paid for. A failure to drop them adds nothing to `error`.
                 let _ = upload.abort().await;
                 Err(error)
             }
@@ -108,7 +108,7 @@ impl Remote {
         }
     }
 
-    /// Writes an object into the file that `make` opens once it knows its length. False if there is no such object.
+    /// Downloads an object into the file that `make` opens once it knows the length. False if there is no such object.
     pub(super) async fn get(
         &self,
         name: &str,
@@ -137,7 +137,7 @@ impl Remote {
         Ok(self.size(name).await?.is_some())
     }
 
-    /// The length of an object, if it is there.
+    /// Length of an object in bytes, if it is there.
     pub(super) async fn size(&self, name: &str) -> io::Result<Option<u64>> {
         match self.store.head(&Name::from(name)).await {
             Ok(object) => Ok(Some(object.size)),
@@ -160,7 +160,7 @@ impl Remote {
         Ok(Some(sum.finalize().into()))
     }
 
-    /// Names of the folders in a folder.
+    /// Lists the names of the folders in a folder.
     pub(super) async fn folders(&self, folder: &str) -> io::Result<Vec<String>> {
         let found = self.store.list_with_delimiter(Some(&Name::from(folder))).await;
         let found = found.map_err(|error| self.error(folder, error))?;
@@ -181,7 +181,7 @@ impl Remote {
         let mut removed = self.store.delete_stream(names);
         while let Some(removed) = removed.next().await {
             match removed {
-                // Somebody else was faster.
+                // Another process removed it first.
                 Ok(_) | Err(Error::NotFound { .. }) => {}
                 Err(error) => return Err(self.error(folder, error)),
             }
@@ -208,13 +208,13 @@ fn connect(address: &Address) -> Result<Arc<dyn ObjectStore>, Failure> {
     }
 }
 
-/// A bucket by what `settings` say beside.
+/// Connects to a bucket, with `settings` for everything else.
 pub(super) fn connect_bucket(
     settings: AmazonS3Builder,
     bucket: &str,
     prefix: &str,
 ) -> Result<Arc<dyn ObjectStore>, Failure> {
-    // The library would say at each request, as of an outage, that it could not be made.
+    // The library would report a refused plain-text address at each request, as if the store were down.
     let set = |key| settings.get_config_value(&key).unwrap_or_default();
     let endpoints = [AmazonS3ConfigKey::Endpoint, AmazonS3ConfigKey::S3Endpoint].map(set);
     let may_be_plain = set(AmazonS3ConfigKey::Client(ClientConfigKey::AllowHttp)) == "true";
@@ -222,12 +222,12 @@ pub(super) fn connect_bucket(
         let plain = "its address begins with http://, so that keys and objects could be read on the way: give it https://, or set AWS_ALLOW_HTTP=true";
         return Err(Failure::Settings(plain.to_owned()));
     }
-    // The client for HTTP has no library for TLS of its own choice; a second call changes nothing.
+    // The HTTP client needs a TLS provider to be chosen; a second call changes nothing.
     let _ = rustls::crypto::ring::default_provider().install_default();
     let retry = RetryConfig { max_retries: RETRIES, retry_timeout: RETRYING, ..RetryConfig::default() };
     let store = settings
         .with_bucket_name(bucket)
-        // A large object takes what it takes, as long as it comes.
+        // A large object may take long, as long as bytes keep coming.
         .with_config(AmazonS3ConfigKey::Client(ClientConfigKey::Timeout), "1 day")
         .with_config(AmazonS3ConfigKey::Client(ClientConfigKey::ReadTimeout), SILENCE)
         .with_retry(retry)
@@ -239,7 +239,7 @@ pub(super) fn connect_bucket(
     Ok(Arc::new(PrefixStore::new(store, prefix)))
 }
 
-/// What an error of the library means.
+/// Interprets an error of the library.
 fn failure(error: Error) -> Failure {
     match error {
         Error::NotFound { .. } => Failure::Absent,
@@ -254,7 +254,7 @@ fn failure(error: Error) -> Failure {
     }
 }
 
-/// What the store said, of a listing: the library tells its refusals by nothing but words.
+/// Interprets the answer to a listing, whose refusals the library reports in words only.
 fn of_answer(said: String) -> Failure {
     if said.contains("<Code>NoSuchBucket</Code>") {
         Failure::NoBucket
@@ -265,7 +265,7 @@ fn of_answer(said: String) -> Failure {
     }
 }
 
-/// What the system said, of a folder.
+/// Finds the error of the operating system in an error of a shared folder.
 fn of_file(error: &Error) -> Option<io::ErrorKind> {
     let mut cause: Option<&(dyn std::error::Error + 'static)> = Some(error);
     while let Some(error) = cause {

@@ -1,4 +1,4 @@
-//! Objects in a shared folder and in a bucket.
+//! Tests of objects in a shared folder and in a bucket.
 
 #[path = "../../../tests/cluster/s3.rs"]
 mod s3;
@@ -22,7 +22,7 @@ fn bucket(name: &str) -> Address {
     Address::Bucket { bucket: name.to_owned(), prefix: "a/b".to_owned() }
 }
 
-/// What an object store at `address` is to the data folder `data`, without the environment, which all tests have in common.
+/// Opens the object store at `address` for the data folder `data`, without the environment, which all tests share.
 async fn open(s3: &S3, address: &Address, data: &Path) -> std::io::Result<Objects> {
     let Address::Bucket { bucket, prefix } = address else { panic!("{address} is no bucket") };
     let settings = AmazonS3Builder::new()
@@ -34,7 +34,7 @@ async fn open(s3: &S3, address: &Address, data: &Path) -> std::io::Result<Object
     Ok(Objects::over(Remote::over(address, store).await?, data, Reserve::of(data)))
 }
 
-/// A folder, and a bucket where there is moto, each for two data folders.
+/// Object stores in a folder, and in a bucket where moto is installed, each with two data folders.
 async fn pairs(s3: Option<&S3>, folder: &Path) -> Vec<[(TempDir, Objects); 2]> {
     let data = || tempfile::tempdir().unwrap();
     let shared = async || {
@@ -71,7 +71,7 @@ async fn what_one_publishes_another_fetches_until_it_is_removed() {
     let folder = tempfile::tempdir().unwrap();
     let s3 = S3::new();
     for [(here, ours), (there, theirs)] in pairs(s3.as_ref(), folder.path()).await {
-        // Nothing, one part, and several with a rest.
+        // Lengths of nothing, one part, and several parts with a rest.
         for (name, content) in [
             ("models/a.zip", Vec::new()),
             ("bases/m-1/x", noise(1000)),
@@ -92,7 +92,7 @@ async fn what_one_publishes_another_fetches_until_it_is_removed() {
             assert!(std::fs::read(&to).unwrap() == content, "{name}");
             assert_eq!(theirs.sha256(&to).await.unwrap(), ours.sha256(&from).await.unwrap());
         }
-        // Another takes its place.
+        // Another file takes its place.
         write(&here, "models/a.zip", b"another");
         ours.publish(&here.path().join("models/a.zip")).await.unwrap();
         assert!(theirs.fetch(&there.path().join("models/a.zip"), |_| Ok(())).await.unwrap());
@@ -146,7 +146,7 @@ async fn a_store_that_is_away_is_waited_for_by_whoever_asks() {
     write(&data, "bases/m/x", &content);
     let path = data.path().join("bases/m/x");
 
-    // It goes while parts are on their way.
+    // The store goes away while parts are being uploaded.
     s3.freeze();
     let crash = async {
         tokio::time::sleep(std::time::Duration::from_millis(500)).await;

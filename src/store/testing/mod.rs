@@ -7,12 +7,12 @@ use std::ops::Deref;
 
 use super::Store;
 
-/// A store with a data folder of its own.
+/// Store with a data folder of its own.
 pub(super) struct TestStore {
     store: Store,
-    /// Of the server, if it is on one.
+    /// Address of the database on the server, if the store is on one.
     pub(super) url: Option<String>,
-    /// The data folder, gone with the store.
+    /// Data folder, removed with the store.
     pub(super) folder: tempfile::TempDir,
 }
 
@@ -25,7 +25,7 @@ impl Deref for TestStore {
 }
 
 impl TestStore {
-    /// The same store as so many processes have it; in a data folder that is one.
+    /// Opens the same store for `count` processes; on a data folder that is one.
     pub(super) async fn processes(&self, count: usize) -> Vec<Store> {
         let mut processes = Vec::with_capacity(count);
         for _ in 0..count {
@@ -38,7 +38,7 @@ impl TestStore {
     }
 }
 
-/// One on `SQLite`, and one on PostgreSQL where there is one.
+/// Creates a store on `SQLite`, and one on PostgreSQL where it is installed.
 pub(super) async fn stores() -> Vec<TestStore> {
     let folder = tempfile::tempdir().unwrap();
     #[cfg_attr(not(feature = "cluster"), expect(unused_mut, reason = "there is no other"))]

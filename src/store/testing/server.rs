@@ -1,4 +1,4 @@
-//! A PostgreSQL for the tests of one process.
+//! PostgreSQL server for the tests of one process.
 
 use std::os::unix::process::CommandExt;
 use std::path::{Path, PathBuf};
@@ -9,11 +9,11 @@ use std::time::{Duration, Instant};
 
 use sqlx::{AnyConnection, AssertSqlSafe, Connection, Executor};
 
-/// Longest time until it takes connections.
+/// Longest time until the server takes connections.
 const START: Duration = Duration::from_secs(60);
 
-/// Makes a server in a folder, of its binaries and that folder, and runs it for as long as somebody holds the other end of its input:
-/// tests end without a word. Its texts sort as people do, which those of the store must not.
+/// Script that makes a server in a folder, from its binaries and that folder, and runs it for as long as somebody holds the other end of
+/// its input: tests end without notice. Its default collation sorts texts as people do; texts of the store must not be sorted so.
 const SCRIPT: &str = r#"
 "$1/initdb" -D "$2/data" -U rubmap -A trust -E UTF8 --locale=C.UTF-8 --locale-provider=icu --icu-locale=en --no-sync || exit
 "$1/postgres" -D "$2/data" -k "$2" -c listen_addresses= -c fsync=off -c max_connections=200 &
@@ -23,10 +23,10 @@ wait $!
 rm -rf "$2"
 "#;
 
-/// The server, which listens at a socket in its folder.
+/// Server that listens at a socket in its folder.
 struct Server {
     folder: PathBuf,
-    /// Its end is the server's.
+    /// Input of the script: closing it stops the server.
     _input: ChildStdin,
 }
 
@@ -38,7 +38,7 @@ static SERVER: LazyLock<Option<Server>> = LazyLock::new(|| {
     started.ok()
 });
 
-/// The address of a new database, if there is a server.
+/// Address of a new database, if there is a server.
 pub(in crate::store) async fn database() -> Option<String> {
     static DATABASES: AtomicU32 = AtomicU32::new(0);
     let server = SERVER.as_ref()?;
@@ -64,7 +64,7 @@ fn start() -> Result<Server, String> {
         .stdin(Stdio::piped())
         .stdout(log)
         .stderr(errors)
-        // What ends the tests from a terminal must not end it before it has cleaned up.
+        // A signal from the terminal to the tests must not stop the server before it has cleaned up.
         .process_group(0)
         .spawn()
         .map_err(|error| error.to_string())?;
@@ -73,7 +73,7 @@ fn start() -> Result<Server, String> {
     Ok(Server { folder: folder.keep(), _input: input })
 }
 
-/// The folder of its binaries.
+/// Folder of the PostgreSQL binaries.
 fn binaries() -> Option<PathBuf> {
     let mut folders: Vec<PathBuf> = std::env::split_paths(&std::env::var_os("PATH")?).collect();
     if let Ok(versions) = std::fs::read_dir("/usr/lib/postgresql") {
@@ -82,7 +82,7 @@ fn binaries() -> Option<PathBuf> {
     folders.into_iter().find(|folder| folder.join("initdb").exists() && folder.join("postgres").exists())
 }
 
-/// What runs a command as somebody who may run it, which root may not, and whose `folder` it is then.
+/// Command prefix that runs a command as a user who may run the server, as root may not; that user then owns `folder`.
 fn as_its_user(folder: &Path) -> Result<Command, String> {
     const USER: &str = "postgres";
     if !rustix::process::getuid().is_root() {

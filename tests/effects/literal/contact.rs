@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-/// A straight piece of an obstacle's force over the penetration x: x = start + compliance·λ between two forces.
+/// Straight piece of an obstacle's force over the penetration x: x = start + compliance·λ between two forces.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Piece {
     pub(super) start: f64,
@@ -19,7 +19,7 @@ pub(super) struct Law {
 }
 
 impl Law {
-    /// A rigid wall.
+    /// Law of a rigid wall.
     pub(super) fn wall() -> Self {
         let wall = Piece { start: 0.0, compliance: 0.0, least_force: 0.0, greatest_force: f64::INFINITY };
         Self { free_to: 0.0, pieces: vec![wall] }
@@ -29,8 +29,8 @@ impl Law {
 /// Round-off of a gap, mm.
 const CLOSED: f64 = 1e-13;
 
-/// λ with a penetration x = −(q + Wλ) on the law of every place. Places that are free without any force are left out until
-/// the forces of the others push them in.
+/// Forces λ with a penetration x = −(q + Wλ) on the law of every place. Places that are free without any force are left
+/// out until the forces of the others push them in.
 pub(super) fn solve(w: &DMatrix<f64>, q: &DVector<f64>, law: impl Fn(usize) -> Law) -> DVector<f64> {
     let laws: Vec<_> = (0..q.len()).map(law).collect();
     let mut candidates: Vec<usize> = (0..q.len()).filter(|&i| q[i] < -laws[i].free_to).collect();
@@ -46,7 +46,7 @@ pub(super) fn solve(w: &DMatrix<f64>, q: &DVector<f64>, law: impl Fn(usize) -> L
     }
 }
 
-/// The first combination that fits all candidates.
+/// Forces of the first combination that fits all candidates.
 fn enumerate(w: &DMatrix<f64>, q: &DVector<f64>, laws: &[Law], candidates: &[usize]) -> DVector<f64> {
     let guess = sweep(w, q, laws, candidates);
     if let Some(lambda) = fits(w, q, laws, candidates, &guess) {
@@ -124,7 +124,7 @@ mod tests {
     use super::*;
     use crate::fixtures::Numbers;
 
-    /// Problems made from their solutions: forces and penetrations on the laws give q = −x − Wλ.
+    /// Problems are made from their solutions: forces and penetrations on the laws give q = −x − Wλ.
     #[test]
     fn finds_the_solution_a_problem_was_made_from() {
         let mut numbers = Numbers::new(3);

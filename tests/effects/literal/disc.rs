@@ -5,11 +5,11 @@ use nalgebra::{DMatrix, DVector};
 
 use super::contact::{self, Law};
 
-/// Rounds; a place that sticks takes as many as W is large over what it does least.
+/// Largest number of rounds; a place that sticks takes as many as W is large over what it does least.
 const MOST: usize = 200_000;
 
-/// λ, and friction along both tangents of every place. `w` is what forces along the normals and both tangents (`[direction][place]`) move
-/// along the same; `q` the gaps and `free` the sliding without any, [tangent][place].
+/// Forces λ, and friction along both tangents of every place. `w` is the motion along the normals and both tangents
+/// (`[direction][place]`) by forces along the same; `q` are the gaps and `free` the sliding without any force, [tangent][place].
 pub(super) fn solve(
     w: &DMatrix<f64>,
     q: &DVector<f64>,
@@ -49,7 +49,7 @@ mod tests {
     use super::*;
     use crate::fixtures::Numbers;
 
-    /// Problems made from their solutions: places that are open, stick and slide.
+    /// Problems are made from their solutions: places that are open, stick and slide.
     #[test]
     fn finds_the_solution_a_problem_was_made_from() {
         let mut numbers = Numbers::new(5);

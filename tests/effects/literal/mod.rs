@@ -1,6 +1,6 @@
-//! The equations of a scene with effects, written out: real coordinates of all modes and all casing waves in one vector,
-//! dense matrices, one linear system a step, forces sector by sector, contact by trying every combination. Slow, and shares
-//! nothing with the production code but the types that describe a scene.
+//! Literal model: the equations of a scene with effects, written out: real coordinates of all modes and all casing waves in
+//! one vector, dense matrices, one linear system a step, forces sector by sector, contact by trying every combination.
+//! Slow, and shares nothing with the production code but the types that describe a scene.
 
 mod contact;
 mod disc;
@@ -33,15 +33,15 @@ struct Coordinate {
     part: Part,
 }
 
-/// The system and its state.
+/// Literal model: the system and its state.
 pub(crate) struct Literal<'a> {
     scene: &'a Scene,
     coordinates: Vec<Coordinate>,
     /// Contact DOF of all sectors (rows) from the wheel's coordinates, `[sector][node][component]`.
     displacement: DMatrix<f64>,
-    /// The same of what forces at the contact DOF move through modes that follow statically.
+    /// Contact DOF of all sectors, moved by forces at the contact DOF through modes that follow statically.
     residual: DMatrix<f64>,
-    /// K of mistuning, over all coordinates.
+    /// Stiffness K of mistuning, over all coordinates.
     mistuning: DMatrix<f64>,
     /// Damping constants 2ζω m of all coordinates.
     damping: DVector<f64>,
@@ -51,11 +51,11 @@ pub(crate) struct Literal<'a> {
     now: DVector<f64>,
     before: DVector<f64>,
     rods: Option<Rods>,
-    /// 1, or −1 for a wheel that turns towards −θ.
+    /// Sense of rotation: 1, or −1 for a wheel that turns towards −θ.
     sense: f64,
 }
 
-/// left·x⁺ = now·x + before·x⁻ + load f
+/// Recursion of a step: left·x⁺ = now·x + before·x⁻ + load f.
 struct Recursion {
     left: LU<f64, Dyn, Dyn>,
     now: DMatrix<f64>,
@@ -63,23 +63,23 @@ struct Recursion {
     load: DVector<f64>,
 }
 
-/// What came out.
+/// Record of a run.
 #[derive(Debug, Default)]
 pub(crate) struct Record {
-    /// `[sensor][sample]`
+    /// Displacement, `[sensor][sample]`.
     pub(crate) displacement: Vec<Vec<f64>>,
-    /// Σ λh
+    /// Impulse of contact, Σ λh.
     pub(crate) impulse: f64,
-    /// Σ μλ t_θ rΩh, of a disc Σ τ·v h
+    /// Heat of friction, Σ μλ t_θ rΩh; of a disc Σ τ·v h.
     pub(crate) friction_heat: f64,
-    /// Steps in which a node stuck, all nodes together.
+    /// Number of steps in which a node stuck, all nodes together.
     pub(crate) sticking: usize,
     pub(crate) excitation_work: f64,
     pub(crate) mistuning_work: f64,
     pub(crate) casing_work: f64,
     pub(crate) casing_loss: f64,
     pub(crate) contact_work: f64,
-    /// `[rod][row]`
+    /// Worn depths of the coating, `[rod][row]`.
     pub(crate) worn_depths: Vec<Vec<f64>>,
     /// Largest √(c² + s²) of any casing wave.
     pub(crate) casing_amplitude: f64,
@@ -99,7 +99,7 @@ fn coordinates(wheel: &ModalWheel, kept: impl Fn(usize) -> bool) -> Vec<Coordina
     all
 }
 
-/// u_{s,d} = Σ_i Re(w_i e^{jisα} φ_d z_i) at every contact DOF of every sector.
+/// Displacements u_{s,d} = Σ_i Re(w_i e^{jisα} φ_d z_i) at every contact DOF of every sector.
 fn displacements(wheel: &ModalWheel, coordinates: &[Coordinate]) -> DMatrix<f64> {
     let dofs = wheel.harmonics[0].contact.nrows();
     DMatrix::from_fn(wheel.sectors * dofs, coordinates.len(), |row, column| {
@@ -109,7 +109,7 @@ fn displacements(wheel: &ModalWheel, coordinates: &[Coordinate]) -> DMatrix<f64>
     })
 }
 
-/// Re(w e^{jisα} φ z) for z = 1 or j.
+/// Weighted share Re(w e^{jisα} φ z) of a mode for z = 1 or j.
 fn weighted(wheel: &ModalWheel, harmonic: usize, sector: usize, part: Part, shape: c64) -> f64 {
     let n = wheel.sectors as f64;
     let weight = if wheel.harmonics[harmonic].single { (1.0 / n).sqrt() } else { (2.0 / n).sqrt() };
@@ -118,8 +118,8 @@ fn weighted(wheel: &ModalWheel, harmonic: usize, sector: usize, part: Part, shap
     weight * if part == Part::Real { turned.re } else { -turned.im }
 }
 
-/// Strain energy ½ Σ δ_s a_s² of each family, a_s being what its blade in sector s is bent by: the displacement of the first
-/// contact DOF relative to the family's shape, times ω.
+/// Stiffness of mistuning, from the strain energy ½ Σ δ_s a_s² of each family; a_s is what bends its blade in sector s: the
+/// displacement of the first contact DOF relative to the family's shape, times ω.
 fn mistuning_stiffness(scene: &Scene, coordinates: &[Coordinate], size: usize) -> DMatrix<f64> {
     let mut stiffness = DMatrix::zeros(size, size);
     let Some(deviations) = &scene.mistuning else { return stiffness };
@@ -159,7 +159,7 @@ fn resolved(scene: &Scene, family: usize) -> bool {
     })
 }
 
-/// Ω G of the coordinates (a, b) of z = a + jb: g z = (g' a − g'' b) + j(g'' a + g' b).
+/// Gyroscopic matrix Ω G of the coordinates (a, b) of z = a + jb: g z = (g' a − g'' b) + j(g'' a + g' b).
 fn gyroscopic(wheel: &ModalWheel, coordinates: &[Coordinate], size: usize) -> DMatrix<f64> {
     let mut matrix = DMatrix::zeros(size, size);
     for (row, to) in coordinates.iter().enumerate() {
@@ -181,7 +181,7 @@ fn gyroscopic(wheel: &ModalWheel, coordinates: &[Coordinate], size: usize) -> DM
     matrix
 }
 
-/// Modes at the rhythm of the steps follow statically where there is contact.
+/// Whether modes of frequency `omega` follow statically where there is contact: those at the rhythm of the steps do.
 fn follows(scene: &Scene, omega: f64) -> bool {
     scene.scheme == Scheme::ExactModal && scene.casing.is_some() && omega * scene.step_s() > 5.0 / 6.0 * PI
 }
@@ -228,7 +228,7 @@ impl<'a> Literal<'a> {
                 let mass = diagonal(&|&(_, _, m)| m / (h * h));
                 let damping = diagonal(&|&(omega, zeta, m)| 2.0 * zeta * omega * m / (2.0 * h));
                 let stiffness = diagonal(&|&(omega, _, m)| m * omega * omega) + &mistuning;
-                // The velocity (x⁺ − x⁻)/2h for a time h.
+                // The loss is that of the velocity (x⁺ − x⁻)/2h for a time h.
                 let loss = damping.diagonal() / 2.0;
                 let swing = damping + &coriolis / (2.0 * h);
                 let recursion = Recursion {
@@ -280,12 +280,12 @@ impl<'a> Literal<'a> {
         this
     }
 
-    /// The same wheel turning towards −θ.
+    /// Model of the same scene with the wheel turning towards −θ.
     pub(crate) fn backwards(self) -> Self {
         Self { sense: -1.0, ..self }
     }
 
-    /// Both unit tangents of a contact node, the first as near to e_θ as a tangent can be.
+    /// Unit tangents of a contact node, both; the first is as near to e_θ as a tangent can be.
     fn tangents(&self, node: usize) -> [[f64; 3]; 2] {
         let n = self.scene.nodes[node].normal;
         let along = sliding(&self.scene.nodes[node], 1.0);
@@ -293,7 +293,7 @@ impl<'a> Literal<'a> {
         [t, [n[1] * t[2] - n[2] * t[1], n[2] * t[0] - n[0] * t[2], n[0] * t[1] - n[1] * t[0]]]
     }
 
-    /// Friction along the two tangents of all places, `[tangent][place]`, over the contact DOF.
+    /// Directions of friction along the two tangents of all places, `[tangent][place]`, over the contact DOF.
     fn planes(&self) -> DMatrix<f64> {
         let nodes = self.scene.nodes.len();
         let places = self.scene.wheel.sectors * nodes;
@@ -303,7 +303,7 @@ impl<'a> Literal<'a> {
         })
     }
 
-    /// x(0) and x(−h) with the right velocity at 0.
+    /// Sets x(0) and x(−h) with the right velocity at 0.
     fn start(&mut self, numbers: &[(f64, f64, f64)], coriolis: &DMatrix<f64>) {
         let h = self.scene.step_s();
         let mut velocity = DVector::zeros(numbers.len());
@@ -315,7 +315,7 @@ impl<'a> Literal<'a> {
         for (row, &(omega, zeta, mass)) in numbers.iter().enumerate() {
             let (z, v) = (self.now[row], velocity[row]);
             self.before[row] = match self.scene.scheme {
-                // x(0) − hẋ + ½h²ẍ, the only start from which (x⁺ − x⁻)/2h is ẋ.
+                // It is x(0) − hẋ + ½h²ẍ, the only start from which (x⁺ − x⁻)/2h is ẋ.
                 Scheme::CentralDifferences => {
                     let acceleration = others[row] / mass - 2.0 * zeta * omega * v - omega * omega * z;
                     z - h * v + 0.5 * h * h * acceleration
@@ -333,7 +333,7 @@ impl<'a> Literal<'a> {
         }
     }
 
-    /// Aᵢcos(k(sα + Ωt) + ψ) on the given directions of every sector, after `revolutions`.
+    /// Forces of excitation Aᵢcos(k(sα + Ωt) + ψ) on the given directions of every sector, after `revolutions`.
     fn excitation(&self, revolutions: f64) -> DVector<f64> {
         let wheel = &self.scene.wheel;
         let dofs = 3 * self.scene.nodes.len();
@@ -361,7 +361,7 @@ impl<'a> Literal<'a> {
             + TAU * (sector as f64 / self.scene.wheel.sectors as f64 + self.sense * revolutions)
     }
 
-    /// c as it is then − p minus the orbit's share at every contact node of every sector.
+    /// Clearances c as they are then − p minus the orbit's share at every contact node of every sector.
     fn clearances(&self, revolutions: f64) -> DVector<f64> {
         let Some(casing) = &self.scene.casing else { return DVector::zeros(0) };
         let nodes = self.scene.nodes.len();
@@ -391,7 +391,7 @@ impl<'a> Literal<'a> {
         })
     }
 
-    /// Along the normals (of displacement) or against the forces' directions, of all places: over the contact DOF, and over
+    /// Directions of all places along the normals (of displacement) or against the forces: over the contact DOF, and over
     /// the casing's waves, whose displacement opens the gap.
     fn directions(&self, revolutions: f64, mu: f64) -> (DMatrix<f64>, DMatrix<f64>) {
         let nodes = self.scene.nodes.len();
@@ -415,7 +415,7 @@ impl<'a> Literal<'a> {
         (blades, casing)
     }
 
-    /// The wheel without contact as ẍ + Cẋ + Kx = Bᵀf, u = Bx: K, C with damping and Coriolis forces, and B.
+    /// Matrices of the wheel without contact as ẍ + Cẋ + Kx = Bᵀf, u = Bx: K, C with damping and Coriolis forces, and B.
     pub(crate) fn continuous(&self) -> (DMatrix<f64>, DMatrix<f64>, DMatrix<f64>) {
         let wheel = &self.scene.wheel;
         let stiffness = DVector::from_iterator(
@@ -430,7 +430,7 @@ impl<'a> Literal<'a> {
         )
     }
 
-    /// x(0) and ẋ(0).
+    /// Initial state: x(0) and ẋ(0).
     pub(crate) fn initial(&self) -> (DVector<f64>, DVector<f64>) {
         let of = |which: fn(&InitialMode) -> c64| {
             DVector::from_iterator(
@@ -451,7 +451,7 @@ impl<'a> Literal<'a> {
         let (nodes, h) = (scene.nodes.len(), scene.step_s());
         let wheel_size = self.coordinates.len();
         let mu = scene.friction.unwrap_or(0.0);
-        // Of tips that slide forwards.
+        // These are the directions of tips that slide forwards.
         let forward_mu = if scene.disc { 0.0 } else { mu };
         let planes = self.planes();
         let massless = matches!(scene.scheme, Scheme::MasslessBoundary { .. });
@@ -570,7 +570,7 @@ impl<'a> Literal<'a> {
         record
     }
 
-    /// Work is force times half of x⁺ − x⁻.
+    /// Counts the work of a step: force times half of x⁺ − x⁻.
     fn count(
         &self,
         next: &DVector<f64>,
@@ -593,12 +593,12 @@ impl<'a> Literal<'a> {
     }
 }
 
-/// Normal forces, then friction.
+/// Forces of all kinds in one vector: normal forces, then friction.
 fn all_forces(lambda: &DVector<f64>, friction: &DVector<f64>) -> DVector<f64> {
     DVector::from_iterator(lambda.len() + friction.len(), lambda.iter().chain(friction.iter()).copied())
 }
 
-/// x²(3 − 2x) up to 1.
+/// Growth of the ramp, x²(3 − 2x) up to 1.
 fn growth(revolutions: f64, ramp_revolutions: f64) -> f64 {
     if revolutions >= ramp_revolutions {
         return 1.0;

@@ -1,4 +1,4 @@
-//! The abradable coating rod by rod, kept as the worn depth of each.
+//! Abradable coating rod by rod, with the worn depth of each.
 
 use std::f64::consts::TAU;
 
@@ -10,9 +10,9 @@ use crate::scene::Abradable;
 #[derive(Debug)]
 pub(super) struct Rods {
     of: Abradable,
-    /// A of every row.
+    /// Area A of every row.
     areas: Vec<f64>,
-    /// `[rod][row]`
+    /// Worn depth, `[rod][row]`.
     pub(super) depth: Vec<Vec<f64>>,
 }
 
@@ -42,7 +42,7 @@ impl Rods {
         place as usize
     }
 
-    /// Spring of the rod, then its plastic flow, then the metal.
+    /// Law of a rod: its spring, then its plastic flow, then the metal.
     pub(super) fn law(&self, rod: usize, row: usize) -> Law {
         let (t0, area, worn) = (self.of.thickness, self.areas[row], self.depth[rod][row]);
         let spring = t0 / (area * self.of.material.modulus);
@@ -68,7 +68,7 @@ impl Rods {
         }
     }
 
-    /// A rod pressed by λ, and by no more than what crushes it, springs back from where it was pressed to.
+    /// Presses a rod by λ, and by no more than what crushes it; it springs back from where it was pressed to.
     pub(super) fn press(&mut self, rod: usize, row: usize, lambda: f64) {
         let law = self.law(rod, row);
         let [spring, flow, metal] = law.pieces[..] else { unreachable!("a coating has three pieces") };
@@ -87,7 +87,7 @@ mod tests {
     use super::*;
     use crate::scene::contact_nodes;
 
-    /// Linear hardening, pushed and unloaded: w/t0 = (Eε − σ_Y)/(E + K), and an identical second pass adds none.
+    /// Linear hardening of a rod that is pushed and unloaded: w/t0 = (Eε − σ_Y)/(E + K), and an identical second pass adds none.
     #[test]
     fn a_rod_follows_its_closed_form() {
         let material = CoatingMaterial { modulus: 400.0, yield_stress: 2.0, hardening: 60.0 };

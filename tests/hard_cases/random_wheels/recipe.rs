@@ -1,4 +1,4 @@
-//! Random wheels and casings: what they are made of and why.
+//! Recipes of random wheels and casings, with the reasons for their ranges.
 
 use std::f64::consts::{PI, TAU};
 
@@ -18,7 +18,7 @@ use rubmap::numerics::sector_fourier::is_single;
 
 use crate::fixtures::Numbers;
 
-/// Ω of all wheels, rad/s: only ratios of frequencies matter.
+/// Speed Ω of all wheels, rad/s: only ratios of frequencies matter.
 const SPEED: f64 = 1000.0;
 
 /// Radius of the tips: a run ends as diverged at a tenth of it.
@@ -26,19 +26,19 @@ pub(super) const RADIUS: f64 = 100.0;
 
 pub(super) const REVOLUTIONS: usize = 2;
 
-/// A modal mass, t: a titanium blade of some grams.
+/// Modal mass, t: a titanium blade of some grams.
 const MASS: f64 = 1e-5;
 
-/// How the contact nodes see the modes.
+/// Shapes by which the contact nodes see the modes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Shapes {
-    /// Each node in its own way; fewer modes than nodes still cannot tell the nodes apart.
+    /// Independent shapes: each node sees the modes in its own way; fewer modes than nodes still cannot tell the nodes apart.
     Independent,
-    /// Node 1 is where node 0 is.
+    /// Coincident nodes: node 1 is where node 0 is.
     Coincident,
 }
 
-/// All that a case is made of; the seed draws shapes, frequencies, normals and clearances.
+/// Recipe of a case; the seed draws shapes, frequencies, normals and clearances.
 #[derive(Debug, Clone)]
 pub(super) struct Recipe {
     pub(super) seed: u64,
@@ -58,11 +58,11 @@ pub(super) struct Recipe {
     stability: f64,
 }
 
-/// One to twelve sectors have every kind of nodal diameter, 64 the most blades there are. Contact nodes and modes run
-/// from one to what a small reduced wheel has, fewer modes than nodes included. Frequencies spread over no decade (all
-/// equal), the one of a blade's first families, the five of ω² over ten, and ten, beyond what a reduction lets pass.
-/// Lengths are tenths of a millimetre about tips of 100 mm, clearances also zero, lobes from none to thrice a clearance.
-/// Steps go from 0.2 to 0.9999 of the limit of central differences.
+/// Recipes over all ranges. One to twelve sectors have every kind of nodal diameter, 64 the most blades there are.
+/// Contact nodes and modes run from one to what a small reduced wheel has, fewer modes than nodes included. Frequencies
+/// spread over no decade (all equal), the one of a blade's first families, the five of ω² over ten, and ten, beyond what
+/// a reduction lets pass. Lengths are tenths of a millimetre about tips of 100 mm, clearances also zero, lobes from none
+/// to thrice a clearance. Steps go from 0.2 to 0.9999 of the limit of central differences.
 pub(super) fn recipes() -> impl Strategy<Value = Recipe> {
     let wheel = (
         any::<u32>(),
@@ -100,14 +100,14 @@ pub(super) fn recipes() -> impl Strategy<Value = Recipe> {
     })
 }
 
-/// A recipe carried out.
+/// Case made by a recipe.
 pub(super) struct Case {
     pub(super) wheel: ModalWheel,
     pub(super) contact_nodes: Vec<ContactNode>,
     damping: Option<ModalDamping>,
     pub(super) casing: Casing,
     initial: Vec<InitialMode>,
-    /// Along the normals of the first and the last node, at the first and the last sector.
+    /// Sensors along the normals of the first and the last node, at the first and the last sector.
     sensors: Vec<SensorRow>,
 }
 
@@ -129,7 +129,7 @@ impl Recipe {
         let initial = InitialMode {
             harmonic: self.sectors / 2,
             family: 0,
-            // A tenth of a millimetre at a tip whose shape is about 1/√m.
+            // It is a tenth of a millimetre at a tip whose shape is about 1/√m.
             displacement: c64::new(0.1 * MASS.sqrt(), 0.05 * MASS.sqrt()),
             velocity: c64::new(0.0, 0.0),
         };
@@ -179,7 +179,7 @@ impl Recipe {
 }
 
 fn contact_node(k: usize, centred: &mut impl FnMut() -> f64) -> ContactNode {
-    // Any direction: what is cut off near zero is too short to be normalised.
+    // The normal has any direction: a vector cut off near zero is too short to be normalised.
     let normal = loop {
         let n = [centred(), centred(), centred()];
         let length = n.iter().map(|x| x * x).sum::<f64>().sqrt();
@@ -196,7 +196,7 @@ fn contact_node(k: usize, centred: &mut impl FnMut() -> f64) -> ContactNode {
 }
 
 impl Case {
-    /// Every step is recorded.
+    /// Runs the case and records every step.
     pub(super) fn run(&self, scheme: Scheme, steps: usize) -> Run {
         Simulation {
             wheel: &self.wheel,

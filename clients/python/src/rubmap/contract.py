@@ -192,6 +192,7 @@ DifferenceVerdict: TypeAlias = Literal["greater", "smaller", "undecided"]
 
 
 class DigitNoise(TypedDict):
+    has_all_digits: NotRequired[bool]
     residual: float
     square_rad2_s2: float
 

@@ -1,7 +1,7 @@
-//! Settings beside those of the climb, each held against a run of it that has at least as many modes and steps and keeps the mass.
+//! Settings beside those of the climb, each compared with a run of the climb that has at least as many modes and steps and keeps the mass.
 //!
-//! The error of that run is known from the climb; that of a setting beside it is at most the sum of the two. Where the difference
-//! is all there is, it is taken as often as in every estimate, so that control runs will say no more than the pilot runs did.
+//! The error of that run is known from the climb; the error of a setting beside it is at most this error plus the difference. The sum
+//! counts as at least `SAFETY` times the difference, as in every estimate, so that control runs show no larger error than the pilot runs.
 
 use crate::accuracy::candidate::{Candidate, Price, setting};
 use crate::accuracy::errors::errors;
@@ -10,24 +10,25 @@ use crate::request::{AccuracyOf, SchemeChoice, Setting, SweepDirection};
 use crate::resolved::TrialRequest;
 use crate::result::{Errors, Pilot, Quantity, Trial};
 
-/// How a setting is cheaper.
+/// Cheaper variant of a setting: its scheme and its share of the steps.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Way {
     pub(super) scheme: SchemeChoice,
-    /// Share of the steps.
+    /// Share of the steps of the setting.
     pub(super) steps: f64,
-    /// Share of the time, about, before it is measured.
+    /// Approximate share of the computing time, before it is measured.
     pub(super) time: f64,
 }
 
-/// Ascending in time, which is of the demo at 24,000 rpm with 40 modes and 2,080 steps. Three quarters of the steps would take 0.9.
+/// Cheaper variants, ascending in time. Times measured on the demo at 24,000 rpm with 40 modes and 2,080 steps; three quarters of the steps
+/// would take 0.9.
 pub(super) const WAYS: [Way; 3] = [
     Way { scheme: SchemeChoice::MasslessBoundary, steps: 0.5, time: 0.6 },
     Way { scheme: SchemeChoice::ExactModal, steps: 0.5, time: 0.8 },
     Way { scheme: SchemeChoice::MasslessBoundary, steps: 1.0, time: 0.8 },
 ];
 
-/// What was found of a setting beside a rung.
+/// Result of a setting tried beside a rung.
 #[derive(Debug)]
 pub(super) struct Beside {
     pub(super) candidate: Candidate,
@@ -35,7 +36,7 @@ pub(super) struct Beside {
 }
 
 impl Pilots<'_, '_> {
-    /// The setting that is cheaper than `steps` with `modes` in this `way`, where the scene allows it.
+    /// Setting that is cheaper than `modes` with `steps` in this `way`; none where the scene does not allow it.
     pub(super) fn cheaper(&self, way: Way, modes: u32, steps: u32) -> Option<Setting> {
         let massless = way.scheme == SchemeChoice::MasslessBoundary;
         if massless && !self.may_lose_mass() {
@@ -48,8 +49,8 @@ impl Pilots<'_, '_> {
         as_meant.then(|| setting(modes, way.scheme, taken))
     }
 
-    /// Whether the boundary may go without mass: something touches, nothing there depends on the scheme, and no speed begins as another
-    /// one ended, of which only the modes that are kept would be handed on.
+    /// Whether the boundary may go without mass: the scene has contact, nothing in it depends on the scheme, and no speed starts from the
+    /// end of another one, which would pass on only the kept modes.
     fn may_lose_mass(&self) -> bool {
         let scene = &self.request.scene;
         scene.contact.is_some()
@@ -59,8 +60,8 @@ impl Pilots<'_, '_> {
             && self.request.sweep == SweepDirection::Independent
     }
 
-    /// What `setting` shows at every pilot speed beside the runs of `rung` with more modes; or the missing runs. `controls` is the
-    /// price of a run with as many modes by the scheme of the climb.
+    /// Compares `setting` with the runs of `rung` with more modes at every pilot speed; or the missing runs. `controls` is the price of a
+    /// run with as many modes by the scheme of the climb.
     pub(super) fn beside(
         &self,
         setting: Setting,
@@ -102,8 +103,8 @@ impl Pilots<'_, '_> {
     }
 }
 
-/// How far a run is from the one with mass and more modes, chance included; infinite where they are of different kinds or the run could
-/// not begin, none where both began and neither was completed.
+/// Difference of a run from the one with mass and more modes, scatter included; infinite where the runs are of different kinds or the run
+/// could not begin, none where both began and neither was completed.
 fn difference(run: &Trial, finer: &Trial, of: AccuracyOf) -> Option<f64> {
     match (run.is_completed(), finer.is_completed()) {
         (false, false) if run.unknowns > 0 => None,

@@ -1,4 +1,4 @@
-//! The most accurate setting that a budget pays for.
+//! Choice of the most accurate setting within a budget.
 
 use crate::accuracy::beside::{WAYS, Way};
 use crate::accuracy::candidate::{Candidate, Price};
@@ -10,20 +10,20 @@ use crate::request::{SchemeChoice, Setting};
 use crate::resolved::TrialRequest;
 use crate::result::Pilot;
 
-/// Share of what is left of a budget that the next pilot runs and their reduction may take.
+/// Share of the remaining budget that the next pilot runs and their reduction may take.
 const PILOT_SHARE: f64 = 0.4;
 
-/// More steps are of no use once their error is this share of all the rest.
+/// Least share of the error of the steps in all other errors; below it, more steps are not worth taking.
 const LEAST_OF_STEPS: f64 = 0.01;
 
-/// Share of a budget that is to be used.
+/// Share of the budget that a choice should use; below it, the reason says why it does not.
 const USED_SHARE: f64 = 0.8;
 
-/// The modes and steps of a rung or of what is finer.
+/// Unchanged modes and steps of a rung or of its finer runs.
 const AS_IT_IS: Way = Way { scheme: SchemeChoice::ExactModal, steps: 1.0, time: 1.0 };
 
 impl Climb<'_, '_> {
-    /// The most accurate setting that all speeds can be run at in what is left of `seconds`.
+    /// Chooses the most accurate setting with which all speeds fit into what is left of `seconds`.
     pub(super) fn within(&self, seconds: f64) -> Next {
         let refuse = |message: String| Next::Refuse(Violation::new("/budget/seconds", message));
         let left = seconds - self.resources.spent_s;
@@ -107,14 +107,14 @@ impl Climb<'_, '_> {
         of_modes && self.pays(runs + self.reduction_s(finest), &rung.finer(), left)
     }
 
-    /// Whether pilot runs that take `pilots_s` with their reduction, and the sweep at what they tell the error of, fit into the `left`
-    /// seconds.
+    /// Whether pilot runs that take `pilots_s` with their reduction, and the sweep at the setting whose error they estimate, fit into the
+    /// `left` seconds.
     fn pays(&self, pilots_s: f64, candidate: &Candidate, left: f64) -> bool {
         pilots_s <= PILOT_SHARE * left && pilots_s + self.sweep_wall(candidate) <= PLANNED_SHARE * left
     }
 
-    /// Adds what lies between the last rung and the runs with more modes that were made there, the finest first, until one fits into
-    /// `left` seconds that is more accurate than the rung; or the missing runs of the next.
+    /// Adds settings between the last rung and its runs with more modes, the finest first, until one fits into `left` seconds that is more
+    /// accurate than the rung; or the missing runs of the next setting.
     fn between(
         &self,
         last: &Rung,
@@ -164,8 +164,8 @@ impl Climb<'_, '_> {
         Ok(())
     }
 
-    /// With as many steps as `left` seconds pay for, as long as they say anything. Without mass at the boundary what more steps would
-    /// bring was not measured.
+    /// Candidate with as many steps as `left` seconds pay for, as long as they reduce its error. Without mass at the boundary the steps
+    /// stay, as the gain of more was not measured.
     fn enough_steps(&self, candidate: &Candidate, left: f64) -> Candidate {
         let steps = candidate.setting.steps_per_revolution;
         let unit = Setting::aligned_steps(1, self.request, self.pilots.sectors);
@@ -185,7 +185,7 @@ impl Climb<'_, '_> {
     }
 }
 
-/// What a setting would be that was not measured yet, if a run takes as long as this `way` should.
+/// Expected candidate for a setting that was not measured yet, if a run takes as long as this `way` should.
 fn expected(last: &Rung, taken: Setting, way: Way, controls: Price) -> Candidate {
     let run_s = way.time * controls.of_run(last.steps);
     let price = controls.through(taken.steps_per_revolution, run_s);

@@ -1,9 +1,9 @@
-//! A setting that could be taken, with its estimated error and what it would cost.
+//! Candidate settings, with their estimated error and price.
 
 use crate::request::{AutoOr, SchemeChoice, Setting};
 
-/// Computing time of a run with any number of steps per revolution, the mean of the pilot speeds. Contact takes much of it that does not
-/// grow with the steps.
+/// Computing time of a run with any number of steps per revolution, the mean of the pilot speeds. Much of the contact's share does not grow
+/// with the steps.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct Price {
     fixed_s: f64,
@@ -11,47 +11,47 @@ pub(super) struct Price {
 }
 
 impl Price {
-    /// Of what takes `seconds` with `steps`, and `doubled_s` with twice as many.
+    /// Price of a run that takes `seconds` with `steps`, and `doubled_s` with twice as many.
     pub(super) fn of(steps: u32, seconds: f64, doubled_s: f64) -> Self {
         // No time falls with the steps or grows faster than they do; what seems to was measured badly.
         let grown = (doubled_s - seconds).clamp(0.0, seconds);
         Self { fixed_s: seconds - grown, step_s: grown / f64::from(steps) }
     }
 
-    /// Of a run with so many steps per revolution, s.
+    /// Computing time of a run with `steps` per revolution, s.
     pub(super) fn of_run(self, steps: u32) -> f64 {
         self.fixed_s + self.step_s * f64::from(steps)
     }
 
-    /// Of other runs like these that take `seconds` with `steps`.
+    /// Price scaled to runs that take `seconds` with `steps`.
     pub(super) fn through(self, steps: u32, seconds: f64) -> Self {
         let factor = seconds / self.of_run(steps).max(f64::MIN_POSITIVE);
         Self { fixed_s: factor * self.fixed_s, step_s: factor * self.step_s }
     }
 }
 
-/// A setting that could be taken.
+/// Candidate setting with its estimated error and price.
 #[derive(Debug, Clone)]
 pub(super) struct Candidate {
     pub(super) setting: Setting,
-    /// What more modes and more steps would remove; of a setting held against another one, of that.
+    /// Error that more modes and more steps would remove; for a setting compared with another one, the error of that one.
     pub(super) error_of_modes: f64,
     pub(super) error_of_steps: f64,
-    /// Steps per revolution of which this is the error: of a setting held against another one, of that.
+    /// Steps per revolution of which `error_of_steps` is the error; for a setting compared with another one, the steps of that one.
     pub(super) error_at_steps: u32,
-    /// What the difference from the setting that it was held against adds.
+    /// Error that the difference from the setting it was compared with adds.
     pub(super) difference: f64,
     /// Standard error of levels that do not repeat.
     pub(super) spread: f64,
-    /// Pilot speeds that carry the estimate.
+    /// Number of pilot speeds with an estimate.
     pub(super) estimated: usize,
     pub(super) price: Price,
-    /// Of a run with its modes by the scheme of the control runs.
+    /// Price of a run with the same modes by the scheme of the control runs.
     pub(super) controls: Price,
 }
 
 impl Candidate {
-    /// What another setting would remove.
+    /// Error that another setting would remove: all but the spread.
     pub(super) fn error_of_setting(&self) -> f64 {
         self.error_of_modes + self.error_of_steps + self.difference
     }
@@ -60,7 +60,7 @@ impl Candidate {
         self.error_of_setting() + self.spread
     }
 
-    /// With more steps: their error falls with the first order, to be safe, once there are more than it was measured with.
+    /// Candidate with more steps: the error of the steps falls with the first order, to be safe, above the steps it was measured with.
     pub(super) fn with_steps(&self, steps: u32) -> Self {
         let gain = (f64::from(self.error_at_steps) / f64::from(steps)).min(1.0);
         Self {
@@ -71,7 +71,7 @@ impl Candidate {
     }
 }
 
-/// A setting of a scheme that integrates as many modes as its step carries.
+/// Setting of a scheme that integrates as many modes as its step carries.
 pub(super) fn setting(modes_per_speed: u32, scheme: SchemeChoice, steps_per_revolution: u32) -> Setting {
     Setting { modes_per_speed, scheme, kept_modes: AutoOr::Auto, steps_per_revolution }
 }
@@ -80,7 +80,7 @@ pub(super) fn setting(modes_per_speed: u32, scheme: SchemeChoice, steps_per_revo
 mod tests {
     use super::*;
 
-    /// One held against a run of 2,000 steps, itself with 1,000.
+    /// Candidate with 1,000 steps that was compared with a run of 2,000.
     #[test]
     fn the_error_of_steps_falls_beyond_those_it_was_measured_with() {
         let candidate = Candidate {

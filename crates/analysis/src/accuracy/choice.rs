@@ -1,12 +1,12 @@
-//! Which setting meets a target at the least cost, or is the most accurate that a budget pays for.
+//! Choice of the cheapest setting that meets a target, or of the most accurate one within a budget.
 //!
-//! Pilot runs at a few speeds of the scene climb two ladders that double: modes per speed and steps per revolution. At a setting
-//! (k, S) the error of the modes is estimated from the difference to (2k, S), that of the steps from the difference to (k, 2S),
-//! and whichever is larger is refined. There time is stepped by the exact propagator with mass, which converges to the finite-element
-//! model as both are refined. Where the climb ends, settings beside it are tried: what lies between its rungs, and a boundary without
-//! mass, which is cheaper but has a limit of its own. Their error is bounded by what they differ from a run of the climb.
+//! Pilot runs at a few speeds of the scene climb two ladders that double: modes per speed and steps per revolution. At a setting (k, S) the
+//! error of the modes is estimated from the difference to (2k, S), that of the steps from the difference to (k, 2S), and whichever is
+//! larger is refined. In the climb time is stepped by the exact propagator with mass, which converges to the finite-element model as both
+//! are refined. At the end of the climb, settings beside it are tried: settings between its rungs, and a boundary without mass, which is
+//! cheaper but has a limit of its own. Their error is bounded by their difference from a run of the climb.
 //!
-//! [`next`] is a pure function of the runs known so far: it names the runs it misses, and ends with a choice or a refusal.
+//! [`next`] is a pure function of the runs known so far: it names the missing runs, and ends with a choice or a refusal.
 
 use crate::accuracy::climb::{Climb, Next, Resources};
 use crate::accuracy::rung::{Pilots, pilot_speeds};
@@ -14,7 +14,7 @@ use crate::error::Violation;
 use crate::resolved::{Aim, Modes, ResolvedSweep, TrialRequest};
 use crate::result::Trial;
 
-/// Chooses for a resolved sweep of a wheel of `sectors`; `trial` looks up a run that is known.
+/// Chooses for a resolved sweep of a wheel of `sectors`; `trial` looks up a known run.
 pub fn next<'a>(
     request: &ResolvedSweep,
     sectors: u32,

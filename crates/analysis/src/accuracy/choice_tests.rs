@@ -1,4 +1,4 @@
-//! Choices on responses made up for the purpose: level 1 with errors that fall with modes and steps in known ways.
+//! Choices on made-up responses: level 1 with errors that fall with modes and steps in known ways.
 
 use std::cell::Cell;
 
@@ -11,7 +11,7 @@ use crate::resolved::{ResolvedSweep, TrialRequest, from_json};
 use crate::result::{Choice, Cost, Trial};
 use rubmap_wheel::response::sensitivity::{Growth, Sensitivity};
 
-/// What a run at (k, S) and a speed shows: its level, or none if it diverges, and whether it repeats.
+/// Result of a run at (k, S) and a speed: its level, or none if it diverges, and whether it repeats.
 type Response<'a> = &'a dyn Fn(f64, f64, f64) -> (Option<f64>, bool);
 
 fn request(asked: serde_json::Value) -> ResolvedSweep {
@@ -28,10 +28,10 @@ fn resources() -> Resources {
     Resources { workers: 1, spent_s: 0.0, reductions: vec![(20, 1.0)], most_modes: None }
 }
 
-/// Seconds of a step for each mode.
+/// Computing time of a step per mode, s.
 const STEP_S: f64 = 1e-7;
 
-/// Share of it that a step takes without mass at the boundary, and what the level is off by then.
+/// Boundary without mass: share of [`STEP_S`] that a step takes, and error of the level.
 const MASSLESS: (f64, f64) = (0.5, 0.004);
 
 fn trial(request: &TrialRequest, response: Response, growth: Growth) -> Trial {
@@ -83,7 +83,7 @@ fn trial(request: &TrialRequest, response: Response, growth: Growth) -> Trial {
     }
 }
 
-/// Lets the pilots run until there is a choice or a refusal; with the number of runs.
+/// Runs the pilots until there is a choice or a refusal; returns it with the number of runs.
 fn choose(
     request: &ResolvedSweep,
     resources: &Resources,
@@ -92,7 +92,7 @@ fn choose(
     choose_of(Growth::Chaotic, request, resources, response)
 }
 
-/// The same where a tiny perturbation of any run behaves like `growth`.
+/// Runs the pilots to a choice or a refusal, where a tiny perturbation of any run behaves like `growth`.
 fn choose_of(
     growth: Growth,
     request: &ResolvedSweep,
@@ -119,7 +119,7 @@ fn choose_of(
     }
 }
 
-/// Sixty speeds of a wheel that may touch: many enough for cheaper settings to be tried.
+/// Request of sixty speeds of a wheel that may touch: enough for cheaper settings to be tried.
 fn many(asked: serde_json::Value) -> ResolvedSweep {
     let mut body = json!({"scene": {"contact": {}}});
     body["speeds"] = json!({"from": 100, "to": 400, "count": 60, "unit": "rad_s"});
@@ -127,7 +127,7 @@ fn many(asked: serde_json::Value) -> ResolvedSweep {
     request(body)
 }
 
-/// 1 + 40/k² + 30/S.
+/// Response of level 1 + 40/k² + 30/S.
 fn converging(modes: f64, steps: f64, _: f64) -> (Option<f64>, bool) {
     (Some(1.0 + 40.0 / modes.powi(2) + 30.0 / steps), true)
 }
@@ -271,7 +271,7 @@ fn what_beats_is_not_refused() {
     }
 }
 
-/// Of ten revolutions these pilot runs take four, and other speeds may take all.
+/// Budget of runs that take four of ten revolutions here, and may take all at other speeds.
 #[test]
 fn a_budget_allows_for_marches_that_do_not_repeat() {
     let choice = |asked: serde_json::Value, length: &str| {

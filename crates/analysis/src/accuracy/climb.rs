@@ -1,4 +1,4 @@
-//! A climb over settings: what it may use, what it ends with, and what speeds and reductions would take.
+//! Climb over settings: its resources, its outcome, and the wall time of speeds and reductions.
 
 use crate::accuracy::candidate::Candidate;
 use crate::accuracy::rung::{Pilots, Rung, finer_modes};
@@ -7,40 +7,40 @@ use crate::request::SweepDirection;
 use crate::resolved::{ResolvedSweep, TrialRequest};
 use crate::result::{Choice, Pilot};
 
-/// What comes next.
+/// Next step of a choice.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Next {
-    /// These runs are missing.
+    /// Runs that are missing.
     Run(Vec<TrialRequest>),
-    /// The choice.
+    /// Choice, at the end of the climb.
     Take(Box<Choice>),
-    /// It cannot be had.
+    /// Refusal: no setting meets the request.
     Refuse(Violation),
 }
 
-/// What a choice may use.
+/// Resources of a choice.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Resources {
     /// Threads that compute speeds side by side.
     pub workers: usize,
     /// Wall time since the job began, s.
     pub spent_s: f64,
-    /// `modes_per_speed` and wall time of the reductions that are stored, s.
+    /// Stored reductions: `modes_per_speed` and wall time, s.
     pub reductions: Vec<(u32, f64)>,
-    /// Most `modes_per_speed` that memory allows, if that is known.
+    /// Most `modes_per_speed` that memory allows, if known.
     pub most_modes: Option<u32>,
 }
 
 /// Last rung of the steps, as a power of two times the first.
 pub(super) const MOST_DOUBLINGS: u32 = 7;
 
-/// Share of what is left of a budget that runs are planned for.
+/// Share of the remaining budget that runs are planned for.
 pub(super) const PLANNED_SHARE: f64 = 0.9;
 
-/// A run with twice the modes takes at most so many times as long.
+/// Largest ratio of computing times of a run with twice the modes.
 pub(super) const MODES_DOUBLED: f64 = 2.0;
 
-/// A climb over settings.
+/// Climb over settings, with the pilot runs known so far.
 pub(super) struct Climb<'a, 'b> {
     pub(super) request: &'b ResolvedSweep,
     pub(super) resources: &'b Resources,
@@ -77,7 +77,7 @@ impl Climb<'_, '_> {
         runs.div_ceil(self.resources.workers) as f64 * seconds
     }
 
-    /// Wall time of all speeds and of those that are simulated again with twice the modes and steps, with the reduction for these.
+    /// Wall time of all speeds and of the control runs with twice the modes and steps, with the reduction for these.
     pub(super) fn sweep_wall(&self, taken: &Candidate) -> f64 {
         let speeds = self.request.speeds.rad_s().len();
         let controls = self.request.control_speeds().min(speeds);
@@ -93,7 +93,7 @@ impl Climb<'_, '_> {
         all + self.wall(controls, MODES_DOUBLED * taken.controls.of_run(2 * steps)) + reduction
     }
 
-    /// Expected wall time of the reduction with `modes`: none if it is stored, otherwise by those that are.
+    /// Expected wall time of the reduction with `modes`, s: 0 if it is stored, otherwise scaled from the largest stored one.
     pub(super) fn reduction_s(&self, modes: u32) -> f64 {
         let stored = &self.resources.reductions;
         if stored.iter().any(|&(k, _)| k == modes) {
@@ -126,7 +126,7 @@ impl Climb<'_, '_> {
     }
 }
 
-/// Everything that was tried, in the order in which it was.
+/// Pilot runs of all rungs, in the order in which they were tried.
 pub(super) fn pilots(tried: &[Rung]) -> Vec<Pilot> {
     tried.iter().flat_map(|rung| rung.pilots.clone()).collect()
 }

@@ -1,4 +1,4 @@
-//! The error of a finished sweep, from some of its speeds simulated again at a finer setting.
+//! Error of a finished sweep, from some of its speeds simulated again at a finer setting.
 
 use crate::accuracy::errors::Response;
 use crate::accuracy::rung::{SAFETY, estimate, evenly_spread, finer_modes};
@@ -8,21 +8,21 @@ use crate::resolved::{ResolvedSweep, TrialRequest};
 use crate::result::{Control, ErrorEstimate, Point, PointError, PointStatus, SpeedSpectra, Trial};
 use rubmap_wheel::response::critical_speed::peaks;
 
-/// A speed of a sweep and its finer run.
+/// Speed of a sweep with its finer run.
 #[derive(Debug, Clone, Copy)]
 pub struct FinerRun<'a> {
     /// Index of the speed in the request.
     pub index: u32,
-    /// The finer setting.
+    /// Setting of the finer run.
     pub setting: Setting,
     /// Spectra of the speed in the sweep.
     pub spectra: &'a SpeedSpectra,
-    /// The finer run.
+    /// Result of the finer run.
     pub trial: &'a Trial,
 }
 
-/// The speeds of a finished sweep that are simulated again, by index, with what is run; from the points of all speeds. `most_modes`
-/// is the largest reduction that memory allows, if that is known.
+/// Control runs of a finished sweep: index of the speed, finer setting, run; from the points of all speeds. `most_modes` is the largest
+/// reduction that memory allows, if known.
 pub fn control_requests(
     request: &ResolvedSweep,
     sectors: u32,
@@ -49,7 +49,7 @@ pub fn control_requests(
     chosen.into_iter().map(finer).collect()
 }
 
-/// Twice the modes, as far as memory allows, and twice the steps, by the exact propagator with mass.
+/// Setting with twice the modes, as far as memory allows, and twice the steps, by the exact propagator with mass.
 fn finer_setting(request: &ResolvedSweep, sectors: u32, point: &Point, most_modes: Option<u32>) -> Setting {
     let steps = point.steps_per_revolution.saturating_mul(2).min(MOST_STEPS);
     Setting {
@@ -61,8 +61,8 @@ fn finer_setting(request: &ResolvedSweep, sectors: u32, point: &Point, most_mode
     }
 }
 
-/// Estimated errors of all completed speeds from the finer runs of some, each given with the spectra of the speed itself, and
-/// whether they are within the accuracy that was asked for, if one was.
+/// Estimates the errors of all completed speeds from the finer runs of some, each given with the spectra of the speed itself, and tells
+/// whether they are within the accuracy asked for, if any.
 pub fn error_estimate(
     request: &ResolvedSweep,
     accuracy: Option<Accuracy>,
@@ -126,8 +126,8 @@ pub fn error_estimate(
     ErrorEstimate { controls, points, largest, largest_of_stress, target_met, message }
 }
 
-/// Errors of stress below the median of all control runs become it: two runs whose largest stresses agree better than those beside them do so
-/// by chance.
+/// Raises errors of stress below the median of all control runs to it: two runs whose largest stresses agree better than their neighbours'
+/// do so by chance.
 fn raise_stress_errors(controls: &mut [Control]) {
     let mut known: Vec<f64> = controls.iter().filter_map(|control| control.estimated_stress_error).collect();
     known.sort_unstable_by(f64::total_cmp);
@@ -150,7 +150,7 @@ fn point_errors(points: &[Point], controls: &[Control]) -> Vec<PointError> {
     points.iter().filter(|point| point.status == PointStatus::Completed).filter_map(of).collect()
 }
 
-/// What the control run of a point says, or the larger of those nearest on either side; none where one of them says nothing.
+/// Error of a point: that of its own control run, otherwise the larger of the nearest on either side; none where one of them is unknown.
 fn around(point: &Point, controls: &[Control], error: fn(&Control) -> Option<f64>) -> Option<f64> {
     if let Some(control) = controls.iter().find(|control| control.index == point.index) {
         return error(control);

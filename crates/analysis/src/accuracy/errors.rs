@@ -1,30 +1,30 @@
-//! How far a run is from a finer one.
+//! Differences of a run from a finer one.
 
 use crate::accuracy::trial::lines;
 use crate::resolved::ResolvedSweep;
 use crate::result::trial::repeats;
 use crate::result::{Errors, Point, PointStress, SpeedSpectra, Trial};
 
-/// The steady response of a completed run, as it is compared.
+/// Steady response of a completed run, as it is compared.
 pub(super) struct Response<'a> {
-    /// `[sensor]`.
+    /// Root mean square, `[sensor]`.
     pub(super) rms: Vec<f64>,
-    /// `[sensor][engine order]`.
+    /// Amplitudes, `[sensor][engine order]`.
     pub(super) lines: Vec<Vec<f64>>,
-    /// `[sensor][block]`; empty where they were not kept.
+    /// Levels of the parts of the window, `[sensor][block]`; empty where they were not recorded.
     pub(super) levels: &'a [Vec<f64>],
     pub(super) repeats: bool,
-    /// Contact impulse over the whole run, and the mean force over the window.
+    /// Contact impulse over the whole run; `mean_force` is the mean force over the window.
     impulse: f64,
     mean_force: f64,
-    /// Whether the run took the revolutions that were asked for.
+    /// Whether the run took all the revolutions asked for.
     took_all: bool,
     /// Stress, where it was recorded.
     pub(super) stress: Option<&'a PointStress>,
 }
 
 impl<'a> Response<'a> {
-    /// Of a trial, if it was completed.
+    /// Response of a trial, if it was completed.
     pub(super) fn of_trial(trial: &'a Trial) -> Option<Self> {
         (!trial.lines.is_empty()).then(|| Self {
             lines: trial.lines.clone(),
@@ -33,7 +33,7 @@ impl<'a> Response<'a> {
         })
     }
 
-    /// Of a speed of a sweep.
+    /// Response of a speed of a sweep.
     pub(super) fn of_speed(point: &'a Point, spectra: &SpeedSpectra, request: &ResolvedSweep) -> Self {
         Self { lines: lines(spectra, request), ..Self::of_point(point) }
     }
@@ -56,7 +56,7 @@ impl<'a> Response<'a> {
         let largest = finer.rms.iter().copied().fold(0.0, f64::max);
         let differences = self.rms.iter().zip(&finer.rms).map(|(a, b)| (a - b).abs());
         let repeat = self.repeats && finer.repeats;
-        // What adds up over a run can be compared where both are of the same revolutions.
+        // Sums over a run can be compared where both runs have the same revolutions.
         let (impulse, finer_impulse) = match self.took_all && finer.took_all {
             true => (self.impulse, finer.impulse),
             false => (self.mean_force, finer.mean_force),
@@ -95,8 +95,8 @@ pub fn errors(trial: &Trial, finer: &Trial) -> Option<Errors> {
     Some(Errors { history: history_error(trial, finer), ..steady })
 }
 
-/// ‖x − y‖/‖y‖ over the first revolutions, all sensors together; none without histories at the same instants of motions that begin
-/// alike.
+/// Relative difference of histories, ‖x − y‖/‖y‖ over the first revolutions, all sensors together; none without histories at the same
+/// instants of motions that begin alike.
 pub(super) fn history_error(trial: &Trial, finer: &Trial) -> Option<f64> {
     // One that was solved for begins on its response, one that was marched where its scene begins.
     if trial.point.is_solved() != finer.point.is_solved() {
@@ -112,7 +112,7 @@ pub(super) fn history_error(trial: &Trial, finer: &Trial) -> Option<f64> {
     Some(relative(difference.sqrt(), size.sqrt()))
 }
 
-/// Largest standard error of a sensor's level from those of the parts of the window.
+/// Largest standard error of a sensor's level, from the levels of the parts of the window.
 fn standard_error(levels: &[Vec<f64>]) -> f64 {
     let error = |parts: &Vec<f64>| {
         let n = parts.len() as f64;
@@ -123,7 +123,7 @@ fn standard_error(levels: &[Vec<f64>]) -> f64 {
     levels.iter().filter(|parts| parts.len() > 1).map(error).fold(0.0, f64::max)
 }
 
-/// `difference` relative to `size`; all of it where there should be nothing.
+/// Ratio of `difference` to `size`: 1 where `size` is 0 and the difference is not.
 fn relative(difference: f64, size: f64) -> f64 {
     match (difference == 0.0, size == 0.0) {
         (true, _) => 0.0,

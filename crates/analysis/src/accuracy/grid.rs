@@ -1,14 +1,14 @@
-//! The runs of a convergence study: the settings of its grid at every speed, and the reference.
+//! Runs of a convergence study: the settings of its grid at every speed, and the reference.
 
 use crate::request::{AutoOr, SchemeChoice, Setting};
 use crate::resolve::limits;
 use crate::resolved::{ResolvedStudy, TrialRequest};
 
-/// A level finer than the finest of a grid: so many times its steps and, where it has a single size, its modes.
+/// Refinement of the reference beyond the finest of a grid: factor of its steps and, where the grid has a single size, of its modes.
 pub(crate) const FINER: u32 = 2;
 
 impl ResolvedStudy {
-    /// Every setting of the grid, sizes first, on a wheel of `sectors`. Steps that come out the same are taken once.
+    /// Settings of the grid, sizes first, on a wheel of `sectors`. Equal steps after alignment are taken once.
     pub(crate) fn settings(&self, sectors: u32) -> Vec<Setting> {
         let mut steps: Vec<u32> = self
             .grid
@@ -39,8 +39,8 @@ impl ResolvedStudy {
         settings
     }
 
-    /// One level finer than the finest of the grid: by the exact propagator with mass, which all schemes tend to as modes are
-    /// added.
+    /// Reference setting, one level finer than the finest of the grid: by the exact propagator with mass, which all schemes tend to as
+    /// modes are added.
     pub(crate) fn reference(&self, sectors: u32) -> Setting {
         let mut modes = self.grid.modes_per_speed.clone();
         modes.sort_unstable();
@@ -59,7 +59,7 @@ impl ResolvedStudy {
         }
     }
 
-    /// At `speed_rad_s`: the reference, which has the twin, and the grid.
+    /// Trials at `speed_rad_s`: the reference, which has the twin, and the grid.
     pub(crate) fn trials(&self, speed_rad_s: f64, sectors: u32) -> (TrialRequest, Vec<TrialRequest>) {
         let trial = |setting, twin| TrialRequest {
             history_revolutions: self.history_revolutions,
@@ -70,7 +70,7 @@ impl ResolvedStudy {
         (reference, self.settings(sectors).into_iter().map(|setting| trial(setting, false)).collect())
     }
 
-    /// All trials of a resolved study on a wheel of `sectors`, those of few modes first.
+    /// Trials of a resolved study on a wheel of `sectors`, those of few modes first.
     pub fn all_trials(&self, sectors: u32) -> Vec<TrialRequest> {
         let mut trials = Vec::new();
         for &speed in self.speeds().rad_s() {

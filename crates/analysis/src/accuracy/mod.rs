@@ -1,11 +1,11 @@
-//! What accuracy costs in time: runs at several settings, held against each other.
+//! Accuracy and its computing time: runs at several settings, compared with each other.
 //!
-//! - [`trial`]: one run at one setting, with what is compared and what it cost;
-//! - [`errors`]: how far a run is from a finer one;
+//! - [`trial`]: one run at one setting, with the compared quantities and the cost;
+//! - [`errors`]: differences of a run from a finer one;
 //! - [`study`], `grid`: a grid of settings against a reference (work and precision);
 //! - [`choice`]: the cheapest setting that meets a target (`target`), or the most accurate one that a budget pays for (`budget`), from
 //!   a [`climb`] over [`rung`]s and what lies `beside` them;
-//! - [`modes`]: the same for a modal analysis, from its reductions;
+//! - [`modes`]: the choice for a modal analysis, from its reductions;
 //! - [`control`]: the error of a finished sweep, from some of its speeds at a finer setting.
 
 mod beside;

@@ -1,6 +1,6 @@
-//! How many modes a modal analysis takes for the accuracy asked for, or within a budget.
+//! Choice of the number of modes of a modal analysis, for the accuracy asked for or within a budget.
 //!
-//! Nothing is estimated here: every reduction holds its ten lowest frequencies of each nodal diameter against the full sector's.
+//! Nothing is estimated here: every reduction compares its ten lowest frequencies of each nodal diameter with the full sector's.
 
 use crate::accuracy::climb::{PLANNED_SHARE, Resources};
 use crate::accuracy::rung::finer_modes;
@@ -9,18 +9,18 @@ use crate::request::Accuracy;
 use crate::resolved::ResolvedModalAnalysis;
 use crate::result::{ModesChoice, ReductionReport, TriedModes};
 
-/// What comes next.
+/// Next step of the choice of modes.
 #[derive(Debug, Clone, PartialEq)]
 pub enum NextModes {
-    /// This reduction is missing.
+    /// Reduction that is missing, by its `modes_per_speed`.
     Reduce(u32),
-    /// The choice.
+    /// Choice of modes.
     Take(ModesChoice),
-    /// It cannot be had.
+    /// Refusal: no number of modes meets the request.
     Refuse(Violation),
 }
 
-/// First rung.
+/// First rung of `modes_per_speed`.
 const FIRST_MODES: u32 = 10;
 
 /// Chooses for a resolved modal analysis from the reductions known so far.

@@ -1,4 +1,4 @@
-//! Pilot runs at a setting and the finer ones beside it: what error they show.
+//! Pilot runs at a setting and the finer ones beside it: the errors they show.
 
 use crate::accuracy::candidate::{Candidate, Price, setting};
 use crate::accuracy::errors::errors;
@@ -10,24 +10,24 @@ use crate::result::{Errors, Pilot, Trial};
 use crate::stepping::steps_for_contact;
 use rubmap_wheel::response::sensitivity::Growth;
 
-/// The estimate of an error is this many times the difference from a level with twice the modes or steps. Of 24 random scenes
-/// against eight times the modes, and 40 against four times the steps (others than those of `tests/accuracy`), the true error was
-/// below that in nine of ten.
+/// Factor from the difference to the estimated error, the difference being that from a level with twice the modes or steps. Of 24 random
+/// scenes against eight times the modes, and 40 against four times the steps (others than those of `tests/accuracy`), the true error was
+/// below the estimate in nine of ten.
 pub(super) const SAFETY: f64 = 2.5;
 
-/// A difference that falls by more than this factor from one level to the next is not believed to have fallen farther.
+/// Largest factor by which the error of the modes is taken to fall from one rung to the next, however small the difference.
 const MOST_GAIN: f64 = 4.0;
 
-/// First rung of the modes; that of the steps is half of what `"auto"` gives contact.
+/// First rung of the modes; the first of the steps is half of what `"auto"` gives contact.
 const FIRST_MODES: u32 = 20;
 
-/// Most pilot speeds.
+/// Largest number of pilot speeds.
 const PILOT_SPEEDS: usize = 4;
 
-/// A level with fewer than this many times the modes is no finer one: the difference would say little of the error.
+/// Least ratio of modes of a finer level: with fewer, the difference would say little of the error.
 const LEAST_FINER: f64 = 1.5;
 
-/// `count` of `values`, evenly spread, both ends included; all if there are no more.
+/// Selection of `count` of `values`, evenly spread, both ends included; all if there are no more.
 pub(super) fn evenly_spread<T: Copy>(values: &[T], count: usize) -> Vec<T> {
     match (values.len(), count) {
         (_, 0) => Vec::new(),
@@ -44,16 +44,15 @@ pub fn pilot_speeds(request: &ResolvedSweep) -> Vec<f64> {
     evenly_spread(&speeds, PILOT_SPEEDS)
 }
 
-/// The next rung above `modes`, twice as many if memory (`most`) and the limit of requests allow; none if what they allow is
-/// hardly finer.
+/// Next rung above `modes`, twice as many if memory (`most`) and the limit of requests allow; none if what they allow is hardly finer.
 pub(super) fn finer_modes(modes: u32, most: Option<u32>) -> Option<u32> {
     let finer = (2 * modes).min(limits::MODES_PER_SPEED).min(most.unwrap_or(u32::MAX));
     (f64::from(finer) >= LEAST_FINER * f64::from(modes)).then_some(finer)
 }
 
-/// Estimated error from the difference to a finer run. Of responses that do not repeat, levels differ by chance: what lies within
-/// the standard error of the difference tells nothing and is not multiplied; a largest stress is of one revolution and has no such
-/// error, so all of its difference counts. None of stress that was not recorded.
+/// Estimated error from the difference to a finer run. Levels of responses that do not repeat differ by chance: the part of the difference
+/// within its standard error is not counted; a largest stress is of one revolution and has no such error, so all of its difference counts.
+/// None for stress that was not recorded.
 pub(super) fn estimate(difference: &Errors, of: AccuracyOf) -> Option<f64> {
     match of {
         AccuracyOf::Response => {
@@ -64,27 +63,27 @@ pub(super) fn estimate(difference: &Errors, of: AccuracyOf) -> Option<f64> {
     }
 }
 
-/// A setting that was tried: the largest errors of the pilot speeds.
+/// Setting that was tried, with the largest errors over the pilot speeds.
 #[derive(Debug, Clone)]
 pub(super) struct Rung {
     pub(super) modes: u32,
-    /// Of the runs with more modes.
+    /// Modes of the finer runs.
     pub(super) finer: u32,
     pub(super) steps: u32,
-    /// Infinite where a run of a pair was completed and the other was not.
+    /// Estimated error of the modes; infinite where one run of a pair was completed and the other was not.
     pub(super) error_of_modes: f64,
     pub(super) error_of_steps: f64,
-    /// Standard error of the level where a response does not repeat, and the speed where it is largest.
+    /// Standard error of the level where a response does not repeat; `spread_at` is the speed where it is largest.
     pub(super) spread: f64,
     pub(super) spread_at: f64,
-    /// Of a run, and of one with more modes.
+    /// Price of a run; `finer_price` is that of one with more modes.
     pub(super) price: Price,
     pub(super) finer_price: Price,
     pub(super) pilots: Vec<Pilot>,
 }
 
 impl Rung {
-    /// The setting itself.
+    /// Candidate at the rung's own setting.
     pub(super) fn itself(&self) -> Candidate {
         Candidate {
             setting: setting(self.modes, SchemeChoice::ExactModal, self.steps),
@@ -99,8 +98,8 @@ impl Rung {
         }
     }
 
-    /// The setting of the runs with more modes. Of an error that is `SAFETY` times the difference they have what is left when the
-    /// difference is taken away, if more modes bring a response ever nearer from one side; the part of the steps is that of fewer modes.
+    /// Candidate at the setting of the runs with more modes. Of the estimated error, `SAFETY` times the difference, the difference itself
+    /// is taken away, assuming that more modes converge from one side; the error of the steps is that of fewer modes.
     pub(super) fn finer(&self) -> Candidate {
         Candidate {
             setting: setting(self.finer, SchemeChoice::ExactModal, self.steps),
@@ -111,12 +110,12 @@ impl Rung {
         }
     }
 
-    /// Pilot speeds that carry an estimate.
+    /// Number of pilot speeds with an estimate.
     pub(super) fn estimated(&self) -> usize {
         self.pilots.iter().filter(|pilot| pilot.error_of_modes.is_some()).count()
     }
 
-    /// Adds a pilot speed: the run, and those with more modes and more steps. `before` is the error of fewer modes.
+    /// Adds a pilot speed: the run, and those with more modes and more steps. `before` is the error with fewer modes.
     fn add(&mut self, pilot: Pilot, [run, more_modes, more_steps]: [&Trial; 3], of: AccuracyOf, before: f64) {
         let error = |finer: &Trial| match (run.is_completed(), finer.is_completed()) {
             (true, true) => errors(run, finer).and_then(|difference| estimate(&difference, of)),
@@ -147,19 +146,19 @@ impl Rung {
     }
 }
 
-/// The pilot runs of a sweep.
+/// Pilot runs of a sweep.
 pub(super) struct Pilots<'a, 'b> {
     pub(super) request: &'b ResolvedSweep,
     pub(super) sectors: u32,
-    /// Most modes that memory allows, if that is known.
+    /// Most modes that memory allows, if known.
     pub(super) most_modes: Option<u32>,
     pub(super) speeds: Vec<f64>,
-    /// Looks up a run that is known.
+    /// Looks up a known run.
     pub(super) trial: &'b dyn Fn(&TrialRequest) -> Option<&'a Trial>,
 }
 
 impl<'a> Pilots<'a, '_> {
-    /// Of the climb.
+    /// Setting of the climb with these modes and steps.
     pub(super) fn setting(&self, modes_per_speed: u32, steps_per_revolution: u32) -> Setting {
         setting(modes_per_speed, SchemeChoice::ExactModal, steps_per_revolution)
     }
@@ -174,7 +173,7 @@ impl<'a> Pilots<'a, '_> {
         Setting::aligned_steps(first.ceil() as u32, self.request, self.sectors)
     }
 
-    /// Fewer steps say nothing of the scene.
+    /// Fewest steps per revolution that resolve the scene.
     pub(super) fn least_steps(&self) -> f64 {
         let (automatic, _) = steps_for_contact(self.request);
         // No step may jump a rod of a coating.
@@ -182,7 +181,7 @@ impl<'a> Pilots<'a, '_> {
         least.max(f64::from(2 * self.request.max_engine_order + 1)).min(f64::from(MOST_STEPS))
     }
 
-    /// Whose error is judged.
+    /// Quantity whose error is judged.
     pub(super) fn of(&self) -> AccuracyOf {
         match self.request.modes {
             Modes::Sought(Aim::Accuracy(accuracy)) => accuracy.of,
@@ -199,8 +198,8 @@ impl<'a> Pilots<'a, '_> {
         (self.trial)(&request).ok_or_else(|| Box::new(request))
     }
 
-    /// What the runs at (k, S), (`finer`, S) and (k, 2S) show at every pilot speed; or the missing ones. `below` is a rung with
-    /// fewer modes.
+    /// Rung from the runs at (k, S), (`finer`, S) and (k, 2S) at every pilot speed; or the missing runs. `below` is a rung with fewer
+    /// modes.
     pub(super) fn rung(
         &self,
         (modes, finer, steps): (u32, u32, u32),
@@ -248,7 +247,7 @@ impl<'a> Pilots<'a, '_> {
         if missing.is_empty() { Ok(rung) } else { Err(missing) }
     }
 
-    /// What a run is told as, without errors.
+    /// Report of a pilot run, without errors.
     pub(super) fn pilot(&self, speed_rad_s: f64, setting: Setting, run: &Trial) -> Pilot {
         Pilot {
             speed_rad_s,
@@ -263,7 +262,7 @@ impl<'a> Pilots<'a, '_> {
         }
     }
 
-    /// What a run like `run` takes in the sweep, s.
+    /// Computing time of a run like `run` in the sweep, s.
     pub(super) fn run_s(&self, run: &Trial) -> f64 {
         let integration = &self.request.integration;
         run.cost.of_run(match self.request.modes {
@@ -273,7 +272,7 @@ impl<'a> Pilots<'a, '_> {
         })
     }
 
-    /// Why no pilot speed carries an estimate, if none does.
+    /// Reason why no pilot speed has an estimate; none if one has.
     pub(super) fn nothing_completed(&self, rung: &Rung) -> Option<String> {
         if rung.estimated() > 0 || rung.error_of_modes.is_infinite() || rung.error_of_steps.is_infinite() {
             return None;
@@ -286,7 +285,7 @@ impl<'a> Pilots<'a, '_> {
         ))
     }
 
-    /// What a tiny perturbation says of the response whose level varies most; or the missing run.
+    /// Character of the response whose level varies most, from a tiny perturbation; or the missing run.
     pub(super) fn sensitivity(&self, rung: &Rung) -> Result<Roughness, Box<TrialRequest>> {
         let setting = self.setting(rung.modes, rung.steps);
         let request = TrialRequest { twin: true, ..TrialRequest::new(self.request, rung.spread_at, setting) };
@@ -304,11 +303,11 @@ impl<'a> Pilots<'a, '_> {
     }
 }
 
-/// Why the level of a response varies.
+/// Reason why the level of a response varies.
 pub(super) struct Roughness {
-    /// By chance, which no setting removes.
+    /// Whether the response is chaotic: its level varies by chance, at any setting.
     pub(super) chaotic: bool,
-    /// What the response is, with the growth rate of a tiny perturbation.
+    /// Kind of response, with the growth rate of a tiny perturbation, in words.
     pub(super) words: String,
 }
 

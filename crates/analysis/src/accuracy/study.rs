@@ -1,4 +1,4 @@
-//! What a convergence study says: errors, times, observed orders and the Pareto front (work and precision), and histories.
+//! Results of a convergence study: errors, times, observed orders and the Pareto front (work and precision), and histories.
 
 use crate::accuracy::errors::{errors, history_error};
 use crate::request::{SchemeChoice, Setting};
@@ -12,7 +12,7 @@ use rubmap_wheel::dynamics::sector::Units;
 use rubmap_wheel::response::sensitivity::Growth;
 use rubmap_wheel::revision::VERSION;
 
-/// A trial of a study with its setting.
+/// Trial of a study with its setting.
 struct Tried<'a> {
     setting: Setting,
     trial: &'a Trial,
@@ -41,8 +41,8 @@ impl Tried<'_> {
     }
 }
 
-/// What the finished trials of a resolved study say, with a document of histories for every speed; `trial` looks one up. None if
-/// one is missing.
+/// Results of the finished trials of a resolved study, with a document of histories for every speed; `trial` looks one up. None if one is
+/// missing.
 pub fn work_precision<'a>(
     request: &ResolvedStudy,
     (sectors, units): (u32, &Units),
@@ -154,7 +154,7 @@ fn in_words(reference: &Tried, history_revolutions: u32) -> String {
     }
 }
 
-/// Trials of the same size and scheme, ascending in steps.
+/// Observed orders of convergence, from trials of the same size and scheme, ascending in steps.
 fn orders(tried: &[Tried]) -> Vec<StepOrder> {
     let same = |a: &Tried, b: &Tried| {
         Setting { steps_per_revolution: 0, ..a.setting } == Setting { steps_per_revolution: 0, ..b.setting }

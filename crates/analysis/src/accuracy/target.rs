@@ -1,4 +1,4 @@
-//! The cheapest setting that meets a target.
+//! Choice of the cheapest setting that meets a target.
 //!
 //! Nothing here looks at a clock: the same scene has the same choice on every machine.
 
@@ -12,12 +12,12 @@ use crate::request::{AccuracyOf, SchemeChoice};
 use crate::resolved::TrialRequest;
 use crate::result::Pilot;
 
-/// Speeds for each pilot speed from which on cheaper settings are tried: all of them take about two runs there, and the dearest saves a
-/// fifth of one at every speed.
+/// Least number of speeds per pilot speed for cheaper settings to be tried: all of them take about two runs at each pilot speed, and the
+/// dearest saves a fifth of one at every speed.
 const WORTH_TRYING: usize = 10;
 
 impl Climb<'_, '_> {
-    /// The first setting on the way up that meets `target`, or what is cheaper beside it and meets it too.
+    /// Chooses the first setting of the climb that meets `target`, or a cheaper one beside it that meets it too.
     pub(super) fn to_target(&self, target: f64) -> Next {
         let refuse = |message: String| Next::Refuse(Violation::new("/accuracy/target", message));
         let (mut modes, first) = (self.pilots.first_modes(), self.pilots.first_steps());
@@ -71,13 +71,13 @@ impl Climb<'_, '_> {
         }
     }
 
-    /// The settings that a rung tells the error of, if there is something finer to control them with.
+    /// Candidates of a rung: its own setting, and the finer one if there is something still finer to control it with.
     pub(super) fn of_climb(&self, rung: &Rung) -> Vec<Candidate> {
         let finer = Some(rung.finer()).filter(|_| self.finer(rung.finer).is_some());
         [rung.itself()].into_iter().chain(finer).collect()
     }
 
-    /// The first of what is cheaper than `found` beside `rung` that `meets` the target, `found` itself if none does; or the missing runs.
+    /// First cheaper setting beside `rung` that `meets` the target; `found` itself if there is none; or the missing runs.
     fn cheapest(
         &self,
         rung: &Rung,

@@ -1,4 +1,4 @@
-//! A trial: one speed at one setting, run to be compared with others, with its cost.
+//! Trials: one speed at one setting, run to be compared with others, with its cost.
 
 use std::cell::Cell;
 use std::time::Duration;
@@ -22,8 +22,8 @@ use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
 use rubmap_wheel::response::sensitivity;
 
 impl Setting {
-    /// At least `steps` per revolution, so many that the histories of all settings of `request` share their instants on a wheel
-    /// of `sectors`.
+    /// Smallest number of steps per revolution, at least `steps`, for which the histories of all settings of `request` share their instants
+    /// on a wheel of `sectors`.
     pub(super) fn aligned_steps(steps: u32, request: &ResolvedSweep, sectors: u32) -> u32 {
         let aligned = aligned_samples(request, sectors as usize) as u32;
         let most = MOST_STEPS / aligned * aligned;
@@ -31,16 +31,16 @@ impl Setting {
     }
 }
 
-/// Fewest parts of the window whose levels are compared, if it has so many revolutions.
+/// Fewest parts of the window whose levels are compared, if it has that many revolutions.
 const BLOCKS: usize = 5;
 
-/// A run is repeated until it has taken this long altogether,
+/// Total time after which a run is no longer repeated to measure its cost.
 const TIMED: Duration = Duration::from_millis(300);
-/// or this often.
+/// Most repetitions of a run to measure its cost.
 const MOST_REPETITIONS: usize = 5;
 
-/// Runs a trial on the calling thread. Deterministic but for times. A run that diverges or cannot be made is a result, with the
-/// status and message of its point.
+/// Runs a trial on the calling thread. Deterministic but for times. A run that diverges or cannot be made is a result, with the status and
+/// message of its point.
 ///
 /// # Errors
 /// Cancellation.
@@ -49,7 +49,7 @@ pub fn run_trial(
     request: &TrialRequest,
     monitor: &dyn Monitor,
 ) -> Result<Trial, AnalysisError> {
-    // What becomes of a perturbation is seen where both runs go on.
+    // The growth of a perturbation shows only if both runs take all revolutions.
     let whole = request.twin.then(|| request.sweep.taking_all());
     let sweep = whole.as_ref().unwrap_or(&request.sweep);
     let speed_rad_s = request.speed_rad_s();
@@ -118,7 +118,7 @@ pub fn run_trial(
         trial.levels =
             history.displacement.iter().map(|line| levels(&line[line.len() - window..], samples)).collect();
         trial.lines = lines(spectra, sweep);
-        // What was solved for has no past that chance could have changed.
+        // A response that was solved for has no history that a perturbation could have changed.
         if request.twin && !trial.point.is_solved() {
             let twin =
                 simulate(reduced, &wheel, sweep, &stepping, Start::Perturbed, Recording::default(), &watch);
@@ -136,8 +136,8 @@ pub fn run_trial(
     Ok(trial)
 }
 
-/// Root mean squares about the mean of the window over its parts, each of the same number of whole revolutions (what is left over at
-/// the end is not counted).
+/// Root mean square of each part of the window about the mean of the window. All parts have the same number of whole revolutions; a rest at
+/// the end is not counted.
 fn levels(window: &[f64], samples_per_revolution: usize) -> Vec<f64> {
     let revolutions = window.len() / samples_per_revolution;
     let part = samples_per_revolution * (revolutions / revolutions.clamp(1, BLOCKS));
@@ -147,7 +147,7 @@ fn levels(window: &[f64], samples_per_revolution: usize) -> Vec<f64> {
     window.chunks_exact(part.max(1)).map(level).collect()
 }
 
-/// `[sensor][engine order]`: amplitudes at the integer engine orders from 1 on.
+/// Amplitudes at the integer engine orders from 1 on, `[sensor][engine order]`.
 pub(super) fn lines(spectra: &SpeedSpectra, request: &ResolvedSweep) -> Vec<Vec<f64>> {
     let window = request.integration.window_revolutions as usize;
     let orders = |amplitude: &[f64]| amplitude.iter().skip(window).step_by(window).copied().collect();

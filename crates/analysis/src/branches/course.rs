@@ -1,4 +1,4 @@
-//! How far branches have been followed: all that the next leg needs, to the bit.
+//! State of a branch job between legs: all that the next leg needs, to the bit.
 
 use serde::{Deserialize, Serialize};
 
@@ -8,45 +8,45 @@ use crate::result::{Bifurcation, Track};
 use rubmap_wheel::dynamics::steady::branch::Motion;
 use rubmap_wheel::dynamics::steady::branch::follow::Front;
 
-/// How far branches have been followed.
+/// State of a branch job between legs.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Course {
-    /// The stretch under way.
+    /// Stretch that is being followed.
     pub(super) under_way: UnderWay,
-    /// Those that have still to be begun, the next one last.
+    /// Stretches still to be begun, the next one last.
     pub(super) waiting: Vec<Stretch>,
-    /// Branches so far.
+    /// Number of branches so far.
     pub(super) branches: u32,
-    /// Flips so far: one that is found from both sides of a point is one.
+    /// Flips so far: a flip found from both sides of a point counts once.
     #[serde(default)]
     pub(super) flips: Vec<FoundFlip>,
 }
 
-/// Flip of a branch.
+/// Flip of a branch, with the number of that branch.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct FoundFlip {
     pub(super) branch: u32,
     pub(super) flip: Bifurcation,
 }
 
-/// A branch away from where it begins, to one side.
+/// Side of a branch, followed away from where the branch begins.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Stretch {
     pub(super) track: Track,
-    /// How far the flip may be from where a branch of doubled period begins.
+    /// Largest distance, in the parameter, of the flip from where a branch of doubled period begins.
     #[serde(default)]
     pub(super) flip_error: f64,
-    /// Passages over a lobe after which its motions repeat; none of those that repeat as their scene does.
+    /// Passages over a lobe after which the motions repeat; none for motions that repeat as their scene does.
     pub(super) passages: Option<u32>,
     pub(super) backwards: bool,
     pub(super) front: KeptFront,
-    /// Whether where it begins is a point of it.
+    /// Whether the beginning is reported as a point of this stretch.
     pub(super) tells_start: bool,
-    /// The first points of the branch behind where it begins, if it was followed to the other side; the nearest first.
+    /// First points of the branch behind its beginning, if the other side was followed; the nearest first.
     pub(super) behind: Vec<Passed>,
 }
 
-/// Points behind a beginning by which it is told whether there is a maximum.
+/// Number of points behind a beginning that are used to find a maximum there.
 const BEHIND: usize = 8;
 
 impl Stretch {
@@ -62,49 +62,49 @@ impl Stretch {
         }
     }
 
-    /// Whether it is the same branch from the same point, to the other side.
+    /// Whether this stretch is the other side of the same branch.
     pub(super) fn continues(&self, other: &Self) -> bool {
         self.track == other.track && self.backwards != other.backwards
     }
 
-    /// Continues a branch that goes on to the other side with these points.
+    /// Continues a branch whose other side has these points.
     pub(super) fn go_on_from(&mut self, more: Vec<Passed>) {
         self.behind.extend(more);
         self.behind.truncate(BEHIND);
         self.front.before = self.behind.first().map(|beside| beside.motion.clone());
     }
 
-    /// Whether both are of doubled periods, and of the same branch.
+    /// Whether both stretches are of doubled periods of the same branch.
     pub(super) fn doubles_as(&self, other: &Self) -> bool {
         let doubled = |stretch: &Self| stretch.track.doubles.map(|(branch, _)| branch);
         doubled(self).is_some() && doubled(self) == doubled(other)
     }
 
-    /// Where it begins.
+    /// Motion at the beginning of the stretch.
     pub(super) fn start(&self) -> Motion {
         (&self.front.last).into()
     }
 }
 
-/// A stretch that was begun.
+/// Stretch that has been begun.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct UnderWay {
     pub(super) stretch: Stretch,
-    /// Points that it has, but for where it begins.
+    /// Number of points so far, without the beginning.
     pub(super) points: u32,
-    /// What was told of the last one.
+    /// Result at the last point.
     pub(super) last: Option<KeptTold>,
-    /// Maxima that it may have passed.
+    /// Amplitudes since the last maxima, for the maxima to come.
     pub(super) crests: Crests,
-    /// A multiplier passed 1 before the last point: of a fold, if the branch turns back at the next.
+    /// Multiplier that passed 1 before the last point: a fold, if the branch turns back at the next point.
     pub(super) pending: Option<Bifurcation>,
 }
 
 impl UnderWay {
-    /// Nothing of it is done.
+    /// Stretch of which nothing is done yet.
     pub(super) fn new(mut stretch: Stretch) -> Self {
         let mut crests = Crests::default();
-        // What is found there was told on the other side.
+        // Maxima found here were reported with the other side.
         for passed in std::mem::take(&mut stretch.behind).into_iter().rev() {
             crests.pass(passed);
         }

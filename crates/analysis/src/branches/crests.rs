@@ -1,4 +1,4 @@
-//! Maxima of amplitudes, as the points of a branch pass them.
+//! Maxima of amplitudes along the points of a branch.
 
 use serde::{Deserialize, Serialize};
 
@@ -7,19 +7,18 @@ use super::told::{Amplitudes, Told};
 use crate::result::Stability;
 use rubmap_wheel::dynamics::steady::branch::Motion;
 
-/// Least rise of a maximum above what lies before and behind it, relative: contact that begins and ends at steps of time makes amplitudes
-/// uneven by less.
+/// Least relative rise of a maximum above its two sides: contact that begins and ends at time steps makes amplitudes uneven by less.
 const RISES: f64 = 1e-3;
 
-/// What a stretch has risen to since it was last down, sensor by sensor.
+/// Rise of the amplitudes since their last maxima, sensor by sensor.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Crests {
-    /// In the order of the branch: the highest of every sensor with those beside it, and the last.
+    /// Points in the order of the branch: the highest of every sensor with its neighbours, and the last.
     points: Vec<Passed>,
     climbs: Vec<Climb>,
 }
 
-/// A point that was passed.
+/// Point that was passed, with its amplitudes.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Passed {
     pub(super) motion: KeptMotion,
@@ -37,27 +36,27 @@ impl Passed {
     }
 }
 
-/// A sensor's amplitudes since its last maximum.
+/// Amplitudes of a sensor since its last maximum.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 struct Climb {
-    /// Least before the largest.
+    /// Least amplitude before the largest.
     low: f64,
-    /// The largest.
+    /// Largest amplitude.
     high: f64,
-    /// Its point.
+    /// Index of the point with the largest amplitude.
     at: usize,
 }
 
-/// A maximum that was passed.
+/// Maximum of a sensor's amplitude that was passed.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Crest {
     pub(super) sensor: usize,
-    /// The highest, and those beside it.
+    /// Point of the largest amplitude, between its two neighbours.
     pub(super) points: [Passed; 3],
 }
 
 impl Crests {
-    /// Passes another point; the maxima that are behind it for certain.
+    /// Adds a point; returns the maxima that are now certain.
     pub(super) fn pass(&mut self, passed: Passed) -> Vec<Crest> {
         let last = self.points.len();
         let fresh = |amplitude: f64| Climb { low: amplitude, high: amplitude, at: last };
@@ -74,7 +73,7 @@ impl Crests {
             } else if !rose && amplitude < climb.low {
                 *climb = fresh(amplitude);
             } else if rose && climb.high > (1.0 + RISES) * amplitude {
-                // It rose from a point before, and has fallen to one behind.
+                // The amplitude rose from a point before the maximum, and has fallen to one behind it.
                 let points = [climb.at - 1, climb.at, climb.at + 1].map(|at| self.points[at].clone());
                 found.push(Crest { sensor, points });
                 *climb = fresh(amplitude);
@@ -84,7 +83,7 @@ impl Crests {
         found
     }
 
-    /// All but what is needed.
+    /// Drops the points that are no longer needed.
     fn forget(&mut self) {
         let last = self.points.len() - 1;
         let climbs = &self.climbs;

@@ -1,4 +1,4 @@
-//! What happens between the points of a branch: bifurcations and maxima of amplitudes.
+//! Events between the points of a branch: bifurcations and maxima of amplitudes.
 
 use super::crests::{Crest, Passed};
 use super::family::Scenes;
@@ -9,37 +9,38 @@ use rubmap_wheel::dynamics::steady::branch::locate::{FinerGrowth, Place, off_by_
 use rubmap_wheel::dynamics::steady::branch::{Branch, Lost, Motion};
 use rubmap_wheel::dynamics::steady::stability::Stability;
 
-/// Multiples of the steps of a branch that tell what these leave open: the more, the less is left of jumps of their own.
+/// Multiples of the steps of a branch from which the error of its own steps is estimated: the finer, the less the jumps of the finer steps
+/// themselves matter.
 const FINER: [u32; 2] = [3, 8];
 
-/// Share of the way between two points, on either side of a place, over which slopes are taken.
+/// Share of the distance between two points, on either side of a bifurcation, over which slopes are taken.
 const BESIDE: f64 = 0.1;
 
-/// A point with what is told of it.
+/// Point of a branch with its result.
 #[derive(Clone, Copy)]
 pub(super) struct At<'a> {
     pub(super) motion: &'a Motion,
     pub(super) told: &'a Told,
 }
 
-/// A change of stability, with the motion there, and what grows from it.
+/// Change of stability, with the motion and the growing disturbance there.
 pub(super) struct Event {
     pub(super) bifurcation: Bifurcation,
     pub(super) motion: Motion,
     pub(super) grows: Stepped,
-    /// Lobes that pass until the motion repeats, and passages over one.
+    /// Lobes that pass until the motion repeats; `passages` are those over one lobe.
     pub(super) lobe_passages: u32,
     pub(super) passages: u32,
 }
 
-/// Where events are looked for.
+/// Search for events on a branch.
 pub(super) struct Events<'a> {
     pub(super) scenes: &'a Scenes<'a>,
     pub(super) branch: &'a Branch<'a>,
 }
 
 impl Events<'_> {
-    /// The fold at the middle one of three points, if the branch turns back there.
+    /// Fold at the middle one of three points, if the branch turns back there.
     pub(super) fn fold(&self, [a, b, c]: [&Motion; 3]) -> Result<Option<(Bifurcation, Motion)>, Lost> {
         let up = (b.value - a.value).signum();
         if (c.value - b.value) * up >= 0.0 {
@@ -69,7 +70,7 @@ impl Events<'_> {
         Ok(Some((bifurcation, motion)))
     }
 
-    /// Where between two points the stability changes, if it does.
+    /// Change of stability between two points, if there is one.
     pub(super) fn change(&self, a: At<'_>, b: At<'_>) -> Result<Option<Event>, Lost> {
         let both = [a, b];
         if !both.iter().all(|point| point.told.is_decided()) || a.told.growth() * b.told.growth() > 0.0 {
@@ -113,8 +114,8 @@ impl Events<'_> {
         Ok(Some(Event { bifurcation, motion, grows: told.leading, lobe_passages, passages }))
     }
 
-    /// Error, in p, of a change of stability between two points because of the steps of time; all of the way between them where finer steps
-    /// cannot be followed, as at a multiplier of 1.
+    /// Error, in p, of a change of stability between two points because of the time steps; the whole distance between them where finer
+    /// steps cannot be followed, as at a multiplier of 1.
     fn off_by_steps(
         &self,
         [a, b]: [At<'_>; 2],
@@ -154,7 +155,7 @@ impl Events<'_> {
         Ok(off.min((to - from).abs()))
     }
 
-    /// The maxima of sensors' amplitudes that were passed.
+    /// Maxima of the sensors' amplitudes, located between points.
     pub(super) fn maxima(&self, crests: Vec<Crest>) -> Result<Vec<BranchMaximum>, Lost> {
         let mut maxima = Vec::new();
         for Crest { sensor, points } in crests {

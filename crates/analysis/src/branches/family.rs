@@ -1,4 +1,4 @@
-//! The scenes along a branch, as the physics wants them.
+//! Scenes along a branch, as the continuation takes them.
 
 use std::cell::{OnceCell, RefCell};
 use std::rc::Rc;
@@ -22,26 +22,26 @@ use rubmap_wheel::dynamics::schemes::Scheme;
 use rubmap_wheel::dynamics::steady::branch::{Family, Lap, Unreachable};
 use rubmap_wheel::dynamics::steady::response::{Sought, seek};
 
-/// Values whose wheels are kept: a point and the one its map is differenced with, the one before, and places between.
+/// Number of values whose wheels are kept: a point and the one for the difference of its map, the point before, and places between.
 pub(super) const KEPT: usize = 6;
 
-/// The scenes of a request.
+/// Scenes of a branch request, all stepped alike.
 pub(super) struct Scenes<'a> {
     sector: &'a ReducedSector,
     asked: &'a ResolvedBranches,
     setting: Setting,
     report: SchemeReport,
-    /// The scene at the start, stepped so.
+    /// Resolved sweep at the starting value, with the chosen setting.
     sweep: ResolvedSweep,
     kept: RefCell<Vec<(f64, Rc<Scene>)>>,
 }
 
-/// A scene at a value.
+/// Scene at one value of the parameter.
 pub(super) struct Scene {
     pub(super) request: ResolvedSweep,
     pub(super) wheel: ModalWheel,
     pub(super) stepping: Stepping,
-    /// Of the wheel, once something was carried to it or away.
+    /// Mode shapes of the wheel, once a state has been carried to it or from it.
     shapes: OnceCell<Shapes>,
 }
 
@@ -57,7 +57,7 @@ impl Scene {
 }
 
 impl<'a> Scenes<'a> {
-    /// Chooses one scheme and one number of steps for all of them: those of whichever needs most among the ends and the start.
+    /// Chooses one scheme and one number of steps for all scenes: the most needed among the two ends and the start.
     pub(super) fn new(sector: &'a ReducedSector, asked: &'a ResolvedBranches) -> Result<Self, NotRunnable> {
         let along = asked.along;
         let values = [asked.start(), along.from, along.to];
@@ -89,7 +89,7 @@ impl<'a> Scenes<'a> {
         Ok(Self { sector, asked, setting, report, sweep, kept: RefCell::default() })
     }
 
-    /// Scenes with so many times the steps.
+    /// Scenes with `times` the steps.
     pub(super) fn with_more_steps(&self, times: u32) -> Self {
         let steps_per_revolution = self.setting.steps_per_revolution.saturating_mul(times);
         let setting = Setting { steps_per_revolution, ..self.setting };
@@ -103,22 +103,22 @@ impl<'a> Scenes<'a> {
         }
     }
 
-    /// How all of them are stepped.
+    /// Setting with which all scenes are stepped.
     pub(super) fn setting(&self) -> Setting {
         self.setting
     }
 
-    /// Why they are stepped so: what the one that needs most steps was chosen for.
+    /// Reason for the scheme and the steps: the report of the scene that needs most steps.
     pub(super) fn report(&self) -> &SchemeReport {
         &self.report
     }
 
-    /// The rotational speed at a value.
+    /// Rotational speed at a value, rad/s.
     pub(super) fn speed(&self, value: f64) -> f64 {
         speed(self.asked, value)
     }
 
-    /// What `act` makes of the simulation at `value`, with the wheel of the scene, which sensors may have added to.
+    /// Calls `act` with the simulation at `value` and the wheel of the scene, to which sensors may have added rows; returns its result.
     pub(super) fn simulation<T>(
         &self,
         value: f64,
@@ -130,7 +130,7 @@ impl<'a> Scenes<'a> {
         staged(self.sector, wheel, request, stepping, ramp_revolutions, |simulation| act(simulation, wheel))
     }
 
-    /// Seeks the periodic response to begin with, from where the scene begins.
+    /// Seeks the periodic response at the start, from the initial state of the scene.
     pub(super) fn seek(&self, go_on: &dyn Fn() -> bool) -> Result<Sought, NotRunnable> {
         let start = self.asked.start();
         let scene = self.at(start)?;
@@ -214,7 +214,7 @@ fn speed(asked: &ResolvedBranches, value: f64) -> f64 {
     }
 }
 
-/// `sweep` with the parameter at `value`.
+/// Copy of `sweep` with the parameter at `value`.
 fn changed(sweep: &ResolvedSweep, asked: &ResolvedBranches, value: f64) -> ResolvedSweep {
     let mut sweep = sweep.clone();
     let casing = sweep.scene.casing.as_mut();

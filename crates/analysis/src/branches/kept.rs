@@ -1,4 +1,4 @@
-//! Motions and what is told of them in a form that is stored, to the bit.
+//! Motions and results at points in a form that is stored, to the bit.
 
 use serde::{Deserialize, Serialize};
 
@@ -9,7 +9,7 @@ use rubmap_wheel::dynamics::initial::{Stepped, SteppedMode, SteppedWave};
 use rubmap_wheel::dynamics::steady::branch::Motion;
 use rubmap_wheel::dynamics::steady::branch::follow::Front;
 
-/// [`Told`], to be kept.
+/// Stored form of [`Told`].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct KeptTold {
     stability: Stability,
@@ -21,16 +21,16 @@ pub(super) struct KeptTold {
     leading: KeptState,
 }
 
-/// [`Stepped`], to be kept.
+/// Stored form of [`Stepped`].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 struct KeptState {
-    /// Nodal diameter and family, displacement and increment.
+    /// Modes: nodal diameter, family, and displacement and increment, each as real and imaginary parts.
     modes: Vec<(u32, u32, [f64; 4])>,
-    /// Displacement and increment.
+    /// Casing waves: displacement and increment.
     casing: Vec<[[f64; 2]; 2]>,
 }
 
-/// [`Front`], to be kept.
+/// Stored form of [`Front`].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct KeptFront {
     pub(super) last: KeptMotion,
@@ -39,7 +39,7 @@ pub(super) struct KeptFront {
     step: f64,
 }
 
-/// [`Motion`], to be kept.
+/// Stored form of [`Motion`].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct KeptMotion {
     value: f64,

@@ -1,4 +1,4 @@
-//! Branches followed some points further.
+//! Legs of a branch job: each follows the branches some points further.
 
 use super::course::{Course, FoundFlip, Stretch, UnderWay};
 use super::crests::{Crests, Passed};
@@ -23,20 +23,21 @@ use rubmap_wheel::dynamics::steady::response::{Response, Sought};
 use rubmap_wheel::revision::VERSION;
 use rubmap_wheel::vectors::vectors;
 
-/// Points of a leg: what is lost where the service dies.
+/// Number of points of a leg: at most these are lost when the service dies.
 const POINTS: usize = 5;
 
-/// Longest period, in passages over a lobe, to which motions that double it are followed.
+/// Longest period, in passages over a lobe, up to which period doublings are followed.
 const LONGEST: u32 = 8;
 
-/// Distance from the last two points of a branch of doubled period, in steps between them, up to which a flip is where it joins.
+/// Largest distance of a flip from the last point of a branch of doubled period, in steps between its last two points, at which the branch
+/// joins there.
 const AT_FLIP: f64 = 2.0;
 
-/// Relative distance up to which a multiplier that passes 1 is that of a fold.
+/// Relative distance up to which a multiplier that passes 1 belongs to a fold.
 const AT_FOLD: f64 = 1e-3;
 
-/// The next leg after `course`, or the first, and the course then, unless nothing is left to follow; deterministic, on the calling
-/// thread.
+/// Computes the leg after `course`, or the first one; returns it with the next course, none when nothing is left to follow. Deterministic,
+/// on the calling thread.
 ///
 /// # Errors
 /// Cancellation; a refusal where there is nothing to follow.
@@ -95,7 +96,7 @@ pub fn branch_leg(
     Ok((leg, under_way.map(|under_way| Course { under_way, waiting, branches, flips: known })))
 }
 
-/// The response to begin with, to be followed both ways.
+/// Seeks the first response and begins the branch through it, to both sides.
 fn begin(
     scenes: &Scenes<'_>,
     asked: &ResolvedBranches,
@@ -150,11 +151,11 @@ fn head(scenes: &Scenes<'_>, sector: &ReducedSector, asked: &ResolvedBranches) -
 #[derive(Clone, Copy)]
 struct FlipStart {
     value: f64,
-    /// Distance up to which the flip may be from there.
+    /// Largest distance of the flip from `value`.
     error: f64,
 }
 
-/// A leg that is being made.
+/// Leg that is being computed.
 struct Walk<'a> {
     scenes: &'a Scenes<'a>,
     asked: &'a ResolvedBranches,
@@ -163,20 +164,20 @@ struct Walk<'a> {
     branch: u32,
     /// Flip at which a branch of doubled period begins.
     flip: Option<FlipStart>,
-    /// Flips of the branch that earlier legs found.
+    /// Flips of the branch found by earlier legs.
     known_flips: Vec<Bifurcation>,
     doubles: bool,
     front: Front,
-    /// Points of the stretch, but for where it begins.
+    /// Number of points of the stretch, without its beginning.
     points: u32,
     found: Vec<BranchPoint>,
     bifurcations: Vec<Bifurcation>,
     maxima: Vec<BranchMaximum>,
     flips: Vec<Event>,
     crests: Crests,
-    /// A multiplier passed 1 before the last point.
+    /// Multiplier that passed 1 before the last point.
     pending: Option<Bifurcation>,
-    /// The points of this leg, but for where the stretch begins.
+    /// Points of this leg, without the beginning of the stretch.
     passed: Vec<Passed>,
     joins: bool,
 }
@@ -207,7 +208,7 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// Follows the branch; why it ends, if it does.
+    /// Follows the branch; returns why it ends, if it does.
     fn go(
         &mut self,
         branch: &Branch<'_>,
@@ -260,7 +261,7 @@ impl<'a> Walk<'a> {
         Ok(ended)
     }
 
-    /// Tells what the stretch begins with.
+    /// Computes the result at the beginning of the stretch.
     fn start(&mut self, branch: &Branch<'_>) -> Result<Told, Lost> {
         let motion = self.front.last.clone();
         let told = tell(self.scenes, branch, &motion, &motion.state)?;
@@ -272,7 +273,7 @@ impl<'a> Walk<'a> {
         Ok(told)
     }
 
-    /// What is told of a new point, and what happens on the way to it.
+    /// Computes the result at a new point, and the events on the way to it.
     fn look(&mut self, branch: &Branch<'_>, last: &Told, found: &Found) -> Result<Told, Lost> {
         let motion = &found.motion;
         let hint = carried(self.scenes, &last.disturbances, self.front.last.value, motion.value)?;
@@ -317,13 +318,13 @@ impl<'a> Walk<'a> {
         Ok(told)
     }
 
-    /// Whether a fold is what is left of the error of the flip where the branch begins: it begins beside itself.
+    /// Whether a fold is within the error of the flip where the branch begins: such a branch begins beside itself.
     fn is_at_its_flip(&self, fold: &Bifurcation) -> bool {
         self.flip.is_some_and(|flip| (fold.value - flip.value).abs() <= flip.error + fold.error)
     }
 
-    /// Moves the beginning of a branch of doubled period to where its amplitude is zero, within the error of the flip: by a parabola through its
-    /// first two points, the last of which is `second`. It stays where it is if they cannot be looked at.
+    /// Moves the beginning of a branch of doubled period to where its amplitude is zero, within the error of the flip, by a parabola
+    /// through its first two points, the last of which is `second`. Leaves it where it is if they cannot be computed.
     fn begin_at_flip(&mut self, branch: &Branch<'_>, second: &Motion) {
         let (Some(FlipStart { value, error }), Lap::Lobes(lobes)) = (self.flip, self.lap) else { return };
         let Some(start) = self.found.first_mut().filter(|start| start.value == value) else { return };
@@ -337,7 +338,7 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// Passages over a lobe after which motions of a doubled branch repeat; 0 of others.
+    /// Passages over a lobe after which motions of a doubled branch repeat; 0 for other branches.
     fn passages(&self) -> u32 {
         match self.lap {
             Lap::Symmetric => 0,
@@ -345,8 +346,8 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// Whether a branch of doubled period has crossed the one that it doubles since its last point: past there it is itself once more, half a
-    /// period later, and what a half period changes has the other sign.
+    /// Whether a branch of doubled period has crossed the one that it doubles since its last point: beyond that it is itself once more,
+    /// half a period later, and the changes over half a period have the opposite sign.
     fn has_crossed(&self, branch: &Branch<'_>, motion: &Motion) -> Result<bool, Lost> {
         let Lap::Lobes(lobes) = self.lap else { return Ok(false) };
         // Branches begin where nothing changes.
@@ -356,7 +357,7 @@ impl<'a> Walk<'a> {
         Branch { lap: Lap::Lobes(lobes / 2), ..*branch }.turns_about(&self.front.last, motion)
     }
 
-    /// Says how far it is: by the share of the range that the first branch has seen.
+    /// Reports progress: the share of the range that the first branch has covered.
     fn say(&self, monitor: &dyn Monitor) {
         let (along, start) = (self.asked.along, self.asked.start());
         let value = self.front.last.value;
@@ -378,7 +379,7 @@ fn is_at(branch: &Branch<'_>, front: &Front, flip: &Motion) -> bool {
     matches!((away(before), away(flip)), (Ok(step), Ok(away)) if away <= AT_FLIP * step)
 }
 
-/// Why a branch ends that was lost.
+/// End of a branch that was lost, with the reason.
 fn end(lost: Lost) -> Result<BranchEnd, AnalysisError> {
     match lost {
         Lost::Cancelled => Err(AnalysisError::Cancelled),

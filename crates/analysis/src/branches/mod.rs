@@ -1,4 +1,4 @@
-//! Branches of periodic responses over a number of their scene: [`leg::branch_leg`] follows them some points further.
+//! Branches of periodic responses along one parameter of their scene: [`leg::branch_leg`] follows them some points further.
 
 mod course;
 mod crests;

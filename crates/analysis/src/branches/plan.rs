@@ -1,4 +1,4 @@
-//! What branches will do and cost, before they are followed.
+//! Plan of a branch job: work and cost, before it starts.
 
 use std::ops::RangeInclusive;
 use std::time::Instant;
@@ -22,11 +22,11 @@ use rubmap_wheel::dynamics::steady::branch::follow::MOST_OF_SPAN;
 use rubmap_wheel::dynamics::steady::response;
 use rubmap_wheel::revision::VERSION;
 
-/// Revolutions of a march that take as long as a point of a branch, with its multipliers and its share of what is sought between points: half
+/// Revolutions of a march that take as long as a point of a branch, with its multipliers and its share of the search between points: half
 /// of the fewest and twice the most of four branches, at damping of 5 % and 1 %, over speed and clearance.
 const REVOLUTIONS: RangeInclusive<u64> = 20..=260;
 
-/// Plans resolved branches; without `reduced`, what can be said without it. Which machine was measured is for the caller to add.
+/// Plans resolved branches; without `reduced`, as far as the facts allow. The caller adds the measured machine.
 pub fn plan_branches(
     asked: &ResolvedBranches,
     facts: &ModelFacts,
@@ -69,17 +69,17 @@ pub fn plan_branches(
     }
 }
 
-/// Directions in which the first branch is followed.
+/// Number of directions in which the first branch is followed.
 fn sides(asked: &ResolvedBranches) -> u32 {
     let (start, along) = (asked.start(), asked.along);
     u32::from(along.from < start) + u32::from(start < along.to)
 }
 
-/// Points of a branch that turns nowhere, takes the longest steps and goes to both ends of its range.
+/// Fewest points: those of a branch that never turns back, takes the longest steps and reaches both ends of its range.
 fn points_at_least(asked: &ResolvedBranches) -> u32 {
     let (start, along) = (asked.start(), asked.along);
     let longest = MOST_OF_SPAN * (along.to - along.from);
-    // What round-off adds to a whole number is no step.
+    // Round-off above a whole number of steps is not another step.
     let steps = |way: f64| ((way / longest - 1e-9).ceil() as u32).min(asked.most_points);
     1 + steps((start - along.from).max(0.0)) + steps((along.to - start).max(0.0))
 }
@@ -122,8 +122,8 @@ fn priced_point(
     })
 }
 
-/// Memory that branches hold while they are followed, in bytes: a run of the scene where they begin, what a search of it holds, and the
-/// modes of the other values that are kept.
+/// Memory that branches take while they are followed, in bytes: a run of the scene at the start, the search for its response, and the modes
+/// of the other values that are kept.
 pub fn branches_memory(reduced: &ReducedSector, asked: &ResolvedBranches) -> u64 {
     let sweep = asked.sweep();
     let Ok((wheel, stepping)) = ready(reduced, sweep, asked.speed_rad_s()) else { return 0 };

@@ -1,4 +1,4 @@
-//! What is told of a point of a branch.
+//! Results at a point of a branch: multipliers and amplitudes.
 
 use super::family::Scenes;
 use crate::record::half_peak_to_peak;
@@ -16,37 +16,37 @@ use serde::{Deserialize, Serialize};
 /// Half the peak-to-peak displacement of every sensor.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Amplitudes {
-    /// Of its samples: what is told everywhere.
+    /// Amplitudes of the samples, as they are reported everywhere.
     pub(super) sampled: Vec<f64>,
-    /// Of parabolas through the extreme samples and those beside them. Along a branch extremes move past samples, of which the largest
-    /// misses them by turns; that would be maxima of its own.
+    /// Amplitudes of parabolas through the extreme samples and their neighbours. Along a branch extremes move past samples, and the largest
+    /// sample misses them by varying amounts, which would show as false maxima.
     pub(super) smooth: Vec<f64>,
 }
 
-/// What is told of a response.
+/// Result at a point of a branch.
 #[derive(Debug, Clone)]
 pub(super) struct Told {
     pub(super) stability: Stability,
     pub(super) multipliers: Vec<FloquetMultiplier>,
-    /// What grows most or decays slowest: directions of the motion.
+    /// Sum of the disturbances that grow most or decay slowest: directions of the motion.
     pub(super) disturbances: Stepped,
-    /// The leading one alone.
+    /// Disturbance of the leading multiplier alone.
     pub(super) leading: Stepped,
     pub(super) lobe_passages: u32,
-    /// The same in passages over a lobe, of which laps are counted.
+    /// Period of the motion, in passages over a lobe, which laps count; `lobe_passages` counts the lobes that pass.
     pub(super) passages: u32,
     pub(super) amplitudes: Amplitudes,
-    /// Revolutions that it took.
+    /// Revolutions that were computed for this result.
     pub(super) revolutions: f64,
 }
 
 impl Told {
-    /// The modulus of the leading multiplier less 1; negative without any.
+    /// Growth rate: modulus of the leading multiplier less 1; −1 without multipliers.
     pub(super) fn growth(&self) -> f64 {
         self.multipliers.first().map_or(-1.0, |leading| leading.modulus - 1.0)
     }
 
-    /// Whether it is known to last or not to.
+    /// Whether the stability is decided.
     pub(super) fn is_decided(&self) -> bool {
         self.stability != Stability::Undecided
     }
@@ -66,7 +66,7 @@ impl Told {
     }
 }
 
-/// Tells multipliers and amplitudes of a response; `hint`: what is likely to grow most.
+/// Computes multipliers and amplitudes of a response; `hint`: what is likely to grow most.
 pub(super) fn tell(
     scenes: &Scenes<'_>,
     branch: &Branch<'_>,
@@ -89,7 +89,7 @@ pub(super) fn tell(
         }
         let leading = floquet.multipliers.first().map_or_else(Vec::new, |one| part(&one.vector, |x| x.re));
         let size = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
-        // As large as the motion.
+        // Scaled to the size of the motion.
         let scale = if leading.is_empty() { 0.0 } else { size(&state) / size(&leading) };
         let leading: Vec<f64> = leading.iter().map(|x| scale * x).collect();
         let amplitudes = amplitudes(&simulation, &passage, &motion.state)?;
@@ -111,7 +111,7 @@ pub(super) fn tell(
     told.map_err(|reason| Lost::Unreachable(Unreachable(reason.to_string())))?
 }
 
-/// The amplitudes of a response.
+/// Amplitudes of a response.
 pub(super) fn amplitudes_of(scenes: &Scenes<'_>, lap: Lap, motion: &Motion) -> Result<Amplitudes, Lost> {
     let found = scenes.simulation(motion.value, 0.0, |simulation, _| {
         amplitudes(&simulation, &lap.passage(&simulation)?, &motion.state)
@@ -119,7 +119,7 @@ pub(super) fn amplitudes_of(scenes: &Scenes<'_>, lap: Lap, motion: &Motion) -> R
     found.map_err(|reason| Lost::Unreachable(Unreachable(reason.to_string())))?
 }
 
-/// Over as many revolutions as show all of it.
+/// Amplitudes over as many revolutions as show the whole period.
 fn amplitudes(
     simulation: &Simulation<'_>,
     passage: &Passage<'_>,
@@ -137,7 +137,7 @@ fn amplitudes(
     }
 }
 
-/// Half the distance of the highest from the lowest point of a line that repeats, by parabolas through samples.
+/// Half the difference between the highest and the lowest point of a periodic line, by parabolas through samples.
 fn between_samples(line: &[f64]) -> f64 {
     let highest = |sign: f64| {
         let at = (0..line.len()).max_by(|&a, &b| (sign * line[a]).total_cmp(&(sign * line[b]))).unwrap_or(0);
@@ -149,7 +149,7 @@ fn between_samples(line: &[f64]) -> f64 {
     if line.is_empty() { 0.0 } else { 0.5 * (highest(1.0) + highest(-1.0)) }
 }
 
-/// A state of the scene at `from` in the modes at `to`.
+/// State of the scene at `from`, expressed in the modes at `to`.
 pub(super) fn carried(scenes: &Scenes<'_>, state: &Stepped, from: f64, to: f64) -> Result<Stepped, Lost> {
     Ok(scenes.carry(state, from, to)?)
 }

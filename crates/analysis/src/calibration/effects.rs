@@ -1,4 +1,4 @@
-//! What the effects of a scene add to a step.
+//! Computing time that the effects of a scene add to a step.
 
 use std::collections::BTreeMap;
 
@@ -15,10 +15,11 @@ use rubmap_wheel::dynamics::effects::Effects;
 use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
 use rubmap_wheel::dynamics::schemes::Scheme;
 
-/// Whatever the effects are, the loop of scenes with effects and blades that no longer move alike; what an orbit costs.
+/// Part that any effect adds, whichever it is: the loop of scenes with effects and with blades that no longer move alike. Measured with an
+/// orbit.
 const ANY: &str = "any";
-/// Other forces than contact on the modes, all of which are then added up and counted. What excitation costs, and
-/// Coriolis forces and mistuning share.
+/// Part that forces on the modes other than contact add, which are then summed and counted. Measured with an excitation; Coriolis forces
+/// and mistuning share it.
 const DRIVEN: &str = "driven";
 
 /// Effects with a price of their own.
@@ -26,12 +27,12 @@ fn priced() -> impl Iterator<Item = (&'static Effect, &'static Price)> {
     EFFECTS.iter().flat_map(|effect| effect.price.into_iter().flatten().map(|price| (*effect, price)))
 }
 
-/// How much of each part of the price a scene has: of what all effects share, and of those with a price of their own.
+/// Sizes of the parts of the price of a scene: of those that all effects share, and of those that single effects add.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct EffectSizes(BTreeMap<&'static str, f64>);
 
 impl EffectSizes {
-    /// Those of `scene` on `wheel`, or the part of it that is simulated, with `nodes` contact nodes a sector that may touch.
+    /// Sizes for `scene` on `wheel`, or the part of it that is simulated, with `nodes` contact nodes a sector that may touch.
     pub(crate) fn of(scene: &Scene, wheel: &ModalWheel, scheme: Scheme, nodes: usize) -> Self {
         let size = EffectSize::of(wheel, scheme, nodes);
         let mut sizes = BTreeMap::new();
@@ -52,7 +53,7 @@ impl EffectSizes {
         Self(sizes)
     }
 
-    /// With the Euler force, too: another force on the modes and, with Coriolis forces, another product as theirs.
+    /// Sizes with the Euler force added: another force on the modes and, with Coriolis forces, another product as theirs.
     pub(crate) fn with_euler_force(mut self, wheel: &ModalWheel, scheme: Scheme, nodes: usize) -> Self {
         let size = EffectSize::of(wheel, scheme, nodes);
         self.0.insert(ANY, size.gaps() as f64);
@@ -64,7 +65,7 @@ impl EffectSizes {
     }
 }
 
-/// Nanoseconds that each part adds to a step, per unit of its size.
+/// Computing time that each part adds to a step, ns per unit of its size.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "BTreeMap<String, Added>")]
 pub(super) struct EffectCosts(BTreeMap<String, Added>);
@@ -72,11 +73,11 @@ pub(super) struct EffectCosts(BTreeMap<String, Added>);
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 struct Added {
     free: f64,
-    /// In a step in which something touches.
+    /// Time added to a step with contact.
     contact: f64,
 }
 
-/// A part that was not measured.
+/// Error of a part without a measured cost.
 #[derive(Debug, thiserror::Error)]
 #[error("no cost of {0}")]
 struct NoCost(&'static str);
@@ -91,7 +92,7 @@ impl TryFrom<BTreeMap<String, Added>> for EffectCosts {
 }
 
 impl EffectCosts {
-    /// Seconds that effects add to a step, if nothing ever touches and if something always does.
+    /// Computing time that effects add to a step, s: if nothing ever touches, and if something always does.
     pub(super) fn seconds(&self, sizes: &EffectSizes) -> (f64, f64) {
         let parts = sizes.0.iter().map(|(&part, size)| (self.0[part], size));
         let (free, contact) = parts.fold((0.0, 0.0), |(free, contact), (added, size)| {
@@ -132,14 +133,14 @@ impl EffectCosts {
 }
 
 impl Added {
-    /// What was found beyond `base`, per unit of `size`.
+    /// Time of `found` beyond `base`, per unit of `size`.
     fn over(base: StepSeconds, found: StepSeconds, size: f64) -> Self {
         let per = |seconds: f64| 1e9 * seconds.max(0.0) / size;
         Self { free: per(found.free - base.free), contact: per(found.contact - base.contact) }
     }
 }
 
-/// An effect alone.
+/// Case with a single effect.
 fn alone<'a>(wheel: &'a Wheel, effect: &'a dyn Physics) -> Case<'a> {
     let mut effects = Effects::default();
     effect.join(&mut effects);

@@ -1,4 +1,4 @@
-//! What a time step costs on this machine: the real step loop on a few synthetic wheels, some tenths of a second.
+//! Computing time of a time step on this machine: the real step loop on a few synthetic wheels, measured in some tenths of a second.
 
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
@@ -13,24 +13,24 @@ pub(crate) mod size;
 mod stress;
 pub(crate) mod wheel;
 
-/// What a time step costs on one machine; measured once and kept.
+/// Computing times of a time step on one machine; measured once and stored.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Calibration {
-    /// A wheel that nothing can touch.
+    /// Cost of a step of a wheel that nothing can touch.
     without_contact: StepCost,
-    /// In front of a casing, out of its reach.
+    /// Cost of a step in front of a casing, out of its reach.
     free: StepCost,
-    /// Something touches.
+    /// Cost of a step with contact.
     contact: StepCost,
-    /// Over these.
+    /// Costs that effects add to these.
     effects: EffectCosts,
-    /// Nanoseconds that the spectra of a sensor add to a step of the window, per unknown.
+    /// Computing time that the spectra of a sensor add to a step of the window, ns per unknown.
     spectra: f64,
-    /// Nanoseconds per real number of the stress of a reduction, once a speed.
+    /// Computing time of stress, ns per real number of the stress of a reduction, once a speed.
     stress: f64,
 }
 
-/// Nanoseconds of a step: `fixed + per_product·products + per_transform·transforms`, fitted to what was measured.
+/// Computing time of a step, ns: `fixed + per_product·products + per_transform·transforms`, fitted to measurements.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 struct StepCost {
     fixed: f64,
@@ -43,7 +43,7 @@ impl StepCost {
         1e-9 * (self.fixed + self.per_product * size.products() + self.per_transform * size.transforms())
     }
 
-    /// The costs that fit best, relatively, of those that are not negative.
+    /// Fits costs to measurements: the least relative error among costs that are not negative.
     fn fit(measured: &[(StepSize, f64)]) -> Self {
         let features = |size: StepSize| [1.0, size.products(), size.transforms()];
         let ones = DVector::from_element(measured.len(), 1.0);
@@ -68,7 +68,7 @@ impl StepCost {
 }
 
 impl Calibration {
-    /// Seconds of a step with such effects, if nothing ever touches and if something always does.
+    /// Computing time of a step with such effects, s: if nothing ever touches, and if something always does.
     pub(super) fn step_seconds(&self, size: StepSize, effects: &EffectSizes) -> (f64, f64) {
         let (added_free, added_contact) = self.effects.seconds(effects);
         if size.nodes == 0 {
@@ -79,12 +79,12 @@ impl Calibration {
         (free, (self.contact.seconds(size) + added_contact).max(free))
     }
 
-    /// Seconds that the spectra of so many sensors add to a step of the window.
+    /// Computing time that the spectra of `sensors` add to a step of the window, s.
     pub(super) fn spectra_seconds(&self, size: StepSize, sensors: usize) -> f64 {
         1e-9 * self.spectra * (size.unknowns * sensors) as f64
     }
 
-    /// Seconds that the stress of a speed takes, of a reduction whose stress has so many real numbers.
+    /// Computing time of the stress of a speed, s, with a reduction whose stress has `numbers` real numbers.
     pub(super) fn stress_seconds(&self, numbers: u64) -> f64 {
         1e-9 * self.stress * numbers as f64
     }
@@ -112,7 +112,7 @@ impl Calibration {
     }
 }
 
-/// Sectors, contact nodes of each, and modes per nodal diameter.
+/// Measured wheels: sectors, contact nodes of each, and modes per nodal diameter.
 const SIZES: [(usize, usize, usize); 4] = [(4, 2, 8), (10, 10, 30), (10, 10, 90), (16, 5, 60)];
 
 #[cfg(test)]
@@ -132,7 +132,7 @@ mod tests {
         ] {
             assert!((found - expected).abs() < 1e-6 * expected, "{fitted:?}");
         }
-        // What would have to be negative is left out.
+        // Costs that would have to be negative are left out.
         let falling = StepCost::fit(&sizes.map(|size| (size, 1e-6 / size.products())));
         assert!(falling.per_product >= 0.0 && falling.per_transform >= 0.0, "{falling:?}");
     }

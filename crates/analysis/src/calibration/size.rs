@@ -1,9 +1,9 @@
-//! What the price of a step depends on.
+//! Size of a wheel and its effects, on which the price of a step depends.
 
 use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
 use rubmap_wheel::dynamics::schemes::Scheme;
 
-/// What the cost of a step depends on.
+/// Size of a wheel, on which the cost of a step depends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct StepSize {
     pub(crate) sectors: usize,
@@ -14,27 +14,27 @@ pub(crate) struct StepSize {
 }
 
 impl StepSize {
-    /// Reading an unknown's own recursion takes about as long as its mode shape at two nodes.
+    /// Number of products of a step. Reading an unknown's own recursion takes about as long as its mode shape at two nodes.
     pub(crate) fn products(self) -> f64 {
         (self.unknowns * (self.nodes + 2)) as f64
     }
 
-    /// Normal displacements of all sectors from their Fourier coordinates.
+    /// Number of products that take the Fourier coordinates to the normal displacements of all sectors.
     pub(crate) fn transforms(self) -> f64 {
         (self.sectors * self.sectors * self.nodes.next_multiple_of(8)) as f64
     }
 }
 
-/// What the costs of effects grow with.
+/// Size of a wheel, on which the costs of effects depend.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct EffectSize {
     pub(crate) step: StepSize,
-    /// Numbers in the gyroscopic matrices of all nodal diameters.
+    /// Count of entries in the gyroscopic matrices of all nodal diameters.
     pub(crate) squares: usize,
 }
 
 impl EffectSize {
-    /// On `wheel`, or the part of it that is simulated, with `nodes` contact nodes a sector that may touch.
+    /// Size of `wheel`, or the part of it that is simulated, with `nodes` contact nodes a sector that may touch.
     pub(crate) fn of(wheel: &ModalWheel, scheme: Scheme, nodes: usize) -> Self {
         let integrated = wheel
             .harmonics
@@ -46,7 +46,7 @@ impl EffectSize {
         Self { step: StepSize { sectors: wheel.sectors, nodes, unknowns }, squares }
     }
 
-    /// Gaps of all sectors, as they are padded.
+    /// Number of gaps of all sectors, padded as they are stored.
     pub(crate) fn gaps(self) -> usize {
         self.step.sectors * self.step.nodes.next_multiple_of(8)
     }

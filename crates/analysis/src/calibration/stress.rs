@@ -1,22 +1,22 @@
-//! What stress costs a speed: the product that bounds every place, and as much again for the rest of the search.
+//! Computing time of stress at a speed: the product that bounds every place, and as much again for the rest of the search.
 
 use std::time::Instant;
 
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, Par};
 
-/// Unknowns of a nodal diameter, places, and directions with those that fill vectors.
+/// Size of the measured product: unknowns of a nodal diameter, places, and directions padded to whole vectors.
 const UNKNOWNS: usize = 80;
 const PLACES: usize = 500;
 const DIRECTIONS: usize = 64;
 
-/// With the directions themselves, the looks at some places and those that are followed, stress takes about so many times what the product
-/// takes where every other nodal diameter moves (`cargo bench --bench stress`).
+/// Ratio of the time of stress to that of the product, for a wheel of which every other nodal diameter moves: with the directions
+/// themselves, the evaluation of some places and those that are followed (`cargo bench --bench stress`).
 const SEARCH: f64 = 2.0;
 
 const ROUNDS: usize = 5;
 
-/// Seconds per real number of the stress of a reduction, on the calling thread.
+/// Computing time per real number of the stress of a reduction, s, on the calling thread.
 pub(super) fn measure() -> f64 {
     let numbers = |rows: usize, columns: usize| {
         Mat::<f32>::from_fn(rows, columns, |i, j| ((7 * i + 3 * j) % 11) as f32 - 5.0)

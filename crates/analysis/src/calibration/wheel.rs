@@ -1,4 +1,4 @@
-//! A synthetic wheel that is run to see what its steps cost.
+//! Synthetic wheel that is run to measure its steps.
 
 use std::f64::consts::TAU;
 use std::time::Instant;
@@ -16,20 +16,20 @@ use rubmap_wheel::dynamics::schemes::Scheme;
 use rubmap_wheel::dynamics::sector::ContactNode;
 use rubmap_wheel::dynamics::statistics::RunStatistics;
 
-/// Clearances over the height of the lobes.
+/// Clearances over the height of the lobes: out of reach, and within reach.
 const OUT_OF_REACH: f64 = 100.0;
 const WITHIN_REACH: f64 = 0.6;
 
-/// Ω, rad/s.
+/// Rotational speed Ω of the measured runs, rad/s.
 pub(crate) const SPEED: f64 = 1000.0;
 pub(crate) const STEPS: usize = 480;
 const SAMPLES: usize = 60;
-/// One revolution that has the set-up to itself, and another one. As short as that, some of them are not interrupted by the
-/// other work of a machine.
+/// Revolutions of the two runs: one for the set-up, and another one. Runs this short are now and then not interrupted by the other work of
+/// a machine.
 const REVOLUTIONS: [usize; 2] = [1, 2];
 const ROUNDS: usize = 5;
 
-/// A wheel of no particular shape.
+/// Synthetic wheel of no particular shape.
 #[derive(Clone)]
 pub(crate) struct Wheel {
     modal: ModalWheel,
@@ -63,7 +63,7 @@ impl Wheel {
         Self { modal, contact_nodes: (0..nodes).map(node).collect() }
     }
 
-    /// The same with Coriolis forces of no particular kind.
+    /// Wheel with arbitrary Coriolis forces added.
     pub(crate) fn turning(mut self) -> Self {
         for harmonic in &mut self.modal.harmonics {
             let modes = harmonic.omega.len();
@@ -88,12 +88,12 @@ impl Wheel {
         self.modal.unknowns()
     }
 
-    /// Seconds of a run without spectra, and what it counted.
+    /// Computing time of a run without spectra, s, and its statistics.
     fn run(&self, clearance: Option<f64>, effects: Effects<'_>, revolutions: usize) -> (f64, RunStatistics) {
         self.run_with(clearance, effects, revolutions, Spectra { sensors: 1, window_revolutions: 0 })
     }
 
-    /// Seconds of a run, and what it counted.
+    /// Computing time of a run, s, and its statistics.
     fn run_with(
         &self,
         clearance: Option<f64>,
@@ -140,14 +140,14 @@ impl Wheel {
     }
 }
 
-/// What spectra are of.
+/// Sensors and window of the spectra of a run.
 #[derive(Clone, Copy)]
 struct Spectra {
     sensors: usize,
     window_revolutions: usize,
 }
 
-/// Seconds that the spectra of a sensor add to a step of the window, per unknown.
+/// Computing time that the spectra of a sensor add to a step of the window, s per unknown.
 pub(super) fn measure_spectra(wheel: &Wheel) -> f64 {
     const SENSORS: usize = 4;
     const WINDOW: usize = 2;
@@ -163,7 +163,7 @@ pub(super) fn measure_spectra(wheel: &Wheel) -> f64 {
     (with - without).max(0.0) / (WINDOW * STEPS * SENSORS * wheel.unknowns()) as f64
 }
 
-/// What is run to see what a step costs.
+/// Wheel and effects of which a step is measured.
 #[derive(Clone, Copy)]
 pub(super) struct Case<'a> {
     pub(super) wheel: &'a Wheel,
@@ -176,18 +176,18 @@ impl<'a> Case<'a> {
     }
 }
 
-/// Seconds of a step.
+/// Computing times of a step, s.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct StepSeconds {
-    /// With nothing around the wheel.
+    /// Step with nothing around the wheel.
     pub(super) without: f64,
-    /// In front of two lobes that always face a blade, out of reach.
+    /// Step in front of two lobes that always face a blade, out of reach.
     pub(super) free: f64,
-    /// The same within reach, as if every step had a contact.
+    /// Step in front of two lobes within reach, as if every step had a contact.
     pub(super) contact: f64,
 }
 
-/// Runs all cases in turns, so that other work of the machine meets them alike, and takes each at its best.
+/// Runs all cases in turns, so that other work of the machine affects them alike, and takes the best time of each.
 pub(super) fn measure(cases: &[Case<'_>]) -> Vec<StepSeconds> {
     const CLEARANCES: [Option<f64>; 3] = [None, Some(OUT_OF_REACH), Some(WITHIN_REACH)];
     let mut best = vec![[Best::default(); CLEARANCES.len()]; cases.len()];
@@ -210,7 +210,7 @@ pub(super) fn measure(cases: &[Case<'_>]) -> Vec<StepSeconds> {
     best.iter().map(seconds).collect()
 }
 
-/// The fastest run of each length, and what it counted.
+/// Fastest run of each length, and its statistics.
 #[derive(Clone, Copy)]
 struct Best {
     seconds: [f64; 2],
@@ -224,7 +224,7 @@ impl Default for Best {
 }
 
 impl Best {
-    /// Seconds of a step beyond the set-up, and the share of steps with contact.
+    /// Computing time of a step beyond the set-up, s, and the share of steps with contact.
     fn step(&self) -> (f64, f64) {
         let ([set_up, whole], [first, all]) = (self.seconds, self.statistics);
         let steps = (all.steps - first.steps).max(1) as f64;
@@ -237,7 +237,7 @@ impl Best {
 
 #[cfg(test)]
 impl Wheel {
-    /// Contact in most steps, none out of reach, and both to the end of the run.
+    /// Asserts contact in most steps within reach and none out of reach, and that both runs reach the end.
     pub(super) fn assert_rubbing(&self, effects: Effects<'_>, what: &str) {
         for (clearance, least, most) in [(OUT_OF_REACH, 0.0, 0.0), (WITHIN_REACH, 0.3, 1.0)] {
             let (_, statistics) = self.run(Some(clearance), effects, 3);

@@ -1,4 +1,4 @@
-//! What the speeds of a campaign say together, finished or not.
+//! Results of a campaign from all its speeds, finished or not.
 
 use super::comparison::comparison;
 use super::outcomes::designs_of;
@@ -9,7 +9,7 @@ use crate::result::{Campaign, DesignOutcome, Point, Spent};
 use rubmap_wheel::dynamics::sector::Units;
 use rubmap_wheel::revision::VERSION;
 
-/// The campaign from the simulations finished so far, in any order; the plan is for the caller to add.
+/// Results of a campaign from the simulations finished so far, in any order; the caller adds the plan.
 pub fn campaign(asked: &ResolvedCampaign, units: &Units, points: &[Point]) -> Campaign {
     let designs = designs_of(asked, points);
     let own: Vec<&DesignOutcome> = designs.iter().map(|design| &design.outcome).collect();

@@ -1,4 +1,4 @@
-//! How another model differs: paired differences of designs that both were simulated with.
+//! Comparison of two models: paired differences of designs that were simulated with both.
 
 use super::sensitivities::sensitivities;
 use super::threshold::{CONFIDENCE, threshold};
@@ -9,7 +9,7 @@ use crate::result::{CampaignDesign, Comparison, DesignOutcome, Difference, Diffe
 use rubmap_numerics::paired_difference::{MeanError, paired_difference};
 use rubmap_numerics::sensitivity_indices;
 
-/// How the model that is compared differs; none where none is.
+/// Comparison with the other model; none where no model is compared.
 pub(super) fn comparison(asked: &ResolvedCampaign, designs: &[CampaignDesign]) -> Option<Comparison> {
     let model = asked.compared_model()?.to_owned();
     let others: Vec<&DesignOutcome> = designs.iter().filter_map(|design| design.compared.as_ref()).collect();
@@ -35,7 +35,7 @@ pub(super) fn comparison(asked: &ResolvedCampaign, designs: &[CampaignDesign]) -
     })
 }
 
-/// Designs that lean on no other: neither those that were added where results sent them nor those mixed of two others.
+/// Independent designs: without those added where results asked for them and those mixed of two others.
 fn independent<'a>(
     asked: &ResolvedCampaign,
     designs: &'a [CampaignDesign],
@@ -49,7 +49,7 @@ fn independent<'a>(
     designs[..laid_out].iter().enumerate().filter(move |(place, _)| alone(*place)).map(|(_, design)| design)
 }
 
-/// What `pairs` of severities differ by, the second less the first.
+/// Mean difference of `pairs` of severities, the second less the first.
 fn difference(pairs: &[(f64, f64)], settled_to: f64) -> Option<Difference> {
     let differences: Vec<f64> = pairs.iter().map(|(one, other)| other - one).collect();
     let found = paired_difference(&differences, CONFIDENCE)?;

@@ -1,16 +1,16 @@
-//! Which designs are simulated: values of all parameters.
+//! Designs to be simulated: values of all parameters.
 
 use crate::request::{DesignKind, Parameter};
 use crate::resolved::Distribution;
 use rubmap_numerics::sampling::{latin_hypercube, sobol_point};
 use rubmap_numerics::sensitivity_indices;
 
-/// Levels of a grid along a parameter.
+/// Number of levels of a grid along a parameter.
 pub(crate) fn levels(parameter: &Parameter, distribution: &Distribution) -> f64 {
     distribution.own_levels().unwrap_or_else(|| parameter.levels.unwrap_or(1).into())
 }
 
-/// Designs of a layout, `[design][parameter]`, by quantiles of points of the unit cube; those of a list are given.
+/// Designs of a layout, `[design][parameter]`, by quantiles of points of the unit cube; none for a list, whose designs are given.
 pub(crate) fn designs(
     kind: DesignKind,
     (size, seed): (usize, u32),
@@ -28,12 +28,12 @@ pub(crate) fn designs(
     points.iter().map(|point| quantiles(point, distributions)).collect()
 }
 
-/// The values of the design of this `index` that is added for a threshold, but for the parameter of that: they go on along a Sobol sequence.
+/// Values of the added design `index`, except for the parameter of the threshold: they continue along a Sobol sequence.
 pub(crate) fn added(index: usize, seed: u32, distributions: &[&Distribution]) -> Vec<f64> {
     quantiles(&sobol_point(index, distributions.len(), seed), distributions.iter().copied())
 }
 
-/// The values at a point of the unit cube.
+/// Values of parameters at a point of the unit cube.
 pub(super) fn quantiles<'a>(
     point: &[f64],
     distributions: impl IntoIterator<Item = &'a Distribution>,

@@ -1,4 +1,4 @@
-//! Campaigns: designs of a scene with other numbers, and what their speeds say together.
+//! Campaigns: designs of a scene with varied parameters, and the joint results of their speeds.
 
 pub(crate) mod answer;
 mod comparison;

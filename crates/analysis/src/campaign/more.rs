@@ -1,4 +1,4 @@
-//! Which designs a campaign lacks: points go where the answer is undecided.
+//! Designs that a campaign adds: points go where the answer is undecided.
 
 use super::designs::added;
 use super::outcomes::designs_of;
@@ -6,12 +6,13 @@ use super::threshold::{answer, cases};
 use crate::resolved::{Distribution, ResolvedCampaign};
 use crate::result::Point;
 
-/// The campaign with the designs that it lacks, from the `points` of all simulations; none where its threshold is known as well as was asked
+/// Extends the campaign by a batch of designs, from the `points` of all simulations; none where its threshold is as accurate as was asked
 /// for, where nothing tells where it lies, and where no more designs are allowed.
 ///
-/// The parameter of the threshold takes values evenly spaced over the interval in which the designs leave open whether the limit is met
-/// with the probability, within its range, and once over all of that where the first designs lie on one side; the others go on along a Sobol
-/// sequence in their distributions. Each batch depends on nothing but the results before it. None follows one of which nothing is known.
+/// The parameter of the threshold takes values evenly spaced over the interval in which the designs so far do not decide whether the limit
+/// is met with the probability, within its range; if the first designs all lie on one side, one batch covers the whole range. The other
+/// parameters continue along a Sobol sequence in their distributions. Each batch depends on nothing but the results before it. No batch
+/// follows one without any complete design.
 pub fn more_designs(campaign: &ResolvedCampaign, points: &[Point]) -> Option<ResolvedCampaign> {
     let (threshold, within) = campaign.settings.sought()?;
     let index = campaign.settings.parameter(&threshold.parameter)?;

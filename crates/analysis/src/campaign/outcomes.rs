@@ -1,10 +1,10 @@
-//! What every design comes to.
+//! Outcomes of the designs of a campaign.
 
 use super::severity::{is_unsettled, severity};
 use crate::resolved::ResolvedCampaign;
 use crate::result::{CampaignDesign, DesignOutcome, Point, PointStatus};
 
-/// Every design with what its finished speeds say.
+/// Designs with their outcomes, from the finished speeds.
 pub(super) fn designs_of(asked: &ResolvedCampaign, points: &[Point]) -> Vec<CampaignDesign> {
     let speeds = asked.sweep.speeds.rad_s();
     let of = asked.settings.severity;
@@ -49,7 +49,7 @@ pub(super) fn designs_of(asked: &ResolvedCampaign, points: &[Point]) -> Vec<Camp
     designs
 }
 
-/// What the speeds of a design say together.
+/// Completes the outcome of a design from its speeds: severity, worst speed, and whether the limit is met.
 fn conclude(outcome: &mut DesignOutcome, speeds: &[f64], limit: Option<f64>) {
     let known = outcome.by_speed.iter().enumerate().filter_map(|(speed, value)| Some((speed, (*value)?)));
     let worst = known.clone().max_by(|a, b| a.1.total_cmp(&b.1));
@@ -59,7 +59,7 @@ fn conclude(outcome: &mut DesignOutcome, speeds: &[f64], limit: Option<f64>) {
         outcome.worst_speed_rad_s = worst.map(|(speed, _)| speeds[speed]);
     }
     outcome.meets_limit = limit.and_then(|limit| {
-        // Of what grew beyond all bounds no number is needed.
+        // A diverged speed exceeds any limit, without a number.
         let exceeds = outcome.diverged > 0 || worst.is_some_and(|(_, severity)| severity > limit);
         (exceeds || all_known).then_some(!exceeds)
     });

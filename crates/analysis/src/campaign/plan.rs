@@ -1,4 +1,4 @@
-//! What a campaign will do and cost.
+//! Plan of a campaign: work and cost, before it runs.
 
 use crate::calibration::Calibration;
 use crate::model::{ModelFacts, ReducedSector};
@@ -6,8 +6,8 @@ use crate::plan::plan_sweep;
 use crate::resolved::ResolvedCampaign;
 use crate::result::{CampaignPlan, CostRange, Estimate, SweepPlan};
 
-/// Plans a campaign on `workers` threads, by the scene before anything is changed, from facts and, where it is there, the reduction of its model
-/// and of the one that is compared.
+/// Plans a campaign on `workers` threads by its scene before any change, from facts and, where they are stored, the reductions of its model
+/// and of the compared one.
 pub fn plan_campaign(
     campaign: &ResolvedCampaign,
     (facts, reduced): (&ModelFacts, Option<&ReducedSector>),
@@ -37,7 +37,7 @@ pub fn plan_campaign(
     }
 }
 
-/// Two models in one campaign: a worker may hold a speed of either, and both reduced wheels are kept.
+/// Estimate of two models in one campaign: a worker may hold a speed of either, and both reduced wheels are kept.
 fn side_by_side(one: Estimate, other: Estimate) -> Estimate {
     let wheel = |of: &Estimate| of.memory_bytes.saturating_sub(u64::from(of.workers) * of.speed_memory_bytes);
     let speed_memory_bytes = one.speed_memory_bytes.max(other.speed_memory_bytes);
@@ -45,7 +45,7 @@ fn side_by_side(one: Estimate, other: Estimate) -> Estimate {
     Estimate { memory_bytes, speed_memory_bytes, ..one.followed_by(other) }
 }
 
-/// So many designs, each as dear as the sweep that was planned; speeds of all of them run side by side.
+/// Estimate of `designs`, each as expensive as the planned sweep; speeds of all of them run side by side.
 fn estimate(scene: &SweepPlan, designs: u32, workers: usize) -> Option<Estimate> {
     let one = scene.estimate.as_ref()?;
     let times = |range: CostRange, factor: f64| CostRange {
@@ -53,7 +53,7 @@ fn estimate(scene: &SweepPlan, designs: u32, workers: usize) -> Option<Estimate>
         contact: factor * range.contact,
     };
     let computing_time_s = times(one.computing_time_s, designs.into());
-    // What is left over at the end of a single sweep is filled by the next design.
+    // Workers that are idle at the end of one sweep take speeds of the next design.
     let wall_time_s = times(computing_time_s, 1.0 / workers.max(1) as f64);
     Some(Estimate {
         steps: one.steps.saturating_mul(designs.into()),

@@ -1,18 +1,18 @@
-//! How much of the variance of the severity each parameter accounts for.
+//! Sensitivity indices: share of the variance of the severity that each parameter accounts for.
 
 use crate::request::DesignKind;
 use crate::resolved::ResolvedCampaign;
 use crate::result::{DesignOutcome, ParameterSensitivity, Sensitivities};
 use rubmap_numerics::sensitivity_indices::{self, Indices};
 
-/// Sensitivities by what designs come to with one model; none of designs that are not laid out for them.
+/// Sensitivity indices from the outcomes of designs with one model; none for designs that are not laid out for them.
 pub(super) fn sensitivities(asked: &ResolvedCampaign, outcomes: &[&DesignOutcome]) -> Option<Sensitivities> {
     if asked.settings.design.kind != DesignKind::Indices {
         return None;
     }
     let parameters = &asked.settings.parameters;
     let blocks = asked.settings.design.size.unwrap_or(0) as usize;
-    // Those that were added belong to no block.
+    // Added designs belong to no block.
     let first = &outcomes[..blocks * sensitivity_indices::block_len(parameters.len())];
     let severities: Vec<Option<f64>> = first.iter().map(|outcome| outcome.severity).collect();
     let found = sensitivity_indices::decompose(&severities, parameters.len())?;

@@ -1,16 +1,16 @@
-//! How bad a speed of a design is.
+//! Severity of a speed of a design.
 
 use crate::request::Severity;
 use crate::result::{Point, PointStatus};
 use rubmap_wheel::response::settling::Verdict;
 
-/// Whether the motion was on its way to another when its revolutions ended. Wear is what it is by then.
+/// Whether the motion was still changing when its revolutions ended. Wear counts as it is by then.
 pub(super) fn is_unsettled(of: Severity, point: &Point) -> bool {
     let verdict = point.settling.as_ref().map(|settling| settling.verdict);
     of != Severity::Wear && point.status == PointStatus::Completed && verdict == Some(Verdict::NotSettled)
 }
 
-/// The severity of a completed speed that had settled; none of another, and where it is not known.
+/// Severity of a completed, settled speed; none for other speeds, and where it is not known.
 pub(super) fn severity(of: Severity, point: &Point) -> Option<f64> {
     if point.status != PointStatus::Completed || is_unsettled(of, point) {
         return None;

@@ -13,7 +13,7 @@ use crate::resolve::campaign::{ComparedModel, resolve_campaign};
 use crate::resolved::ResolvedCampaign;
 use crate::result::{Campaign, DifferenceVerdict, LimitsMet, Point};
 
-/// Of two speeds, with what `changes` says beside.
+/// Request of two speeds, with `changes` to its fields.
 fn request(changes: Value) -> Value {
     let mut request = json!({
         "model": "m", "modes_per_speed": 8, "speeds": {"values": [100.0, 200.0], "unit": "hz"},
@@ -46,7 +46,7 @@ fn resolve_all(
     designs.finish()
 }
 
-/// Of seven sectors and fewer contact nodes.
+/// Model of seven sectors and fewer contact nodes.
 fn other_model(length: &str) -> ComparedModel {
     let mut facts = ModelFacts { sectors: 7, ..ModelFacts::of_ten_sectors(2) };
     length.clone_into(&mut facts.units.length);
@@ -71,14 +71,14 @@ fn point(index: u32, status: &str, severity: f64) -> Point {
     serde_json::from_value(point).unwrap()
 }
 
-/// The same, had it not settled.
+/// Copy of `point` that had not settled.
 fn on_its_way(mut point: Point) -> Point {
     let settling = json!({"verdict": "not_settled", "largest_change": 0.2});
     point.settling = serde_json::from_value(settling).unwrap();
     point
 }
 
-/// What simulations from `first` on would find, were this the severity of (values, speed).
+/// Points of the simulations from `first` on, with this severity of (values, speed).
 fn points(campaign: &ResolvedCampaign, first: u32, severity: impl Fn(&[f64], u32) -> f64) -> Vec<Point> {
     let of = |index: u32| {
         let values = &campaign.settings.designs[index as usize / 2];
@@ -91,7 +91,7 @@ fn answer(asked: &ResolvedCampaign, points: &[Point]) -> Campaign {
     campaign(asked, &ModelFacts::of_ten_sectors(4).units, points)
 }
 
-/// The campaign with all designs that it asks for, and their points.
+/// Runs the campaign with all designs that it adds; returns it with its points.
 fn to_its_end(
     mut campaign: ResolvedCampaign,
     severity: impl Fn(&[f64], u32) -> f64 + Copy,
@@ -133,7 +133,7 @@ fn sensitivities_are_those_of_ishigamis_function_at_the_worst_speed() {
     assert_eq!(half.sensitivities.unwrap().blocks, 256);
 }
 
-/// Severity 1 − clearance + a normal deviation of 0.05: of a limit of 0.7, thresholds are 0.3 ± 0.05, cut off at four deviations.
+/// Severity 1 − clearance + a normal deviation of 0.05: for a limit of 0.7, thresholds are 0.3 ± 0.05, cut off at four deviations.
 #[test]
 fn designs_are_added_where_the_threshold_is_undecided() {
     let tolerance = json!({"name": "tolerance", "at": ["/scene/damping/modal_ratio"], "change": "multiply", "distribution": "normal",
@@ -179,8 +179,8 @@ fn designs_are_added_where_the_threshold_is_undecided() {
     assert_eq!((ended.designs(), answer(&ended, &found).threshold.unwrap().met_within), (100, Some(false)));
 }
 
-/// Whatever the first designs happen to say, campaigns that end with an answer are as often right as they say: of 40, 95 % are 38, less three
-/// deviations of 1.4 and what an approximation for many designs may lack.
+/// Share of right answers of campaigns that end with one, whatever their first designs: of 40 with a confidence of 95 %, 38 should be
+/// right, less three deviations of 1.4 and the error of an approximation for many designs.
 #[test]
 fn answers_of_few_designs_are_honest() {
     for (size, spread, probability, within, batch) in [(8, 0.05, 0.8, 0.05, 4), (32, 0.02, 0.95, 0.02, 32)] {
@@ -207,7 +207,7 @@ fn answers_of_few_designs_are_honest() {
     }
 }
 
-/// Where nothing else varies, the threshold is enclosed ever more narrowly.
+/// Threshold where nothing else varies: it is enclosed ever more narrowly.
 #[test]
 fn a_single_parameter_is_enclosed() {
     let threshold = json!({"parameter": "clearance", "within": 1e-6, "batch": 9});
@@ -224,7 +224,7 @@ fn a_single_parameter_is_enclosed() {
     assert!(ended.designs() <= 5 + 6 * 9 && told.met_within == Some(true), "{}", ended.designs());
 }
 
-/// Damping that a tolerance may bring beyond 1 is refused, though the designs that are given have none of it.
+/// Damping beyond 1 that a tolerance may bring is refused, though none of the given designs has it.
 #[test]
 fn designs_that_may_be_added_are_held_against_the_model() {
     let damping = json!({"name": "d", "at": ["/scene/damping/modal_ratio"], "from": 0.08, "to": 20.0});
@@ -237,7 +237,7 @@ fn designs_that_may_be_added_are_held_against_the_model() {
     assert_eq!((refused.len(), refused[0].pointer.as_str()), (1, "/parameters/1"), "{refused:?}");
 }
 
-/// A severity that rises again crosses a limit three times: neither is there one value, nor is anything simulated twice.
+/// Severity that rises again and crosses a limit three times: there is no single value, and nothing is simulated twice.
 #[test]
 fn a_limit_that_is_crossed_again_is_said_to_be() {
     let threshold = json!({"parameter": "clearance", "within": 1e-3, "batch": 8});
@@ -254,7 +254,7 @@ fn a_limit_that_is_crossed_again_is_said_to_be() {
     assert!(told.message.contains("more than once"), "{}", told.message);
 }
 
-/// One design that meets the limit, as most do: the first batch goes over the whole range.
+/// Threshold far from the one first design, which meets the limit as most designs do: the first batch covers the whole range.
 #[test]
 fn a_threshold_far_from_the_first_designs_is_found() {
     let threshold = json!({"parameter": "clearance", "within": 1e-3, "batch": 8});
@@ -267,7 +267,7 @@ fn a_threshold_far_from_the_first_designs_is_found() {
     assert!(told.met_within == Some(true) && (told.value.unwrap() - 0.15).abs() < 1e-3, "{told:?}");
 }
 
-/// Rounds of which nothing is known end a campaign, and it says why.
+/// Campaign whose added designs are all unknown: it ends, and says why.
 #[test]
 fn nothing_is_added_where_nothing_settles() {
     let threshold = json!({"parameter": "clearance", "within": 1e-3, "batch": 4});
@@ -456,7 +456,7 @@ fn models_are_compared_design_by_design() {
     assert_eq!(answer(&asked, &all[..2]).comparison.unwrap().severity, None);
 }
 
-/// What is added for the first model's threshold says nothing of the mean, and mixed points of indices nothing that others do not.
+/// Designs added for the first model's threshold, and mixed points of indices: neither count in the mean difference.
 #[test]
 fn designs_that_lean_on_others_are_not_compared() {
     let threshold = json!({"parameter": "clearance", "within": 1e-3, "batch": 8});
@@ -477,7 +477,7 @@ fn designs_that_lean_on_others_are_not_compared() {
     let comparison = answer(&longer, &all).comparison.unwrap();
     let told = comparison.severity.unwrap();
     assert_eq!(told.pairs, 16);
-    // It differs by 1e-5 in all designs, but severities are known to 1e-3 of theirs.
+    // The difference is 1e-5 in all designs, but severities are known only to 1e-3 of their size.
     assert!((told.mean - 1e-5).abs() < 1e-12 && told.from.unwrap() > 0.9e-5, "{told:?}");
     assert_eq!(told.verdict, DifferenceVerdict::Undecided);
     assert!(comparison.sensitivities.is_some() && comparison.threshold.is_some());
@@ -509,7 +509,7 @@ fn what_cannot_be_compared_is_refused() {
     assert!(sensors[0].0.starts_with("/sensors/0") && sensors[0].1.contains("compared"), "{sensors:?}");
 }
 
-/// All designs share a table of heights, whose curves are made once; those that change it are a table each.
+/// Designs share a table of heights, whose curves are made once; those that change it have a table each.
 #[test]
 fn designs_share_measured_heights_unless_they_change_them() {
     let angles: Vec<f64> = (0..1000).map(|k| f64::from(k) * std::f64::consts::TAU / 1000.0).collect();

@@ -1,4 +1,4 @@
-//! Where a parameter meets the limit with a probability: what the designs so far say.
+//! Threshold of a campaign: value of a parameter at which the limit is met with a given probability, from the designs so far.
 
 use crate::digits::short;
 use crate::request::Threshold;
@@ -9,20 +9,21 @@ use rubmap_numerics::fragility::{self, Curve, Fragility};
 /// Confidence of intervals.
 pub(crate) const CONFIDENCE: f64 = 0.95;
 
-/// What designs say of a threshold.
+/// Threshold found from the designs so far.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Answer {
-    /// What they say; none where no design has been decided.
+    /// Fitted fragility; none where no design has been decided.
     pub(super) fragility: Option<Fragility>,
-    /// Where the probability is met, if that is known.
+    /// Value at which the probability is met, if known.
     pub(super) value: Option<f64>,
-    /// Between which values the answer is open; an end is infinite where the designs do not bound it.
+    /// Interval in which the threshold is undecided; an end is infinite where the designs do not bound it.
     pub(super) open: Option<(f64, f64)>,
     /// Whether a parameter that varies alone crosses the limit more than once, between the ends of `open`: no value divides its range.
     pub(super) is_crossed_again: bool,
 }
 
-/// Reads `cases`: values of the parameter, and whether the limit is met there; whether that parameter `varies_alone`.
+/// Finds the threshold from `cases`, each a value of the parameter and whether the limit is met there; `varies_alone`: no other parameter
+/// varies.
 pub(super) fn answer(cases: &[(f64, bool)], asked: &Threshold, varies_alone: bool) -> Answer {
     let fragility = fragility::fit(cases);
     if varies_alone && matches!(fragility, Some(Fragility::Curve(_))) {
@@ -46,7 +47,7 @@ pub(super) fn answer(cases: &[(f64, bool)], asked: &Threshold, varies_alone: boo
     Answer { fragility, value, open, is_crossed_again: false }
 }
 
-/// From the last case before the first crossing of the limit to the first one after the last.
+/// Interval from the last case before the first crossing of the limit to the first case after its last crossing.
 fn crossings(cases: &[(f64, bool)]) -> Option<(f64, f64)> {
     let mut sorted = cases.to_vec();
     sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -57,7 +58,7 @@ fn crossings(cases: &[(f64, bool)]) -> Option<(f64, f64)> {
 }
 
 impl Answer {
-    /// The curve that was fitted; none where it would stand for a parameter that varies alone and has no probabilities.
+    /// Fitted curve; none for a parameter that varies alone, which has no probabilities.
     fn curve(&self) -> Option<Curve> {
         match self.fragility {
             Some(Fragility::Curve(curve)) if !self.is_crossed_again => Some(curve),
@@ -65,13 +66,13 @@ impl Answer {
         }
     }
 
-    /// Whether the value is known to `within` either way.
+    /// Whether the value is known to ± `within`.
     pub(super) fn is_within(&self, within: f64) -> bool {
         !self.is_crossed_again && self.open.is_some_and(|(low, high)| high - low <= 2.0 * within)
     }
 }
 
-/// Where the limit is met, by what designs come to with one model.
+/// Threshold of the limit, from the outcomes of designs with one model.
 pub(super) fn threshold(asked: &ResolvedCampaign, outcomes: &[&DesignOutcome]) -> Option<CampaignThreshold> {
     let (threshold, index) = asked.threshold()?;
     let cases = cases(asked, outcomes, index);
@@ -94,7 +95,7 @@ pub(super) fn threshold(asked: &ResolvedCampaign, outcomes: &[&DesignOutcome]) -
     })
 }
 
-/// Designs all of whose speeds are known: the value of parameter `index`, and whether they meet the limit.
+/// Designs with all speeds known: the value of parameter `index`, and whether the limit is met.
 pub(super) fn cases(asked: &ResolvedCampaign, outcomes: &[&DesignOutcome], index: usize) -> Vec<(f64, bool)> {
     let designs = asked.settings.designs.iter().zip(outcomes);
     let known = designs.filter(|(_, outcome)| outcome.is_complete());
@@ -106,11 +107,11 @@ fn thresholds(found: &Answer) -> Option<(f64, f64)> {
     Some(thresholds).filter(|(mean, deviation)| mean.is_finite() && deviation.is_finite())
 }
 
-/// Most groups of designs whose share is told beside the curve, and the fewest designs of one.
+/// Most groups of designs whose share is reported beside the curve, and the fewest designs of a group.
 const GROUPS: usize = 10;
 const FEWEST: usize = 5;
 
-/// Of groups of equally many neighbouring designs the share that meets the limit, with what the curve says of it.
+/// Shares of designs that meet the limit, in groups of equally many neighbouring designs, with the share that the curve expects.
 fn shares(mut cases: Vec<(f64, bool)>, found: &Answer) -> Vec<ThresholdShare> {
     cases.sort_by(|a, b| a.0.total_cmp(&b.0));
     let groups = (cases.len() / FEWEST).clamp(1, GROUPS);
@@ -127,7 +128,7 @@ fn shares(mut cases: Vec<(f64, bool)>, found: &Answer) -> Vec<ThresholdShare> {
     (0..groups).filter_map(group).collect()
 }
 
-/// What is to be said of a value outside the range in which designs lie.
+/// Sentence about a value outside the range in which designs lie; empty inside.
 fn beyond(found: &Answer, range: Option<(f64, f64)>) -> &'static str {
     match found.value.zip(range) {
         Some((value, (from, to))) if value < from || value > to => {
@@ -137,7 +138,7 @@ fn beyond(found: &Answer, range: Option<(f64, f64)>) -> &'static str {
     }
 }
 
-/// What is to be said of designs that are finished and count nowhere.
+/// Sentence about finished designs that do not count; empty if there are none.
 fn left_out(outcomes: &[&DesignOutcome]) -> String {
     let finished = outcomes.iter().filter(|outcome| outcome.finished as usize == outcome.by_speed.len());
     let unknown = finished.clone().filter(|outcome| !outcome.is_complete()).count();

@@ -1,20 +1,20 @@
-//! What a request says in a field of its scene, and what that comes to.
+//! Fields of a scene as a request has them, and how they are resolved.
 
 use crate::error::Violation;
 
 /// A field of a scene as a request has it.
 pub(crate) trait Asked {
-    /// The same with its alternatives told apart.
+    /// Resolved form of the field, its alternatives told apart.
     type Resolved;
 
-    /// What was asked for; `refuse` hears of fields that together say too much or too little, of which something harmless is made.
+    /// Resolves the field; `refuse` is given violations of fields that together say too much or too little, of which something harmless is made.
     fn resolve(self, refuse: &mut dyn FnMut(Violation)) -> Self::Resolved;
 
-    /// As a request would ask for it.
+    /// Writes the field as a request would ask for it.
     fn of(resolved: Self::Resolved) -> Self;
 }
 
-/// What can be said in one way only.
+/// Marker of fields that can be said in one way only: their resolved form is the same type.
 pub(crate) trait Plain {}
 
 impl Plain for bool {}

@@ -1,12 +1,12 @@
 //! The effects that a scene may name: the list from which all else follows.
 
-/// Hands the list to the macro `$to`. Of every effect: what the contract says of it, its name, and what a request says there. The
-/// name is a field of scenes (`request/scene.rs`, `resolved/scene.rs`) and the folder beside this file whose `EFFECT` is one of
-/// the table (`table.rs`).
+/// Hands the list to the macro `$to`. Every effect comes with its description in the contract, its name, and the type of its field in a request. The
+/// name is a field of scenes (`request/scene.rs`, `resolved/scene.rs`) and the folder beside this file whose `EFFECT` is one of the table
+/// (`table.rs`).
 macro_rules! effects {
     ($to:ident) => {
         $to! {
-            /// Use K(Ω) through the package's three stiffness matrices (Eq. 3); otherwise the stiffness at rest.
+            /// Whether the stiffness is K(Ω) by the package's three stiffness matrices (Eq. 3); otherwise it is the stiffness at rest.
             #[serde(default)]
             centrifugal_stiffening: bool,
             /// Modal damping; absent: none.
@@ -46,10 +46,10 @@ macro_rules! effects {
             /// State that the wheel starts from; absent: rest.
             #[serde(default, skip_serializing_if = "Option::is_none")]
             initial: Option<crate::effects::initial::request::Initial>,
-            /// Which part of the wheel is simulated.
+            /// Part of the wheel that is simulated.
             #[serde(default, skip_serializing_if = "crate::effects::symmetry::request::Symmetry::is_full")]
             symmetry: crate::effects::symmetry::request::Symmetry,
-            /// The asymmetry that `symmetry: probe` starts from; absent: its defaults.
+            /// Asymmetry that `symmetry: probe` starts from; absent: its defaults.
             #[serde(default, skip_serializing_if = "Option::is_none")]
             probe: Option<crate::effects::probe::request::Probe>,
         }

@@ -1,4 +1,4 @@
-//! The table of all effects, and what is asked of all of them.
+//! Table of all effects, and questions to all of them.
 
 use crate::effects::effect::{AboutToRun, Acts, Effect};
 use crate::effects::list::effects;
@@ -16,7 +16,7 @@ macro_rules! table {
 }
 effects!(table);
 
-/// Those that `scene` names.
+/// Effects that `scene` names.
 pub(crate) fn named(scene: &Scene) -> impl Iterator<Item = &'static Effect> {
     EFFECTS.iter().copied().filter(|effect| (effect.is_on)(scene))
 }
@@ -30,29 +30,29 @@ pub(crate) fn planned(scene: &Scene) -> Vec<PlannedEffect> {
     EFFECTS.iter().map(planned).collect()
 }
 
-/// Whether something else than contact acts on the modes.
+/// Whether anything else than contact acts on the modes.
 pub(crate) fn is_driven(scene: &Scene) -> bool {
     named(scene).any(|effect| effect.acts == Acts::OnModes)
 }
 
-/// Whether a wheel stands what its scene names.
+/// Checks that a wheel at a speed can stand the effects that its scene names.
 pub(crate) fn check_at_speed(run: &AboutToRun<'_>) -> Result<(), NotRunnable> {
     let mut asked = named(&run.request.scene).filter_map(|effect| effect.at_speed.as_ref());
     asked.try_for_each(|asked| (asked.check)(run))
 }
 
-/// The effects of a scene in the terms of the physics, which [`Effects`] borrows.
+/// Effects of a scene in the terms of the physics, which [`Effects`] borrows.
 pub(crate) struct SceneEffects(Vec<Box<dyn Physics>>);
 
 impl SceneEffects {
-    /// Those that `scene` names.
+    /// Converts the effects that `scene` names.
     pub(crate) fn of(scene: &Scene, surroundings: &Surroundings<'_>) -> Result<Self, NotRunnable> {
         let conversions = named(scene).filter_map(|effect| effect.convert);
         let converted = conversions.filter_map(|convert| convert(scene, surroundings).transpose());
         converted.collect::<Result<_, _>>().map(Self)
     }
 
-    /// As a simulation takes them.
+    /// Effects as a simulation takes them.
     pub(crate) fn borrow(&self) -> Effects<'_> {
         let mut effects = Effects::default();
         self.0.iter().for_each(|effect| effect.join(&mut effects));

@@ -1,28 +1,28 @@
-//! Why there is no field.
+//! Errors of fields.
 
 use rubmap_wheel::dynamics::error::ModelError;
 
-/// Why there is no field.
+/// Reason why a field cannot be made.
 #[derive(Debug, thiserror::Error)]
 pub enum FieldError {
-    /// A parameter that names nothing that is there.
+    /// Parameter with a value that does not exist.
     #[error("{parameter}: {message}")]
     Parameter {
-        /// Its name.
+        /// Name of the parameter.
         parameter: &'static str,
-        /// What would be right.
+        /// Values that would be valid.
         message: String,
     },
-    /// The wheel cannot be evaluated.
+    /// Error of the reduced wheel, which cannot be evaluated.
     #[error(transparent)]
     Model(#[from] ModelError),
-    /// The basis cannot be read.
+    /// Error of reading the basis.
     #[error("the basis cannot be read: {0}")]
     Basis(#[from] std::io::Error),
 }
 
 impl FieldError {
-    /// A parameter that is wrong.
+    /// Error of a `parameter` with a wrong value.
     pub(super) fn parameter(parameter: &'static str, message: impl Into<String>) -> Self {
         Self::Parameter { parameter, message: message.into() }
     }

@@ -1,19 +1,19 @@
-//! Where no stress is claimed: about contact nodes, where forces act on points and stress grows with the mesh.
+//! Nodes without valid stress: about contact nodes, where forces act on points and stress grows with refinement of the mesh.
 
 use rubmap_solid::frame::distance;
 use rubmap_wheel::dynamics::nodes::SectorNode;
 
-/// The nodes of a sector that are too near to a contact node.
+/// Nodes of a sector that are too near to a contact node for valid stress.
 #[derive(Debug)]
 pub struct Excluded {
     radius: f64,
-    /// Per node.
+    /// Whether each node is too near.
     near: Vec<bool>,
 }
 
 impl Excluded {
-    /// Within `radius` of a contact node, of the blades beside its own, `angle` apart, too; without one within the mean distance of contact
-    /// nodes.
+    /// Nodes within `radius` of a contact node, including those of the two neighbouring blades, `angle` apart; by default the radius is the
+    /// mean distance of contact nodes.
     pub(super) fn new(nodes: &[SectorNode], angle: f64, radius: Option<f64>) -> Self {
         let place = |[r, theta, z]: [f64; 3], turn: f64| {
             let (sin, cos) = (theta + turn).sin_cos();
@@ -36,12 +36,12 @@ impl Excluded {
         Self { radius, near: nodes.iter().map(near).collect() }
     }
 
-    /// The radius, in the model's unit of length.
+    /// Radius about contact nodes, in the model's unit of length.
     pub fn radius(&self) -> f64 {
         self.radius
     }
 
-    /// Whether no stress is claimed at a node.
+    /// Whether the stress at a node is not valid.
     pub fn contains(&self, place: u32) -> bool {
         self.near[place as usize]
     }

@@ -1,4 +1,4 @@
-//! A field: displacement and stress of every node, over one or more frames.
+//! Field of the wheel: displacement and stress of every node, over one or more frames.
 
 use std::f64::consts::TAU;
 
@@ -9,49 +9,49 @@ use super::error::FieldError;
 use super::sector::FieldSector;
 use super::tensor::{components, matrix};
 
-/// Υ̂_i X of nodal diameter i: `own DOF × columns` of `unknowns × columns`.
+/// Product Υ̂_i X of the basis of nodal diameter i: from `unknowns × columns` to `own DOF × columns`.
 pub type BasisProduct<'a> = &'a mut dyn FnMut(usize, MatRef<'_, c64>) -> std::io::Result<Mat<c64>>;
 
-/// A moment of a field.
+/// Instant of a field.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Frame {
-    /// When: revolutions since the start, or the part of a period.
+    /// Time of the frame: revolutions since the start, or the part of a period.
     pub time: f64,
-    /// Columns and what each is multiplied by.
+    /// Columns of the field, each with its weight.
     pub weights: Vec<(usize, c64)>,
-    /// The same a quarter of a period before, where the field goes on periodically: the imaginary part of its complex amplitude.
+    /// Weights a quarter of a period earlier, for a periodic field: the imaginary part of its complex amplitude.
     pub before: Vec<(usize, c64)>,
 }
 
 /// A field of the wheel.
 #[derive(Debug)]
 pub struct Field {
-    /// What it is, in words.
+    /// Title of the field.
     pub title: String,
-    /// More words, a line each.
+    /// Lines below the title.
     pub subtitles: Vec<String>,
-    /// Its moments.
+    /// Frames of the field.
     pub frames: Vec<Frame>,
     harmonics: Vec<HarmonicField>,
-    /// What does not move, part of every sum of columns.
+    /// Static part, added to every sum of columns.
     fixed: Option<HarmonicField>,
 }
 
-/// One nodal diameter.
+/// Part of a field in one nodal diameter.
 #[derive(Debug)]
 struct HarmonicField {
     harmonic: usize,
-    /// (r, θ, z), `3·nodes × columns`.
+    /// Displacement (r, θ, z), `3·nodes × columns`.
     displacement: Mat<c64>,
-    /// σ_rr, σ_θθ, σ_zz, σ_rθ, σ_θz, σ_zr, `6·nodes × columns`.
+    /// Stress σ_rr, σ_θθ, σ_zz, σ_rθ, σ_θz, σ_zr, `6·nodes × columns`.
     stress: Option<Mat<c64>>,
 }
 
 impl Field {
-    /// From columns in the coordinates of the reduction, by nodal diameter.
+    /// Field of columns in the coordinates of the reduction, by nodal diameter.
     ///
     /// # Errors
-    /// Those of reading the basis.
+    /// Errors of reading the basis.
     pub(super) fn new(
         sector: &FieldSector,
         columns: &[(usize, Mat<c64>)],
@@ -67,14 +67,14 @@ impl Field {
         Ok(Self { title: String::new(), subtitles: Vec::new(), frames, harmonics, fixed: None })
     }
 
-    /// Nothing that moves: the mesh alone.
+    /// Field without displacement: the mesh alone.
     pub fn of_mesh(title: String) -> Self {
         let still = Frame { time: 0.0, weights: Vec::new(), before: Vec::new() };
         Self { title, subtitles: Vec::new(), frames: vec![still], harmonics: Vec::new(), fixed: None }
     }
 
-    /// Upon a displacement of the own DOF that is the same in every sector and moment, that of the centrifugal load, or without it: it says
-    /// which.
+    /// Adds a displacement of the own DOF that is the same in every sector and frame, that of the centrifugal load, if it is given; a
+    /// subtitle says whether.
     #[must_use]
     pub fn upon(mut self, sector: &FieldSector, own: Option<&[f64]>) -> Self {
         let what = if sector.has_stress() { "displacement and stress" } else { "displacement" };
@@ -92,29 +92,29 @@ impl Field {
         self
     }
 
-    /// At this speed of rotation, which its title says.
+    /// Adds the rotational speed to the title.
     #[must_use]
     pub fn at_speed(mut self, rad_s: f64) -> Self {
         self.title += &format!(", {:.0} rpm ({rad_s:.1} rad/s)", 60.0 * rad_s / TAU);
         self
     }
 
-    /// Whether it says how nodes are displaced; of a mesh alone it does not.
+    /// Whether the field has displacements; that of a mesh alone has none.
     pub fn has_displacement(&self) -> bool {
         !self.harmonics.is_empty() || self.has_static()
     }
 
-    /// Whether it has a part that does not move: what every sum of no columns gives.
+    /// Whether the field has a static part, the sum of no columns.
     pub fn has_static(&self) -> bool {
         self.fixed.is_some()
     }
 
-    /// Called so.
+    /// Sets title and subtitles.
     pub(super) fn titled(self, title: String, subtitles: Vec<String>) -> Self {
         Self { title, subtitles, ..self }
     }
 
-    /// Displacement in the user's coordinates of these nodes of a sector, weighted as a frame says.
+    /// Displacement of nodes of a sector in the user's coordinates, for the weights of a frame.
     pub fn displacement(
         &self,
         of: &FieldSector,
@@ -126,7 +126,7 @@ impl Field {
         self.moved((of, sector), places, weights, turned)
     }
 
-    /// The same about the axis, which is z: for drawings.
+    /// Displacement of nodes of a sector in coordinates whose z is the axis, for drawings.
     pub(super) fn about_axis(
         &self,
         of: &FieldSector,
@@ -141,7 +141,7 @@ impl Field {
         self.moved((of, sector), places, weights, turned)
     }
 
-    /// Displacement of these nodes, from (r, θ, z) as `turned` says.
+    /// Displacement of nodes, turned from (r, θ, z) by `turned`.
     fn moved(
         &self,
         (of, sector): (&FieldSector, usize),
@@ -153,8 +153,8 @@ impl Field {
         places.iter().zip(local).map(|(&place, local)| turned(place, local)).collect()
     }
 
-    /// Stress in the user's coordinates, σ_xx, σ_yy, σ_zz, σ_xy, σ_yz, σ_zx, of these nodes of a sector; NaN where there is none. Nothing
-    /// where the field has no stress.
+    /// Stress of nodes of a sector in the user's coordinates, σ_xx, σ_yy, σ_zz, σ_xy, σ_yz, σ_zx; NaN at nodes without stress, none where
+    /// the field has no stress.
     pub fn stress(
         &self,
         of: &FieldSector,
@@ -172,7 +172,7 @@ impl Field {
         Some(places.iter().zip(local).map(turned).collect())
     }
 
-    /// The largest displacement of any node and sector over a whole period of the first frame.
+    /// Largest displacement of any node and sector over a whole period of the first frame.
     pub(super) fn largest_amplitude(&self, of: &FieldSector) -> f64 {
         let Some(frame) = self.frames.first() else { return 0.0 };
         let places: Vec<u32> = (0..of.nodes().len() as u32).collect();
@@ -183,7 +183,7 @@ impl Field {
         (0..of.sectors()).map(of_sector).fold(0.0, f64::max)
     }
 
-    /// The largest displacement of each node over a period: the longer half axis of its ellipse.
+    /// Largest displacement of each node over a period: the longer half axis of its ellipse.
     pub fn amplitude(&self, of: &FieldSector, sector: usize, places: &[u32], frame: &Frame) -> Vec<f64> {
         let real = self.displacement(of, sector, places, &frame.weights);
         let imaginary = self.displacement(of, sector, places, &frame.before);
@@ -195,7 +195,7 @@ impl Field {
         real.into_iter().zip(imaginary).map(longer).collect()
     }
 
-    /// All columns of all nodal diameters multiplied by a number.
+    /// Multiplies all columns of all nodal diameters by a number.
     pub(super) fn scale(&mut self, factor: f64) {
         let factor = c64::new(factor, 0.0);
         for harmonic in &mut self.harmonics {
@@ -206,7 +206,7 @@ impl Field {
         }
     }
 
-    /// Re Σ_i e^{jisα} Σ_c a_c column_c and what does not move, K components a node.
+    /// Sum Re Σ_i e^{jisα} Σ_c a_c column_c plus the static part, K components a node.
     fn sum<const K: usize>(
         &self,
         of: &FieldSector,

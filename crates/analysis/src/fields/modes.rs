@@ -12,31 +12,31 @@ use rubmap_numerics::sector_fourier::is_single;
 use rubmap_wheel::dynamics::modal_wheel::{natural_frequencies, natural_modes};
 use rubmap_wheel::dynamics::reduction::ReducedWheel;
 
-/// How a mode moves.
+/// Kind of motion of a mode.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Motion {
-    /// Its nodal lines stay where they are on the wheel; the phase turns them about it.
+    /// Standing wave: its nodal lines stay where they are on the wheel; the phase turns them about it.
     Standing,
-    /// It travels around the wheel, in the direction of rotation; the phase says how far.
+    /// Wave travelling around the wheel, in the direction of rotation; the phase is the angle travelled.
     Travelling,
 }
 
-/// Which mode.
+/// Mode shape that is asked for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ModeRequest {
-    /// Ω, rad/s.
+    /// Rotational speed Ω, rad/s.
     pub speed_rad_s: f64,
-    /// K(Ω) instead of the stiffness at rest.
+    /// Whether K(Ω) is used instead of the stiffness at rest.
     pub stiffening: bool,
     /// Nodal diameter.
     pub nodal_diameter: usize,
-    /// The lowest so many modes are those of the wheel; above, they are of the reduction alone.
+    /// Number of lowest modes that are valid for the wheel; higher ones are artefacts of the reduction.
     pub modes: usize,
-    /// Mode, from 1, by ascending frequency.
+    /// Number of the mode, from 1, by ascending frequency.
     pub mode: usize,
-    /// How it moves.
+    /// Kind of motion.
     pub motion: Motion,
     /// Phase of the first frame, rad.
     pub phase: f64,
@@ -50,15 +50,15 @@ pub struct ModeRequest {
 pub struct ShapeFrequencies {
     /// Nodal diameter.
     pub nodal_diameter: u32,
-    /// Frequencies of its modes in the rotating frame, ascending, Hz: of as many as the reduction keeps at each given speed. What it
-    /// has above them is of the reduction, not of the wheel.
+    /// Frequencies of its modes in the rotating frame, ascending, Hz: as many as the reduction keeps at each given speed. Higher ones
+    /// belong to the reduction, not to the wheel, and are left out.
     pub frequencies_hz: Vec<f64>,
 }
 
 /// Frequencies of the lowest `modes` of every nodal diameter at a speed.
 ///
 /// # Errors
-/// A K(Ω) that is not positive definite.
+/// K(Ω) that is not positive definite.
 pub fn mode_frequencies(
     reduced: &ReducedWheel,
     speed_rad_s: f64,
@@ -73,10 +73,10 @@ pub fn mode_frequencies(
     reduced.harmonics.iter().map(of).collect()
 }
 
-/// The shape of a mode, its largest displacement over a period 1.
+/// Shape of a mode, scaled to a largest displacement of 1 over a period.
 ///
 /// # Errors
-/// A nodal diameter or mode that is not there; a K(Ω) that is not positive definite; a basis that cannot be read.
+/// Nodal diameter or mode that does not exist; K(Ω) that is not positive definite; basis that cannot be read.
 pub fn mode_field(
     reduced: &ReducedWheel,
     sector: &FieldSector,
@@ -112,7 +112,7 @@ pub fn mode_field(
     Ok(field.titled(title, vec![scaled.to_owned()]).at_speed(asked.speed_rad_s))
 }
 
-/// The mode after a part of its period.
+/// Frame of the mode after a part of its period.
 fn frame(asked: &ModeRequest, part: f64) -> Frame {
     let unit = |angle: f64| c64::new(angle.cos(), angle.sin());
     let at = |angle: f64| match asked.motion {

@@ -1,32 +1,32 @@
-//! The points of a part: which node of which sector each is.
+//! Points of a part: node and sector of each.
 
 use super::sector::{FieldSector, Part};
 use rubmap_solid::mesh::SectorMesh;
 use rubmap_solid::skin::skin;
 
-/// Points of a part, sector after sector. Of the whole wheel the faces between sectors count once: its last sector meets its first.
+/// Points of a part, sector after sector. In the whole wheel the faces between sectors count once: its last sector meets its first.
 #[derive(Debug)]
 pub struct Points<'a> {
     of: &'a FieldSector,
     part: Part,
     /// Nodes of each sector that are points.
     places: Vec<u32>,
-    /// Per node, its rank in `places`.
+    /// Rank of each node in `places`.
     rank: Vec<u32>,
 }
 
 impl<'a> Points<'a> {
-    /// All nodes.
+    /// All nodes of a part as points.
     pub fn all(of: &'a FieldSector, part: Part) -> Self {
         Self::those(of, part, |_| true)
     }
 
-    /// The nodes of some faces of the sector.
+    /// Nodes of some faces of the sector as points.
     pub fn of_faces(of: &'a FieldSector, part: Part, faces: &[Vec<u32>]) -> Self {
         let mut wanted = vec![false; of.nodes().len()];
         for &corner in faces.iter().flatten() {
             wanted[corner as usize] = true;
-            // Of the wheel, where the high node is a point of the next sector.
+            // In the whole wheel the high node is a point of the next sector.
             if part == Part::Wheel {
                 wanted[of.low(corner) as usize] = true;
             }
@@ -45,17 +45,17 @@ impl<'a> Points<'a> {
         Self { of, part, places, rank }
     }
 
-    /// The nodes of each sector that are points of it.
+    /// Nodes of each sector that are points of the part.
     pub fn places(&self) -> &[u32] {
         &self.places
     }
 
-    /// How many points there are.
+    /// Number of points.
     pub fn count(&self) -> usize {
         self.of.sectors_of(self.part).len() * self.places.len()
     }
 
-    /// Number of the point that a node of a sector of the part is.
+    /// Number of the point at a node of a sector of the part.
     pub fn number(&self, sector: usize, place: u32) -> usize {
         if self.part != Part::Wheel {
             return self.rank[place as usize] as usize;
@@ -66,8 +66,8 @@ impl<'a> Points<'a> {
     }
 }
 
-/// Corners of the faces of a part's skin in each of its sectors, anticlockwise seen from outside. A part that is no whole wheel shows its
-/// cuts.
+/// Corners of the faces of a part's skin in each of its sectors, anticlockwise seen from outside. A single sector includes its two cut
+/// faces.
 pub fn skin_faces(mesh: &SectorMesh, part: Part) -> Vec<Vec<u32>> {
     let faces = skin(mesh).faces.into_iter().filter(|face| face.cut.is_none() || part != Part::Wheel);
     faces.map(|face| face.nodes[..face.corners].to_vec()).collect()

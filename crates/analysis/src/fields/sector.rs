@@ -1,4 +1,4 @@
-//! The sector that fields are shown on, and how the wheel is made of it.
+//! Sector that fields are shown on, and its repetition to the whole wheel.
 
 use std::f64::consts::TAU;
 use std::ops::Range;
@@ -12,12 +12,12 @@ use rubmap_solid::mesh::SectorMesh;
 use rubmap_solid::stress::NodalStress;
 use rubmap_wheel::dynamics::nodes::SectorNode;
 
-/// What is shown.
+/// Part of the wheel that is shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Part {
-    /// All sectors; nodes of the faces between them count once.
+    /// Whole wheel; nodes of the faces between sectors count once.
     Wheel,
-    /// This sector, with both its faces.
+    /// Single sector, by its index, with both its faces.
     Sector(usize),
 }
 
@@ -30,13 +30,13 @@ pub struct FieldSector {
     mesh: Option<SectorMesh>,
     stress: Option<NodalStress>,
     excluded: Option<Excluded>,
-    /// Per node, the low node that a high one goes with; itself otherwise.
+    /// Low node that goes with each node of the high face; the node itself elsewhere.
     low: Vec<u32>,
 }
 
 impl FieldSector {
-    /// Of the nodes of a package of so many `sectors`, and its mesh if it has one, in the same order; `None` if the axis has no
-    /// direction.
+    /// Sector of a wheel of `sectors` sectors, from the nodes of a package and its mesh, if it has one, in the same order; `None` if the
+    /// axis has no direction.
     pub fn new(
         sectors: usize,
         axis: ([f64; 3], [f64; 3]),
@@ -51,7 +51,7 @@ impl FieldSector {
         Some(Self { sectors, frame, nodes, mesh, stress: None, excluded: None, low })
     }
 
-    /// The same with what stress needs, where there is a mesh. None is claimed within a radius of contact nodes, by default their mean
+    /// Adds the stress operator, where there is a mesh. Stress is not valid within a radius of contact nodes, by default their mean
     /// distance.
     #[must_use]
     pub fn with_stress(mut self, excluded_radius: Option<f64>) -> Self {
@@ -61,7 +61,7 @@ impl FieldSector {
         self
     }
 
-    /// N.
+    /// Number of sectors N.
     pub fn sectors(&self) -> usize {
         self.sectors
     }
@@ -71,17 +71,17 @@ impl FieldSector {
         &self.nodes
     }
 
-    /// The elements, if the package has them.
+    /// Elements of the sector, if the package has them.
     pub fn mesh(&self) -> Option<&SectorMesh> {
         self.mesh.as_ref()
     }
 
-    /// Whether fields on it have stress.
+    /// Whether fields on this sector have stress.
     pub fn has_stress(&self) -> bool {
         self.stress.is_some()
     }
 
-    /// Where stress is not claimed, of what has stress.
+    /// Nodes without valid stress, if fields have stress.
     pub fn excluded(&self) -> Option<&Excluded> {
         self.excluded.as_ref()
     }
@@ -94,22 +94,22 @@ impl FieldSector {
         }
     }
 
-    /// Where a node of a sector is, in the user's coordinates.
+    /// Position of a node of a sector, in the user's coordinates.
     pub fn position(&self, sector: usize, place: u32) -> [f64; 3] {
         self.frame.turn_point(self.nodes[place as usize].position, self.turn(sector))
     }
 
-    /// Place of a node among the contact nodes, from 1 in the order of the package; 0 of all others.
+    /// Number of a node among the contact nodes, from 1 in the order of the package; 0 for all others.
     pub fn contact(&self, place: u32) -> u32 {
         self.nodes[place as usize].contact.map_or(0, |contact| contact + 1)
     }
 
-    /// The directions r, θ, z at a node of a sector, in the user's coordinates.
+    /// Directions r, θ, z at a node of a sector, in the user's coordinates.
     pub(super) fn directions(&self, sector: usize, place: u32) -> Matrix3<f64> {
         self.frame.cylindrical(self.nodes[place as usize].coordinates[1] + self.turn(sector))
     }
 
-    /// Angle by which a sector is turned from the first.
+    /// Angle by which a sector is turned from the first, rad.
     pub(super) fn turn(&self, sector: usize) -> f64 {
         TAU * sector as f64 / self.sectors as f64
     }
@@ -119,18 +119,18 @@ impl FieldSector {
         self.nodes[place as usize].on_high_face || self.low(place) != place
     }
 
-    /// The low node of a high one; any other itself.
+    /// Low node that goes with a node of the high face; any other node itself.
     pub(super) fn low(&self, place: u32) -> u32 {
         self.low[place as usize]
     }
 
-    /// e^{jiα} of nodal diameter i.
+    /// Phase e^{jiα} of nodal diameter i from one sector to the next.
     pub(super) fn phase(&self, harmonic: usize) -> c64 {
         let (sin, cos) = self.turn(harmonic).sin_cos();
         c64::new(cos, sin)
     }
 
-    /// (r, θ, z) at every node, `3·nodes × columns`, of columns over the own DOF at a nodal diameter.
+    /// Displacement (r, θ, z) at every node, `3·nodes × columns`, from columns over the own DOF at a nodal diameter.
     pub(super) fn at_nodes(&self, harmonic: usize, own: MatRef<'_, c64>) -> Mat<c64> {
         let mut at = Mat::zeros(3 * self.nodes.len(), own.ncols());
         for (place, node) in self.nodes.iter().enumerate() {
@@ -147,8 +147,8 @@ impl FieldSector {
         at
     }
 
-    /// Cylindrical stress at every node, `6·nodes × columns`, of what [`Self::at_nodes`] gave; NaN where there is none. Nothing without
-    /// [`Self::with_stress`].
+    /// Cylindrical stress at every node, `6·nodes × columns`, from the displacement of [`Self::at_nodes`]; NaN at nodes without stress.
+    /// None without [`Self::with_stress`].
     pub(super) fn stress(&self, harmonic: usize, at_nodes: MatRef<'_, c64>) -> Option<Mat<c64>> {
         let operator = self.stress.as_ref()?;
         let phase = self.phase(harmonic);

@@ -10,10 +10,10 @@ use super::sector::FieldSector;
 use rubmap_wheel::dynamics::reduction::ReducedWheel;
 use rubmap_wheel::dynamics::states::WheelStates;
 
-/// The wheel at these instants of a run, by their index.
+/// Field of the wheel at instants of a recorded run, by their index.
 ///
 /// # Errors
-/// An instant that was not recorded; a basis that cannot be read.
+/// Instant that was not recorded; basis that cannot be read.
 pub fn instants(
     states: &WheelStates,
     sector: &FieldSector,
@@ -48,7 +48,7 @@ pub fn instants(
     Ok(Field::new(sector, &columns, frames, basis)?.titled(title, Vec::new()))
 }
 
-/// The deflection shape of an engine order over all recorded revolutions, `frames` of them over a period from `phase` (rad) on.
+/// Deflection shape of an engine order over all recorded revolutions, `frames` of them over a period from `phase` (rad) on.
 ///
 /// ```text
 /// û_s = Σ_i e^{jisα} Υ̂_i X̂_i(E) + conj(e^{jisα} Υ̂_i X̂_i(−E)),   X̂_i(E) = 1/M Σ_m X_i(θ_m) e^{−jEθ_m}
@@ -58,7 +58,7 @@ pub fn instants(
 /// For E = 0 it is the mean.
 ///
 /// # Errors
-/// An engine order above half the samples of a revolution; a basis that cannot be read.
+/// Engine order above half the samples of a revolution; basis that cannot be read.
 pub fn deflection_shape(
     states: &WheelStates,
     sector: &FieldSector,
@@ -109,7 +109,7 @@ pub fn deflection_shape(
     Ok(Field::new(sector, &columns, frames, basis)?.titled(title, Vec::new()))
 }
 
-/// The highest engine order below half the samples of a revolution.
+/// Highest engine order below half the samples of a revolution.
 fn largest_engine_order(states: &WheelStates) -> u32 {
     match states.revolutions[..] {
         [first, second, ..] if second > first => {
@@ -121,7 +121,7 @@ fn largest_engine_order(states: &WheelStates) -> u32 {
     }
 }
 
-/// The instant at which a contact node of any blade is displaced most, which the first coordinates of a reduction are.
+/// Instant at which a contact node of any blade is displaced most; contact nodes are the first coordinates of a reduction.
 pub fn largest_instant(states: &WheelStates, reduced: &ReducedWheel) -> Option<usize> {
     let sectors = reduced.sectors;
     let turn = |harmonic: usize, sector: usize| {
@@ -151,7 +151,7 @@ pub fn largest_instant(states: &WheelStates, reduced: &ReducedWheel) -> Option<u
 mod tests {
     use super::*;
 
-    /// An engine order of half the samples is its own negative: it would count twice.
+    /// Engine order of half the samples: it is its own negative and would count twice.
     #[test]
     fn engine_orders_stay_below_half_the_samples() {
         for samples in [1, 2, 3, 8, 9, 300, 360, 500, 1000] {

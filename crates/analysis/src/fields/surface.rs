@@ -1,4 +1,4 @@
-//! A field as a surface that is drawn.
+//! Surface of a field, for drawings.
 
 use super::field::Field;
 use super::points::{Points, skin_faces};
@@ -7,8 +7,8 @@ use super::tensor::von_mises;
 use crate::result::{FieldSurface, SurfaceColour, drawn_stress_unit};
 use rubmap_wheel::dynamics::sector::Units;
 
-/// The skin of a part with one frame of a field on it, coloured by von Mises stress where the field has stress and otherwise by
-/// displacement; nothing without a mesh or without that frame. Where no stress is claimed there is no value.
+/// Skin of a part with one frame of a field on it, coloured by von Mises stress where the field has stress and otherwise by displacement;
+/// none without a mesh or without that frame. Places without valid stress have no value.
 pub fn surface(
     field: &Field,
     of: &FieldSector,

@@ -1,4 +1,4 @@
-//! What a stress tensor says: its norm and its principal values.
+//! Stress tensors: von Mises stress and principal stresses.
 
 use nalgebra::Matrix3;
 
@@ -9,19 +9,19 @@ pub fn von_mises(stress: [f64; 6]) -> f64 {
     (0.5 * normal + 3.0 * (xy * xy + yz * yz + zx * zx)).sqrt()
 }
 
-/// Principal stresses of the same, the largest first.
+/// Principal stresses of σ_xx, σ_yy, σ_zz, σ_xy, σ_yz, σ_zx, the largest first.
 pub fn principal(stress: [f64; 6]) -> [f64; 3] {
     let mut values: [f64; 3] = matrix(stress).symmetric_eigenvalues().into();
     values.sort_by(|a, b| b.total_cmp(a));
     values
 }
 
-/// The tensor of its six components.
+/// Stress tensor of its six components.
 pub(super) fn matrix([xx, yy, zz, xy, yz, zx]: [f64; 6]) -> Matrix3<f64> {
     Matrix3::new(xx, xy, zx, xy, yy, yz, zx, yz, zz)
 }
 
-/// Its six components.
+/// Components of a stress tensor: σ_xx, σ_yy, σ_zz, σ_xy, σ_yz, σ_zx.
 pub(super) fn components(m: &Matrix3<f64>) -> [f64; 6] {
     [m[(0, 0)], m[(1, 1)], m[(2, 2)], m[(0, 1)], m[(1, 2)], m[(2, 0)]]
 }

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// Most steps per revolution, given or chosen.
+/// Largest number of steps per revolution, given or chosen.
 pub(crate) const MOST_STEPS: u32 = 10_000_000;
 
 /// A whole number, or `"auto"`.
@@ -11,7 +11,7 @@ pub enum AutoOr {
     /// Chosen by the program.
     #[default]
     Auto,
-    /// This number.
+    /// Given number.
     Fixed(u32),
 }
 

@@ -1,4 +1,4 @@
-//! What branches are asked for: a scene at one speed, and the number of it that changes.
+//! Request for branches: a scene at one speed, and the number of it that changes.
 
 use serde::{Deserialize, Serialize};
 
@@ -20,9 +20,9 @@ pub struct BranchesRequest {
     /// Fixed-interface modes kept per stiffness speed and nodal diameter; `"auto"` is 20.
     #[serde(default)]
     pub modes_per_speed: AutoOr,
-    /// The speed at which a periodic response is sought, from where it is followed.
+    /// Speed at which a periodic response is sought, from where it is followed.
     pub speed: CaseSpeed,
-    /// What changes along the branches, and how far.
+    /// Number of the scene that changes along the branches, and its range.
     pub along: Along,
     /// Effects of the simulation.
     pub scene: Scene,
@@ -30,7 +30,7 @@ pub struct BranchesRequest {
     /// most four times the revolutions that a march may take, and as many again from heavier damping.
     #[serde(default)]
     pub integration: Integration,
-    /// Whose amplitudes are told; default: radial at the first and the last contact node of sector 0.
+    /// Sensors whose amplitudes are reported; default: radial at the first and the last contact node of sector 0.
     #[serde(default)]
     #[cfg_attr(feature = "schema", schema(max_items = 1_000))]
     pub sensors: Vec<Sensor>,
@@ -38,47 +38,47 @@ pub struct BranchesRequest {
     #[serde(default = "default_max_engine_order")]
     #[cfg_attr(feature = "schema", schema(minimum = 1, maximum = 1000))]
     pub max_engine_order: u32,
-    /// Whether the branches are followed, too, onto which motions double their period.
+    /// Whether the branches onto which motions double their period are followed, too.
     #[serde(default = "yes")]
     pub doubled: bool,
-    /// Most points of a branch on either side of where it begins.
+    /// Largest number of points of a branch on either side of where it begins.
     #[serde(default = "most_points")]
     #[cfg_attr(feature = "schema", schema(minimum = 1, maximum = 10_000))]
     pub most_points: u32,
 }
 
-/// The number that changes, and its range: the branch is followed both ways from where it is found until it leaves the range. Of a
-/// speed, `from` and `to` are in the unit of `speed` and have it between them; of the others, multiples of what the scene says, with 1
+/// Number of the scene that changes, and its range: the branch is followed both ways from where it is found until it leaves the range. For a speed,
+/// `from` and `to` are in the unit of `speed` and have it between them; for the other numbers, they are multiples of what the scene says, with 1
 /// between them.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Along {
-    /// What changes.
+    /// Parameter: which number of the scene changes.
     pub parameter: BranchParameter,
-    /// Smallest value.
+    /// Smallest value of the parameter.
     pub from: f64,
-    /// Largest value.
+    /// Largest value of the parameter.
     pub to: f64,
 }
 
-/// What changes along a branch.
+/// Number of a scene that changes along a branch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum BranchParameter {
-    /// The rotational speed.
+    /// Rotational speed.
     Speed,
     /// All clearances alike.
     Clearance,
-    /// The height of the casing's lobes.
+    /// Height of the casing's lobes.
     LobeAmplitude,
     /// All damping ratios alike.
     Damping,
 }
 
 impl BranchParameter {
-    /// The word on the wire.
+    /// Name of the parameter on the wire.
     pub fn as_str(self) -> &'static str {
         match self {
             Self::Speed => "speed",
@@ -94,13 +94,13 @@ impl BranchParameter {
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
 pub struct BranchesSettings {
-    /// The scene at the speed where they begin.
+    /// Scene at the speed where the branches begin, as a sweep.
     pub sweep: SweepRequest,
-    /// What changes along them, a speed in rad/s.
+    /// Number of the scene that changes along the branches, and its range; a speed in rad/s.
     pub along: Along,
     /// Whether branches of doubled period are followed, too.
     pub doubled: bool,
-    /// Most points of a branch on either side of where it begins.
+    /// Largest number of points of a branch on either side of where it begins.
     pub most_points: u32,
 }
 

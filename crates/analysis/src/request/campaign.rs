@@ -1,4 +1,4 @@
-//! What a campaign asks for: a scene, numbers of it that vary, and what is wanted of the designs.
+//! Request for a campaign: a scene, numbers of it that vary, and what is asked about the designs.
 
 use serde::{Deserialize, Serialize};
 
@@ -10,7 +10,7 @@ use crate::request::sensor::Sensor;
 use crate::request::speeds::Speeds;
 use crate::request::sweep::{SweepRequest, default_max_engine_order};
 
-/// Many designs, each a scene with other numbers, and each over all speeds.
+/// A campaign of many designs, each a scene with other numbers, and each over all speeds.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
@@ -18,8 +18,8 @@ pub struct CampaignRequest {
     /// Id of an uploaded model.
     #[cfg_attr(feature = "schema", schema(max_length = 64))]
     pub model: String,
-    /// Id of another model that every design is also simulated with, to be compared with `model`; it must have the same units, and all
-    /// that is asked for must be possible with either.
+    /// Id of another model with which every design is also simulated, to be compared with `model`; it must have the same units, and all that is asked
+    /// for must be possible with either.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schema(max_length = 64))]
     pub compared_model: Option<String>,
@@ -33,7 +33,7 @@ pub struct CampaignRequest {
     /// Time integration.
     #[serde(default)]
     pub integration: Integration,
-    /// Where the response is recorded; default: radial at the first and the last contact node of sector 0.
+    /// Sensors at which the response is recorded; default: radial at the first and the last contact node of sector 0.
     #[serde(default)]
     #[cfg_attr(feature = "schema", schema(max_items = 1_000))]
     pub sensors: Vec<Sensor>,
@@ -41,86 +41,86 @@ pub struct CampaignRequest {
     #[serde(default = "default_max_engine_order")]
     #[cfg_attr(feature = "schema", schema(minimum = 1, maximum = 1000))]
     pub max_engine_order: u32,
-    /// Stress, as of a sweep; needs a model with a mesh.
+    /// Stress, as in a sweep; needs a model with a mesh.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stress: Option<StressRequest>,
-    /// What varies.
+    /// Parameters that vary.
     #[cfg_attr(feature = "schema", schema(min_items = 1, max_items = 100))]
     pub parameters: Vec<Parameter>,
-    /// Which designs are simulated.
+    /// Design of experiments: which designs are simulated.
     pub design: Design,
-    /// How bad a design is.
+    /// Severity: how bad a design is.
     #[serde(default)]
     pub severity: Severity,
-    /// A design meets the limit where its severity is no more than this, in the unit of `severity`.
+    /// Limit of the severity, in its unit: a design meets the limit where its severity is no more than this.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub limit: Option<f64>,
-    /// The value of a parameter from which on the limit is met with a probability; needs a limit.
+    /// Threshold that is asked for: the value of a parameter from which on the limit is met with a probability; needs a limit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub threshold: Option<Threshold>,
-    /// Whether rows of the reduction's basis lie beside it, as of a sweep.
+    /// Whether the rows of the reduction's basis are stored, as in a sweep.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fields: Option<bool>,
 }
 
-/// A number that varies, independently of the others, and what it does to the scene.
+/// Parameter: a number that varies, independently of the others, and what it does to the scene.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Parameter {
-    /// What it is called.
+    /// Name of the parameter.
     #[cfg_attr(feature = "schema", schema(min_length = 1, max_length = 64))]
     pub name: String,
-    /// RFC 6901 pointers to the numbers of the scene that it changes, all alike, such as `/scene/casing/clearance/leading`.
+    /// RFC 6901 pointers to the numbers of the scene that the parameter changes, all alike, such as `/scene/casing/clearance/leading`.
     #[cfg_attr(feature = "schema", schema(min_items = 1, max_items = 100))]
     pub at: Vec<String>,
-    /// How it changes them.
+    /// Change that the value makes to these numbers.
     #[serde(default)]
     pub change: Change,
-    /// How its values are distributed; in a list they are what they are.
+    /// Distribution of the values; a design of kind `list` gives the values themselves.
     #[serde(default)]
     pub distribution: DistributionKind,
-    /// Smallest value; of `normal` where it is cut off, which may be left away.
+    /// Smallest value; for `normal`, where the distribution is cut off, which may be left away.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub from: Option<f64>,
-    /// Largest value, as `from`.
+    /// Largest value; for `normal`, where the distribution is cut off, which may be left away.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub to: Option<f64>,
-    /// Of `triangular`: the most probable value.
+    /// Most probable value, for `triangular`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mode: Option<f64>,
-    /// Of `normal`: its mean before it is cut off.
+    /// Mean before the distribution is cut off, for `normal`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mean: Option<f64>,
-    /// Of `normal`: its standard deviation before it is cut off.
+    /// Standard deviation before the distribution is cut off, for `normal`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub standard_deviation: Option<f64>,
-    /// Of `values`: all of them, equally probable.
+    /// Values, all equally probable, for `values`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schema(min_items = 1, max_items = 10_000))]
     pub values: Option<Vec<f64>>,
-    /// Of a grid: how many values it takes, evenly spaced from `from` to `to`, of `log_uniform` in the logarithm. Those of `values` and `whole`
-    /// are all taken.
+    /// Number of values in a grid, evenly spaced from `from` to `to`, for `log_uniform` in the logarithm. For `values` and `whole` all values are
+    /// taken.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schema(minimum = 1, maximum = 10_000))]
     pub levels: Option<u32>,
 }
 
-/// What the value of a parameter does to a number of the scene.
+/// Change that the value of a parameter makes to a number of the scene.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Change {
-    /// Takes its place.
+    /// Puts the value in the place of the number.
     #[default]
     Set,
-    /// Is added to it.
+    /// Adds the value to the number.
     Add,
-    /// Multiplies it.
+    /// Multiplies the number by the value.
     Multiply,
 }
 
-/// A distribution.
+/// Distribution of the values of a parameter.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
@@ -128,7 +128,7 @@ pub enum DistributionKind {
     /// Uniform from `from` to `to`.
     #[default]
     Uniform,
-    /// Uniform in the logarithm.
+    /// Uniform in the logarithm, from `from` to `to`.
     LogUniform,
     /// Normal, cut off at `from` and `to` where they are given.
     Normal,
@@ -136,26 +136,26 @@ pub enum DistributionKind {
     Triangular,
     /// Whole numbers from `from` to `to`, such as seeds of mistuning.
     Whole,
-    /// One of `values`.
+    /// One of `values`, all equally probable.
     Values,
 }
 
-/// Which designs are simulated.
+/// Design of experiments: which designs of a campaign are simulated.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Design {
-    /// How they are laid out.
+    /// Kind of the design of experiments.
     pub kind: DesignKind,
-    /// How many: of `latin_hypercube` and `sobol` designs, of `indices` blocks of as many designs as there are parameters and two more.
-    /// Powers of 2 serve Sobol points best.
+    /// Size: for `latin_hypercube` and `sobol` the number of designs, for `indices` the number of blocks, each of as many designs as there are
+    /// parameters and two more. Powers of 2 serve Sobol points best.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schema(minimum = 1, maximum = 10_000))]
     pub size: Option<u32>,
-    /// Seed of what is drawn; the same seed gives the same designs. Default 0.
+    /// Seed of the designs that are drawn; the same seed gives the same designs. Default 0.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub seed: Option<u32>,
-    /// Of `list`: the values of all parameters of every design.
+    /// Values of all parameters of every design, for `list`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schema(min_items = 1, max_items = 10_000))]
     pub points: Option<Vec<Vec<f64>>>,
@@ -166,19 +166,19 @@ pub struct Design {
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum DesignKind {
-    /// All combinations of the levels of all parameters; the last one changes first.
+    /// Grid: all combinations of the levels of all parameters; the last parameter changes first.
     Grid,
-    /// Those given.
+    /// List of given designs.
     List,
-    /// A Latin hypercube: every parameter takes every of `size` equally probable ranges once.
+    /// Latin hypercube: every parameter takes every of `size` equally probable ranges once.
     LatinHypercube,
     /// Sobol points, scrambled by the seed.
     Sobol,
-    /// Those from which first-order and total sensitivity indices are estimated (Saltelli et al., 2010).
+    /// Blocks of designs from which first-order and total sensitivity indices are estimated (Saltelli et al., 2010).
     Indices,
 }
 
-/// How bad a design is: the largest of all speeds.
+/// Severity, how bad a design is: the largest value of all speeds.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
@@ -199,7 +199,7 @@ pub enum Severity {
 }
 
 impl Severity {
-    /// The word on the wire.
+    /// Name of the severity on the wire.
     pub fn as_str(self) -> &'static str {
         match self {
             Self::Amplitude => "amplitude",
@@ -212,7 +212,7 @@ impl Severity {
     }
 }
 
-/// Where a parameter meets the limit with a probability, whatever the others are.
+/// Threshold that is asked for: where a parameter meets the limit with a probability, whatever the other parameters are.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
@@ -220,18 +220,19 @@ pub struct Threshold {
     /// Name of the parameter.
     #[cfg_attr(feature = "schema", schema(min_length = 1, max_length = 64))]
     pub parameter: String,
-    /// The probability with which the limit is to be met there.
+    /// Probability with which the limit is to be met at the threshold.
     #[serde(default = "default_probability")]
     #[cfg_attr(feature = "schema", schema(exclusive_minimum = 0, exclusive_maximum = 1))]
     pub probability: f64,
-    /// Until the value is known to within this, in the unit of the parameter, designs are added where it is not decided; default: none are.
+    /// Accuracy of the threshold, in the unit of the parameter: until it is known to within this, designs are added where it is not decided; default:
+    /// none are.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub within: Option<f64>,
-    /// How many designs are added before the answer is looked at again.
+    /// Number of designs that are added before the answer is looked at again.
     #[serde(default = "default_batch")]
     #[cfg_attr(feature = "schema", schema(minimum = 1, maximum = 10_000))]
     pub batch: u32,
-    /// So many designs there are at most, those of `design` among them.
+    /// Largest number of designs, those of `design` among them.
     #[serde(default = "default_most_designs")]
     #[cfg_attr(feature = "schema", schema(minimum = 1, maximum = 10_000))]
     pub most_designs: u32,
@@ -242,26 +243,26 @@ pub struct Threshold {
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
 pub struct CampaignSettings {
-    /// The sweep that every design is, with the scene before anything is changed.
+    /// Sweep that is run for every design, with the scene before anything is changed.
     pub sweep: SweepRequest,
-    /// The same with the model that is compared with it, if one is.
+    /// Sweep that is run for every design with the model that is compared, if one is.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub compared: Option<SweepRequest>,
-    /// What varies.
+    /// Parameters that vary.
     pub parameters: Vec<Parameter>,
-    /// Which designs are simulated.
+    /// Design of experiments: which designs are simulated.
     pub design: Design,
-    /// How bad a design is.
+    /// Severity: how bad a design is.
     pub severity: Severity,
-    /// The limit of the severity.
+    /// Limit of the severity.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub limit: Option<f64>,
-    /// Where a parameter meets it.
+    /// Threshold that is asked for: where a parameter meets the limit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub threshold: Option<Threshold>,
-    /// `[design][parameter]`: the values of every design, those that were added at the end.
+    /// Values of every design, `[design][parameter]`; those of designs that were added come at the end.
     pub designs: Vec<Vec<f64>>,
-    /// How many of them were added where the answer was undecided.
+    /// Number of designs that were added where the answer was undecided.
     #[serde(default)]
     pub added: u32,
 }
@@ -272,13 +273,13 @@ impl CampaignSettings {
         self.parameters.iter().position(|parameter| parameter.name == name)
     }
 
-    /// The threshold for which designs are added, if any are, and to within what.
+    /// Threshold for which designs are added, if any are, and the accuracy asked for.
     pub(crate) fn sought(&self) -> Option<(&Threshold, f64)> {
         let threshold = self.threshold.as_ref()?;
         Some((threshold, threshold.within?))
     }
 
-    /// How many designs there may come to be, with those that are added.
+    /// Largest number of designs, with those that are added.
     pub(crate) fn designs_at_most(&self) -> u32 {
         self.sought().map_or(0, |(threshold, _)| threshold.most_designs).max(self.designs.len() as u32)
     }
@@ -288,7 +289,7 @@ fn default_probability() -> f64 {
     0.95
 }
 
-/// Half the designs of a round are spent before the other half knows of them, which a round of two or three dozen can bear.
+/// Default size of a batch: half of its designs are spent before the other half can use their results, which a batch of two or three dozen can bear.
 fn default_batch() -> u32 {
     32
 }

@@ -1,4 +1,4 @@
-//! What a case study asks for: one speed, and what happens there.
+//! Request for a case study: one speed, and what is recorded there.
 
 use serde::{Deserialize, Serialize};
 
@@ -10,7 +10,7 @@ use crate::request::sensor::Sensor;
 use crate::request::speeds::SpeedUnit;
 use crate::request::sweep::{SweepRequest, default_max_engine_order};
 
-/// One speed with everything recorded over chosen revolutions.
+/// A case study: one speed with everything recorded over chosen revolutions.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
@@ -21,14 +21,14 @@ pub struct CaseStudyRequest {
     /// Fixed-interface modes kept per stiffness speed and nodal diameter; `"auto"` is 20.
     #[serde(default)]
     pub modes_per_speed: AutoOr,
-    /// The speed.
+    /// Speed to simulate.
     pub speed: CaseSpeed,
     /// Effects of the simulation.
     pub scene: Scene,
     /// Time integration.
     #[serde(default)]
     pub integration: Integration,
-    /// Whose displacements and velocities are recorded; default: radial at the first and the last contact node of sector 0.
+    /// Sensors whose displacements and velocities are recorded; default: radial at the first and the last contact node of sector 0.
     #[serde(default)]
     #[cfg_attr(feature = "schema", schema(max_items = 1_000))]
     pub sensors: Vec<Sensor>,
@@ -36,10 +36,10 @@ pub struct CaseStudyRequest {
     #[serde(default = "default_max_engine_order")]
     #[cfg_attr(feature = "schema", schema(minimum = 1, maximum = 1000))]
     pub max_engine_order: u32,
-    /// Over which revolutions is recorded, and what; default: everything over the window.
+    /// Revolutions and quantities to record; default: everything over the window.
     #[serde(default)]
     pub record: Recorded,
-    /// Whether rows of the reduction's basis lie beside it, as of a sweep.
+    /// Whether the rows of the reduction's basis are stored, as in a sweep.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fields: Option<bool>,
 }
@@ -49,22 +49,21 @@ pub struct CaseStudyRequest {
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
 pub struct CaseSpeed {
-    /// Above 0.
+    /// Value of the speed, above 0.
     pub value: f64,
-    /// Its unit.
+    /// Unit of the speed.
     pub unit: SpeedUnit,
 }
 
-/// A case study as it is stored: speeds of a sweep, by index, with what is recorded of each. A study of one speed is that of a sweep
-/// that has no other.
+/// A case study as it is stored: speeds of a sweep, by index, with what is recorded of each. A study of one speed has a sweep of no other.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
 pub struct CaseStudySettings {
-    /// The sweep.
+    /// Sweep whose speeds are studied.
     pub sweep: SweepRequest,
-    /// Indices of its speeds.
+    /// Indices of the speeds in the sweep.
     pub speeds: Vec<u32>,
-    /// What is recorded.
+    /// Revolutions and quantities that are recorded.
     pub record: Recorded,
 }

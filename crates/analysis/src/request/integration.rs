@@ -1,4 +1,4 @@
-//! How a speed is integrated.
+//! Settings of the time integration.
 
 use serde::{Deserialize, Serialize};
 
@@ -9,14 +9,14 @@ use crate::request::auto_or::AutoOr;
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct Integration {
-    /// How time is stepped.
+    /// Time-stepping scheme.
     pub scheme: SchemeChoice,
     /// Modes per nodal diameter that `massless_boundary` integrates, or `"auto"` for as many as the step carries.
     pub kept_modes: AutoOr,
     /// Time steps per revolution, or `"auto"` for a safe number at each speed.
     pub steps_per_revolution: AutoOr,
-    /// Revolutions to simulate, or `"auto"`: until the motion repeats, of which one period is then the window, and at most
-    /// `most_revolutions`. A number marches all of them at every speed.
+    /// Revolutions to simulate, or `"auto"`: until the motion repeats, when one of its periods becomes the window, and at most `most_revolutions`.
+    /// With a number, every speed is marched for all of them.
     pub revolutions: AutoOr,
     /// Revolutions over which the restriction grows from zero to its full height.
     #[cfg_attr(feature = "schema", schema(minimum = 0))]
@@ -26,11 +26,11 @@ pub struct Integration {
     pub window_revolutions: u32,
     /// How the steady response is found.
     pub steady: SteadyChoice,
-    /// Revolutions after which a motion that does not repeat is left, with `revolutions: "auto"`.
+    /// Largest number of revolutions, after which a motion that does not repeat is left, with `revolutions: "auto"`.
     #[cfg_attr(feature = "schema", schema(minimum = 1, maximum = 100_000))]
     pub most_revolutions: u32,
-    /// Share of the motion by which it may still change where it is said to repeat, with `revolutions: "auto"`; a tenth of
-    /// `accuracy.target` if that is less.
+    /// Share of the motion by which it may still change where it counts as repeating, with `revolutions: "auto"`; a tenth of `accuracy.target` if
+    /// that is less.
     #[cfg_attr(feature = "schema", schema(minimum = 1e-12, maximum = 0.01))]
     pub settled_to: f64,
 }
@@ -57,7 +57,7 @@ impl Integration {
         self.revolutions != AutoOr::Auto && self.steady == SteadyChoice::March
     }
 
-    /// Most revolutions of a march.
+    /// Largest number of revolutions of a march.
     pub fn revolutions(&self) -> u32 {
         match self.revolutions {
             AutoOr::Fixed(revolutions) => revolutions,
@@ -71,32 +71,32 @@ impl Integration {
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum SteadyChoice {
-    /// From where the scene begins, over all revolutions; the window is their end.
+    /// March from where the scene begins, through the transient and over all revolutions; the window is their end.
     March,
-    /// Solved for, whether it lasts or not: a motion that repeats with the lobes, of which one revolution is recorded. Where none is found
-    /// the speed is marched, and says why.
+    /// Periodic response, solved for whether it is stable or not: a motion that repeats with the lobes, of which one revolution is recorded. Where
+    /// none is found the speed is marched, and says why.
     Periodic,
-    /// The same where it lasts and a march comes to it; elsewhere marched, the periodic response being told beside.
+    /// Periodic response where it is stable and a march comes to it; elsewhere the speed is marched, and the periodic response reported beside.
     Auto,
 }
 
-/// How time is stepped.
+/// Time-stepping scheme.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum SchemeChoice {
-    /// Chosen at each speed, with the step; the result says what and why.
+    /// Scheme chosen at each speed, with the step; the result says what and why.
     Auto,
-    /// The paper's central differences (Eqs 8–10); the stiffest mode bounds the step.
+    /// Central differences of the paper (Eqs 8–10); the stiffest mode bounds the step.
     CentralDifferences,
-    /// The exact propagator of every mode; the contact sets the step.
+    /// Exact propagator of every mode; the contact sets the step.
     ExactModal,
-    /// The lowest modes carry the mass, the boundary follows statically; nothing is lost at a closing.
+    /// Massless boundary: the lowest modes carry the mass, the boundary responds quasi-statically; nothing is lost when a gap closes.
     MasslessBoundary,
 }
 
 impl SchemeChoice {
-    /// The word on the wire.
+    /// Name of the scheme on the wire.
     pub fn as_str(self) -> &'static str {
         match self {
             Self::Auto => "auto",

@@ -1,4 +1,4 @@
-//! What users ask for, as it comes over the wire.
+//! Requests of users, as they come over the wire.
 
 pub mod accuracy;
 pub mod auto_or;

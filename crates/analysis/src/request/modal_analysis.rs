@@ -1,4 +1,4 @@
-//! What a modal analysis asks for.
+//! Request for a modal analysis.
 
 use serde::{Deserialize, Serialize};
 
@@ -28,7 +28,7 @@ pub struct ModalAnalysisRequest {
     #[serde(default = "default_superharmonics")]
     #[cfg_attr(feature = "schema", schema(max_items = 16))]
     pub superharmonics: Vec<u32>,
-    /// Lobe count of the casing that can drive the wheel.
+    /// Number of lobes of the casing that can drive the wheel.
     #[serde(default = "default_lobes")]
     #[cfg_attr(feature = "schema", schema(minimum = 1, maximum = 100))]
     pub lobes: u32,
@@ -36,19 +36,19 @@ pub struct ModalAnalysisRequest {
     #[serde(default = "default_max_engine_order")]
     #[cfg_attr(feature = "schema", schema(minimum = 1, maximum = 1000))]
     pub max_engine_order: u32,
-    /// Coriolis forces through the package's gyroscopic matrix: the frequencies of waves that travel with and against the
-    /// rotation, which then cross engine orders in their place.
+    /// Whether Coriolis forces act, by the package's gyroscopic matrix: waves that travel with and against the rotation then have frequencies of
+    /// their own, which cross engine orders in place of those without.
     #[serde(default, skip_serializing_if = "is_false")]
     pub coriolis: bool,
     /// Speeds of the Campbell diagram: every range and list ascends, several are merged.
     pub speeds: Speeds,
-    /// An accuracy to reach in place of `modes_per_speed`.
+    /// Accuracy to reach, in place of `modes_per_speed`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub accuracy: Option<Accuracy>,
-    /// A time to keep in place of `modes_per_speed`.
+    /// Budget of time to keep to, in place of `modes_per_speed`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub budget: Option<Budget>,
-    /// Whether rows of the reduction's basis lie beside it, as of a sweep.
+    /// Whether the rows of the reduction's basis are stored, as in a sweep.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fields: Option<bool>,
 }

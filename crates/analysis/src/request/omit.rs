@@ -1,4 +1,4 @@
-//! What is left out of an answer.
+//! Conditions for leaving a field out of an answer.
 
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde wants a reference")]
 pub(crate) fn is_false(value: &bool) -> bool {

@@ -1,14 +1,14 @@
-//! What is recorded beside spectra.
+//! Requests for recordings beside spectra.
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// What a sweep records beside spectra.
+/// Recordings of a sweep beside spectra.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Record {
-    /// Histories of some of its speeds, which are simulated once more for them when all are finished: to the bit, since nothing
-    /// that is recorded changes a run. A plan counts those that are named by index.
+    /// Histories of some speeds of the sweep, which are simulated once more for them when all are finished: to the bit, since recording changes no
+    /// run. A plan counts the speeds that are named by index.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub histories: Option<HistoriesRequest>,
     /// Stress of every speed, and the margin that it leaves: the largest von Mises stress over the last revolution, and the most
@@ -22,9 +22,8 @@ pub struct Record {
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
 pub struct StressRequest {
-    /// Nodes within this distance of a contact node of any blade are left out, in the model's unit of length: forces act on points
-    /// there, and no stress is claimed. Default: the mean distance of neighbouring contact nodes; a model with one contact
-    /// node has no default.
+    /// Radius about the contact nodes of any blade within which nodes are left out, in the model's unit of length: forces act on points there, and no
+    /// stress is claimed. Default: the mean distance of neighbouring contact nodes; a model with one contact node has no default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub excluded_radius: Option<f64>,
 }
@@ -40,7 +39,7 @@ impl Record {
     }
 }
 
-/// Histories of which speeds, over which revolutions, of what.
+/// Histories to record: speeds, revolutions and quantities.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
@@ -48,18 +47,18 @@ pub struct HistoriesRequest {
     /// Indices of speeds in the request, or `critical` (default) for the critical speeds of all sensors.
     #[serde(default)]
     pub speeds: HistorySpeeds,
-    /// As of a case study.
+    /// Whole revolutions after which recording begins and ends, as in a case study.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schema(min_items = 2, max_items = 2))]
     pub revolutions: Option<[u32; 2]>,
-    /// As of a case study.
+    /// Quantities to record, as in a case study.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[cfg_attr(feature = "schema", schema(max_items = 6))]
     pub quantities: Vec<RecordedQuantity>,
 }
 
 impl HistoriesRequest {
-    /// Over which revolutions, and what.
+    /// Revolutions and quantities to record.
     pub(crate) fn recorded(&self) -> Recorded {
         Recorded { revolutions: self.revolutions, quantities: self.quantities.clone() }
     }
@@ -70,7 +69,7 @@ impl HistoriesRequest {
     }
 }
 
-/// Over which revolutions, and of what.
+/// Revolutions and quantities to record.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
@@ -79,29 +78,29 @@ pub struct Recorded {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schema(min_items = 2, max_items = 2))]
     pub revolutions: Option<[u32; 2]>,
-    /// What is recorded; default: everything but `state`.
+    /// Quantities to record; default: everything but `state`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[cfg_attr(feature = "schema", schema(max_items = 6))]
     pub quantities: Vec<RecordedQuantity>,
 }
 
-/// What can be recorded.
+/// Quantity that can be recorded.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum RecordedQuantity {
     /// Displacements of the sensors.
     Displacement,
-    /// Their velocities.
+    /// Velocities of the sensors.
     Velocity,
-    /// The force on every contact node of every blade.
+    /// Force on every contact node of every blade.
     ContactForce,
     /// Number of nodes in contact, and length of the contact lines that touches.
     Contact,
     /// Energy and its parts.
     Energy,
-    /// Where the whole wheel is, in the coordinates of the reduction: what `GET /v1/jobs/{id}/fields` needs. It is large, and recorded only
-    /// if it is named.
+    /// State of the whole wheel, in the coordinates of the reduction, which `GET /v1/jobs/{id}/fields` needs. It is large, and recorded only if it is
+    /// named.
     State,
 }
 
@@ -113,13 +112,13 @@ impl Recorded {
     }
 }
 
-/// Speeds by index, or the critical ones.
+/// Speeds of a sweep whose histories are recorded: by index, or the critical ones.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub enum HistorySpeeds {
-    /// The critical speeds of all sensors, once they are known.
+    /// Critical speeds of all sensors, once they are known.
     #[default]
     Critical,
-    /// These, counted from 0 in the order of the request.
+    /// Indices of speeds, counted from 0 in the order of the request.
     Indices(Vec<u32>),
 }
 

@@ -1,4 +1,4 @@
-//! What a run-up asks for: a scene, and how its speed changes.
+//! Request for run-ups: a scene, and how its speed changes.
 
 use serde::{Deserialize, Serialize};
 
@@ -28,7 +28,7 @@ pub struct RunUpRequest {
     /// Time integration.
     #[serde(default)]
     pub integration: RunUpIntegration,
-    /// Whose displacements are recorded; default: radial at the first and the last contact node of sector 0.
+    /// Sensors whose displacements are recorded; default: radial at the first and the last contact node of sector 0.
     #[serde(default)]
     #[cfg_attr(feature = "schema", schema(max_items = 1_000))]
     pub sensors: Vec<Sensor>,
@@ -40,16 +40,16 @@ pub struct RunUpRequest {
     #[serde(default = "default_max_engine_order")]
     #[cfg_attr(feature = "schema", schema(minimum = 1, maximum = 1000))]
     pub max_engine_order: u32,
-    /// Angle by which the wheel may be off within a piece that is stepped at one speed, rad: both ends of every piece are where the speed
-    /// puts them. A quarter of it halves the length of the pieces.
+    /// Angle by which the wheel may be off within a segment that is stepped at one speed, rad: both ends of every segment are where the speed puts
+    /// them. A quarter of this angle halves the length of the segments.
     #[serde(default = "default_tolerance")]
     #[cfg_attr(feature = "schema", schema(minimum = 1e-8, maximum = 0.1))]
     pub angle_tolerance_rad: f64,
-    /// Revolutions of a frame, of which the largest displacement and a spectrum are told: 1 to 8, or a multiple of 8. `"auto"` is 8, and
-    /// more where there would be over 1,000 frames.
+    /// Revolutions of a frame, of which the largest displacement and a spectrum are reported: 1 to 8, or a multiple of 8. `"auto"` is 8, and more
+    /// where there would be over 1,000 frames.
     #[serde(default)]
     pub frame_revolutions: AutoOr,
-    /// A displacement in the model's unit of length that should not be exceeded: with several `rates` it is said how fast one must pass.
+    /// Displacement that should not be exceeded, in the model's unit of length: with several `rates` the result says how fast one must pass.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schema(exclusive_minimum = 0))]
     pub limit: Option<f64>,
@@ -60,25 +60,25 @@ pub struct RunUpRequest {
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
 pub struct RunUpSpeed {
-    /// Unit of all speeds; of rates, the same per second.
+    /// Unit of all speeds; rates are in this unit per second.
     pub unit: SpeedUnit,
     /// Speed at the start.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schema(exclusive_minimum = 0))]
     pub from: Option<f64>,
-    /// Speed at the end; below `from` the wheel runs down.
+    /// Speed at the end; if it is below `from`, the wheel runs down.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schema(exclusive_minimum = 0))]
     pub to: Option<f64>,
-    /// By how much the speed changes in a second, without a sign.
+    /// Rates of change of the speed, per second and without a sign: one run for each.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schema(min_items = 1, max_items = 100))]
     pub rates: Option<Vec<f64>>,
-    /// Time for which the speed stays at `from` before it changes, s: what begins with the run dies away then.
+    /// Time for which the speed stays at `from` before it changes, s, in which the transient of the start dies away.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schema(minimum = 0))]
     pub hold_s: Option<f64>,
-    /// In place of all these: speeds at times.
+    /// Speeds at times, in place of `from`, `to`, `rates` and `hold_s`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schema(min_items = 2, max_items = 10_000))]
     pub points: Option<Vec<SpeedPoint>>,
@@ -92,32 +92,32 @@ pub struct RunUpSpeed {
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
 pub struct SpeedPoint {
-    /// When, s; 0 of the first, then ascending.
+    /// Time of the point, s; 0 for the first, then ascending.
     #[cfg_attr(feature = "schema", schema(minimum = 0))]
     pub time_s: f64,
-    /// The speed.
+    /// Speed at that time.
     #[cfg_attr(feature = "schema", schema(exclusive_minimum = 0))]
     pub speed: f64,
 }
 
-/// How a speed goes through points.
+/// Course of a speed through points.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum SpeedCourse {
-    /// Straight from one to the next; the default.
+    /// Straight from one point to the next; the default.
     #[default]
     Straight,
-    /// Without corners, level at both ends, and never beyond two neighbours (monotone cubics).
+    /// Smooth: without corners, level at both ends, and never beyond two neighbours (monotone cubics).
     Smooth,
 }
 
-/// How a run-up is integrated.
+/// Settings of the time integration of a run-up.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct RunUpIntegration {
-    /// How time is stepped; `"auto"` keeps to one scheme.
+    /// Time-stepping scheme; `"auto"` keeps to one scheme.
     pub scheme: SchemeChoice,
     /// Modes per nodal diameter that `massless_boundary` integrates, or `"auto"` for as many as the step carries.
     pub kept_modes: AutoOr,
@@ -137,7 +137,7 @@ impl Default for RunUpIntegration {
 }
 
 impl RunUpIntegration {
-    /// As a sweep has it.
+    /// Settings of a sweep with the same scheme, modes, steps and ramp.
     pub(crate) fn of_sweep(self) -> Integration {
         let Self { scheme, kept_modes, steps_per_revolution, ramp_revolutions } = self;
         Integration { scheme, kept_modes, steps_per_revolution, ramp_revolutions, ..Integration::default() }
@@ -149,18 +149,18 @@ impl RunUpIntegration {
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
 pub struct RunUpSettings {
-    /// The scene, with the lowest and the highest speed.
+    /// Scene at the lowest and the highest speed, as a sweep.
     pub sweep: SweepRequest,
     /// How the speed changes, in rad/s.
     pub speed: RunUpSpeed,
     /// Whether the Euler force acts.
     #[serde(default, skip_serializing_if = "is_false")]
     pub euler_force: bool,
-    /// Angle by which the wheel may be off, rad.
+    /// Angle by which the wheel may be off within a segment, rad.
     pub angle_tolerance_rad: f64,
     /// Revolutions of a frame.
     pub frame_revolutions: AutoOr,
-    /// The displacement that should not be exceeded.
+    /// Displacement that should not be exceeded, in the model's unit of length.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub limit: Option<f64>,
 }

@@ -1,4 +1,4 @@
-//! The scene: which effects a simulation has. What a scene does not name does not exist in the run.
+//! The scene: which effects a simulation has. An effect that a scene does not name does not exist in the run.
 
 use serde::{Deserialize, Serialize};
 

@@ -1,23 +1,22 @@
-//! Where responses are recorded.
+//! Sensors: where responses are recorded.
 
 use serde::{Deserialize, Serialize};
 
 use rubmap_wheel::dynamics::sector::Units;
 
-/// What is recorded during a run: a displacement, at a node that is named in exactly one of three ways, along a `component` or a
-/// `direction`; or the strain of a `gauge`.
+/// Sensor that records during a run: a displacement, at a node that is named in exactly one of three ways, along a `component` or a `direction`; or
+/// the strain of a `gauge`.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Sensor {
-    /// A contact node, counted from the leading edge from 0.
+    /// Contact node, counted from the leading edge from 0.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub contact_node: Option<u32>,
-    /// Any node, by its id in the package.
+    /// Any node of the sector, by its id in the package.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub node: Option<u64>,
-    /// The node nearest to this point, among those that are not clamped; x, y, z as in the package. `settings` have its `node` in place
-    /// of it.
+    /// Point whose nearest node is meant, among those that are not clamped; x, y, z as in the package. `settings` have the `node` in its place.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schema(min_items = 3, max_items = 3))]
     pub nearest: Option<[f64; 3]>,
@@ -27,11 +26,11 @@ pub struct Sensor {
     /// Displacement component.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub component: Option<Component>,
-    /// In place of `component`: a direction in radial, tangential and axial components, of any length but 0.
+    /// Direction in radial, tangential and axial components, of any length but 0, in place of `component`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schema(min_items = 3, max_items = 3))]
     pub direction: Option<[f64; 3]>,
-    /// In place of a node and a direction: a virtual strain gauge.
+    /// Virtual strain gauge, in place of a node and a direction.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gauge: Option<Gauge>,
 }
@@ -43,19 +42,19 @@ pub struct Sensor {
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Gauge {
-    /// Ids of both nodes in the package.
+    /// Ids of both nodes of the gauge in the package.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schema(min_items = 2, max_items = 2))]
     pub nodes: Option<[u64; 2]>,
-    /// Middle, x, y, z as in the package.
+    /// Middle of the gauge, x, y, z as in the package.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schema(min_items = 3, max_items = 3))]
     pub at: Option<[f64; 3]>,
-    /// Direction in the same coordinates, of any length but 0.
+    /// Direction of the gauge, x, y, z as in the package, of any length but 0.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schema(min_items = 3, max_items = 3))]
     pub direction: Option<[f64; 3]>,
-    /// Length, positive, in the model's unit of length.
+    /// Length of the gauge, positive, in the model's unit of length.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schema(exclusive_minimum = 0))]
     pub length: Option<f64>,
@@ -66,18 +65,18 @@ pub struct Gauge {
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Component {
-    /// Outward from the axis.
+    /// Radial: outward from the axis.
     Radial,
-    /// Towards +θ, the direction of rotation.
+    /// Tangential: towards +θ, the direction of rotation.
     Tangential,
-    /// Along the axis.
+    /// Axial: along the axis.
     Axial,
-    /// Along the outward contact normal of a contact node.
+    /// Normal: along the outward contact normal of a contact node.
     Normal,
 }
 
 impl Component {
-    /// In words.
+    /// Name of the component in words.
     pub fn name(self) -> &'static str {
         match self {
             Self::Radial => "radial",
@@ -89,19 +88,19 @@ impl Component {
 }
 
 impl Sensor {
-    /// At a contact node.
+    /// Sensor at a contact node.
     pub fn at_contact(contact_node: u32, sector: u32, component: Component) -> Self {
         Self { contact_node: Some(contact_node), sector, component: Some(component), ..Self::default() }
     }
 }
 
 impl Sensor {
-    /// Unit of what it records: that of length, or `strain`.
+    /// Unit of the recorded numbers: that of length, or `strain`.
     pub fn unit<'a>(&self, units: &'a Units) -> &'a str {
         if self.gauge.is_some() { "strain" } else { &units.length }
     }
 
-    /// The unit of several sensors; both, where they differ.
+    /// Unit that several sensors have in common; both units, where they differ.
     pub fn common_unit<'a>(sensors: impl Iterator<Item = &'a Sensor>, units: &Units) -> String {
         let mut words: Vec<&str> = sensors.map(|sensor| sensor.unit(units)).collect();
         words.sort_unstable_by_key(|word| *word != units.length);
@@ -109,7 +108,7 @@ impl Sensor {
         words.join("_or_")
     }
 
-    /// What it measures of the motion ("displacement", "velocity"), in words.
+    /// Sensor in words, with `what` of the motion it measures ("displacement", "velocity").
     pub fn measuring(&self, what: &str) -> String {
         if let Some(gauge) = &self.gauge {
             let strain = if what == "displacement" { "strain" } else { "strain rate" };

@@ -8,15 +8,15 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::error::Violation;
 
-/// Rotational speeds: one range or list, or an array of them, whose union in the order given is taken. What one of them
-/// says is taken as it is; a speed that an earlier one has already (to 1e-9) is not computed again.
+/// Rotational speeds: one range or list, or an array of them, whose union in the order given is taken. Each range or list is taken as it is; a speed
+/// that an earlier one has already (to 1e-9) is not computed again.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(untagged)]
 pub enum Speeds {
     /// One range or list.
     One(SpeedSet),
-    /// Several.
+    /// Several ranges or lists.
     Several(Vec<SpeedSet>),
 }
 
@@ -57,7 +57,7 @@ pub enum SpeedUnit {
 }
 
 impl SpeedUnit {
-    /// One of it in rad/s.
+    /// Factor from this unit to rad/s.
     pub fn rad_s(self) -> f64 {
         use std::f64::consts::TAU;
         match self {
@@ -68,16 +68,16 @@ impl SpeedUnit {
     }
 }
 
-/// Speeds beyond this, in rad/s, are typing errors.
+/// Highest speed, rad/s: larger numbers are typing errors.
 pub const HIGHEST_SPEED: f64 = 1e7;
 
-/// So are those below it that are not 0: a revolution would take more than two months.
+/// Lowest speed other than 0, rad/s: smaller numbers are typing errors, for a revolution would take more than two months.
 pub const LOWEST_SPEED: f64 = 1e-6;
 
 /// Largest number of speeds in one job.
 pub const MAX_SPEEDS: usize = 10_000;
 
-/// Speeds of two ranges that differ by no more than this, relatively, are one.
+/// Relative difference up to which speeds of two ranges are one.
 const SAME: f64 = 1e-9;
 
 // By hand, so that errors keep their path: an untagged enum only says that nothing matched.
@@ -104,7 +104,7 @@ impl<'de> Deserialize<'de> for Speeds {
 }
 
 impl Speeds {
-    /// How many more speeds there may be.
+    /// Number of speeds that may still be added.
     pub(crate) fn room(&self) -> usize {
         let sets = match self {
             Self::One(set) => std::slice::from_ref(set),
@@ -114,7 +114,7 @@ impl Speeds {
         MAX_SPEEDS.saturating_sub(sets.iter().map(given).sum())
     }
 
-    /// What can be computed and cannot be meant. Apart from the rest, for jobs of earlier versions have such speeds.
+    /// Finds speeds that can be computed and cannot be meant. Apart from the other checks, for jobs of earlier versions have such speeds.
     pub(crate) fn implausible(&self) -> Vec<Violation> {
         match self {
             Self::One(set) => set.implausible("/speeds").into_iter().collect(),
@@ -125,7 +125,7 @@ impl Speeds {
         }
     }
 
-    /// The speeds in rad/s, range by range in the order given: those of each that no earlier one has.
+    /// Speeds in rad/s, range by range in the order given: those of each range that no earlier one has.
     pub(crate) fn parts(&self) -> Result<Vec<Vec<f64>>, Vec<Violation>> {
         let sets = match self {
             Self::One(set) => {
@@ -178,7 +178,7 @@ impl SpeedSet {
         Some(Violation::new(field, message))
     }
 
-    /// All its speeds, of which there may be `room`.
+    /// Speeds of the set in rad/s, of which there may be `room`.
     fn part(&self, pointer: &str, room: usize) -> Result<Vec<f64>, Violation> {
         let at = |field: &str, message: &str| Err(Violation::new(format!("{pointer}{field}"), message));
         let too_many = format!("at most {MAX_SPEEDS} speeds in one job, all ranges and lists together");
@@ -227,7 +227,7 @@ mod tests {
         serde_json::from_value(given).unwrap()
     }
 
-    /// The speeds in rad/s, in the order given.
+    /// Speeds in rad/s, in the order given.
     fn resolve(speeds: &Speeds) -> Result<Vec<f64>, Vec<Violation>> {
         Ok(speeds.parts()?.concat())
     }

@@ -1,4 +1,4 @@
-//! What a convergence study asks for: a scene, a few speeds, a grid of settings.
+//! Request for a convergence study: a scene, a few speeds, a grid of settings.
 
 use serde::{Deserialize, Serialize};
 
@@ -17,22 +17,22 @@ pub struct StudyRequest {
     /// Id of an uploaded model.
     #[cfg_attr(feature = "schema", schema(max_length = 64))]
     pub model: String,
-    /// One to eight speeds.
+    /// Speeds of the study, one to eight.
     pub speeds: Speeds,
     /// Effects of the simulation.
     pub scene: Scene,
-    /// The settings: every combination is run.
+    /// Grid of settings, of which every combination is run.
     #[serde(default)]
     pub grid: Grid,
-    /// The length of a run, and how its steady response is found.
+    /// Length of a run, and how its steady response is found.
     #[serde(default)]
     pub integration: StudyIntegration,
-    /// Revolutions from the start over which displacements are compared, before chaos separates trajectories; of a response that was solved
-    /// for its first ones.
+    /// Revolutions from the start over which displacements are compared, before chaos separates trajectories; for a response that was solved for, its
+    /// first ones.
     #[serde(default = "default_history_revolutions")]
     #[cfg_attr(feature = "schema", schema(minimum = 1, maximum = 100_000))]
     pub history_revolutions: u32,
-    /// Where the response is recorded; default: radial at the first and the last contact node of sector 0.
+    /// Sensors at which the response is recorded; default: radial at the first and the last contact node of sector 0.
     #[serde(default)]
     #[cfg_attr(feature = "schema", schema(max_items = 1_000))]
     pub sensors: Vec<Sensor>,
@@ -40,21 +40,21 @@ pub struct StudyRequest {
     #[serde(default = "default_max_engine_order")]
     #[cfg_attr(feature = "schema", schema(minimum = 1, maximum = 1000))]
     pub max_engine_order: u32,
-    /// What is compared beside displacement and contact.
+    /// Recordings that are compared beside displacement and contact.
     #[serde(default, skip_serializing_if = "StudyRecord::is_nothing")]
     pub record: StudyRecord,
-    /// `false` leaves out the rows of the bases of its reductions, as of a sweep.
+    /// Whether the rows of the bases of the study's reductions are stored, as in a sweep; `false` leaves them out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fields: Option<bool>,
 }
 
-/// What a study records of every run beside displacement and contact.
+/// Recordings of every run of a study beside displacement and contact.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
 pub struct StudyRecord {
-    /// Stress, as of a sweep: its largest von Mises stress is compared (`errors.stress`). Needs a model with a mesh. Times are those of
-    /// the simulation without it.
+    /// Stress, as in a sweep: the largest von Mises stress is compared (`errors.stress`). Needs a model with a mesh. Times are those of the
+    /// simulation without stress.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stress: Option<StressRequest>,
 }
@@ -73,10 +73,9 @@ fn default_max_engine_order() -> u32 {
     24
 }
 
-/// Settings of a study. The defaults are the paper's five numbers of modes by all schemes. Of ten sectors with ten contact nodes and
-/// three stiffness speeds they make at most 330, 540, 900, 1140 and 1560 unknowns, the paper's sizes; nearly dependent directions
-/// are dropped, which leaves the demo's impeller 330, 492, 728, 891 and 1169. `reductions[].wheel_unknowns` of the result has the
-/// numbers.
+/// Settings of a study. The defaults are the paper's five numbers of modes by all schemes. With ten sectors of ten contact nodes and three stiffness
+/// speeds they make at most 330, 540, 900, 1140 and 1560 unknowns, the paper's sizes; nearly dependent directions are dropped, which leaves the
+/// demo's impeller 330, 492, 728, 891 and 1169. `reductions[].wheel_unknowns` of the result has the numbers.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields, default)]
@@ -110,7 +109,7 @@ impl Default for Grid {
     }
 }
 
-/// The length of a run, as in a sweep.
+/// Settings of the time integration of a study: the length of a run, as in a sweep.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields, default)]

@@ -1,4 +1,4 @@
-//! What a sweep asks for.
+//! Request for a sweep.
 
 use serde::{Deserialize, Serialize};
 
@@ -30,7 +30,7 @@ pub struct SweepRequest {
     /// Time integration.
     #[serde(default)]
     pub integration: Integration,
-    /// Where the response is recorded; default: radial at the first and the last contact node of sector 0.
+    /// Sensors at which the response is recorded; default: radial at the first and the last contact node of sector 0.
     #[serde(default)]
     #[cfg_attr(feature = "schema", schema(max_items = 1_000))]
     pub sensors: Vec<Sensor>,
@@ -43,7 +43,7 @@ pub struct SweepRequest {
     #[serde(default = "default_peak_prominence")]
     #[cfg_attr(feature = "schema", schema(minimum = 0, maximum = 1))]
     pub peak_prominence: f64,
-    /// Where each speed starts from.
+    /// State that each speed starts from.
     #[serde(default, skip_serializing_if = "SweepDirection::is_independent")]
     pub sweep: SweepDirection,
     /// Whether speeds are added around critical speeds, of any sensor, until the response on both sides of every peak is
@@ -52,42 +52,42 @@ pub struct SweepRequest {
     /// `speeds`, one list a round. An end of the range is not refined, and no sweep up or down.
     #[serde(default, skip_serializing_if = "is_false")]
     pub refine: bool,
-    /// Whether all speeds are computed on processors with one kind of vectors, those of the one that begins, whichever machines take
-    /// part: others may round differently. A sweep up or down always is.
+    /// Whether all speeds are computed on processors with one kind of vector instructions, that of the processor that begins, whichever machines take
+    /// part: another kind may round differently. Speeds of a sweep up or down always are.
     #[serde(default, skip_serializing_if = "is_false")]
     pub reproducible: bool,
-    /// An accuracy to reach in place of the knobs.
+    /// Accuracy to reach, in place of the knobs.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub accuracy: Option<Accuracy>,
-    /// A time to keep in place of the knobs.
+    /// Budget of time to keep to, in place of the knobs.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub budget: Option<Budget>,
-    /// How many speeds are simulated again at a finer setting once all are finished, to estimate the error of every speed from;
-    /// default: 5 with `accuracy` or `budget`, otherwise 0. Fewer if the sweep has fewer; none of a sweep up or down.
+    /// Number of speeds that are simulated again at a finer setting once all are finished, to estimate the error of every speed from; default: 5 with
+    /// `accuracy` or `budget`, otherwise 0. Fewer if the sweep has fewer; none in a sweep up or down.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schema(maximum = 100))]
     pub control_speeds: Option<u32>,
-    /// What is recorded beside spectra.
+    /// Recordings beside spectra.
     #[serde(default, skip_serializing_if = "Record::is_nothing")]
     pub record: Record,
-    /// Whether rows of the reduction's basis at all nodes lie beside it, of which modes, fields and stress are made: `true` reduces once
-    /// more if they are not there, `false` leaves them out where this has to reduce, which saves their disk. Default: kept where this
-    /// has to reduce, if there is room.
+    /// Whether the rows of the reduction's basis at all nodes are stored, from which modes, fields and stress are made: `true` reduces once more if
+    /// they are not stored, `false` leaves them out where this job has to reduce, which saves their disk. Default: stored where this job has to
+    /// reduce, if there is room.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fields: Option<bool>,
 }
 
-/// Where each speed of a sweep starts from. A response with several branches shows the one that it is led along.
+/// State that each speed of a sweep starts from. A response with several branches shows the one that it is led along.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum SweepDirection {
-    /// From rest, or what the scene says; speeds are computed side by side.
+    /// Rest, or the state that the scene says; speeds are computed side by side.
     #[default]
     Independent,
-    /// From the end of the next slower speed; one speed is computed after the other.
+    /// End of the next slower speed; one speed is computed after the other.
     Up,
-    /// From the end of the next faster speed; one speed is computed after the other.
+    /// End of the next faster speed; one speed is computed after the other.
     Down,
 }
 
@@ -97,8 +97,7 @@ impl SweepDirection {
         *self == Self::Independent
     }
 
-    /// In which order `speeds_rad_s`, given by index, follow each other; none if each is on its own. Equal ones follow in the
-    /// order given.
+    /// Order in which `speeds_rad_s`, given by index, follow each other; none if each is on its own. Equal ones follow in the order given.
     pub fn chain(self, speeds_rad_s: &[f64]) -> Option<Vec<u32>> {
         let speed = |index: &u32| speeds_rad_s[*index as usize];
         let mut order: Vec<u32> = (0..speeds_rad_s.len() as u32).collect();
@@ -115,7 +114,7 @@ pub(crate) fn default_max_engine_order() -> u32 {
     24
 }
 
-/// Tenths of the largest peak are what a designer looks at.
+/// Default of `peak_prominence`: tenths of the largest peak are what a designer looks at.
 pub(crate) fn default_peak_prominence() -> f64 {
     0.1
 }

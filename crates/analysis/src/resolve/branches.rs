@@ -1,4 +1,4 @@
-//! Branches, held against their model.
+//! Branch requests, checked against their model.
 
 use crate::effects::casing::resolved::Clearance;
 use crate::effects::damping::request::Damping;
@@ -13,13 +13,13 @@ use crate::resolved::scene::Scene;
 use crate::resolved::{ResolvedBranches, ResolvedSweep};
 use rubmap_wheel::dynamics::integrate::{PassageError, comes_round};
 
-/// Multiples of what a scene says that a branch may be followed to.
+/// Range of multiples of the scene's value over which a branch may be followed.
 const MULTIPLES: std::ops::RangeInclusive<f64> = 1e-3..=1e3;
 
-/// Most points of a branch on either side.
+/// Range of the largest number of points of a branch on either side.
 const POINTS: std::ops::RangeInclusive<u32> = 1..=10_000;
 
-/// Parses what branches are asked for and checks it against its model.
+/// Parses a branch request and checks it against its model.
 pub fn resolve_branches(
     request: BranchesRequest,
     facts: &ModelFacts,
@@ -110,7 +110,7 @@ fn check_range(found: &mut Findings, along: Along, speed: f64) {
     found.require(from < to, "/along/to", "larger than `from`");
 }
 
-/// What changes must be there, and more than nothing.
+/// Requires that the scene has the parameter that changes, with a value other than 0.
 fn check_scene(found: &mut Findings, along: Along, sweep: &ResolvedSweep) {
     let scene = &sweep.scene;
     let clear = |clearance: &Clearance| match clearance {
@@ -151,7 +151,7 @@ fn check_scene(found: &mut Findings, along: Along, sweep: &ResolvedSweep) {
     );
 }
 
-/// What touches must come round again.
+/// Requires that everything the wheel may touch repeats.
 fn check_repeats(found: &mut Findings, scene: &Scene) {
     if scene.contact.is_none() {
         return;

@@ -1,4 +1,4 @@
-//! A campaign, held against its model.
+//! Campaigns, checked against their models.
 
 use crate::campaign::designs::{added, designs, levels};
 use crate::effects::casing::request::Measured;
@@ -16,30 +16,30 @@ use crate::resolved::{Distribution, ResolvedCampaign, ResolvedSweep};
 use crate::result::severity_column;
 use rubmap_wheel::dynamics::sector::Units;
 
-/// Most parameters of a campaign: Sobol points have directions for twice as many and more.
+/// Largest number of parameters of a campaign: Sobol points have directions for twice as many and more.
 const PARAMETERS: usize = 100;
 
-/// Most designs of a campaign, and most simulations, each of which is kept.
+/// Largest number of designs of a campaign, and of simulations, each of which is stored.
 const DESIGNS: usize = 10_000;
 const SIMULATIONS: u64 = 100_000;
 
-/// Most measured heights over all designs that change some of them.
+/// Largest number of measured heights over all designs that change some of them.
 const HEIGHTS: usize = 1_000_000;
 
-/// Designs that are refused are told up to this many.
+/// Largest number of refused designs that are reported.
 const TOLD: usize = 20;
 
-/// The model that a campaign compares with its own.
+/// Model that a campaign compares with its own.
 #[derive(Debug, Clone)]
 pub struct ComparedModel {
-    /// Its facts.
+    /// Facts of the model.
     pub facts: ModelFacts,
-    /// The sensors asked for, at nodes of this model.
+    /// Sensors asked for, at nodes of this model.
     pub sensors: Vec<Sensor>,
 }
 
-/// Parses a campaign and checks its scene, as it is, against its models; its designs are still to be checked. `compared` is the model
-/// of `compared_model`, if there is one.
+/// Parses a campaign and checks its unchanged scene against its models; its designs are still to be checked. `compared` is the model of
+/// `compared_model`, if there is one.
 pub fn resolve_campaign(
     request: CampaignRequest,
     facts: ModelFacts,
@@ -93,7 +93,7 @@ pub fn resolve_campaign(
         Some(points) => points.clone(),
         None => designs(design.kind, (size, seed), &parameters, &drawn),
     };
-    // As it was written: pointers lead into it.
+    // The scene as it was written, since pointers lead into it.
     let written = |sweep: &ResolvedSweep| SweepRequest { scene: scene.clone(), ..sweep.clone().into() };
     let settings = CampaignSettings {
         sweep: written(&sweep),
@@ -149,8 +149,8 @@ pub struct CampaignDesigns {
 }
 
 impl CampaignDesigns {
-    /// Checks the next design of a model; `false` if none was left. A violation is reported at the parameter that moves the field,
-    /// if one does.
+    /// Checks the next design of a model; `false` if none was left. A violation is reported at the parameter that changes the field, if one
+    /// does.
     pub fn check_next(&mut self) -> bool {
         let (model, design) =
             (self.checked / self.designs.len().max(1), self.checked % self.designs.len().max(1));
@@ -183,7 +183,7 @@ impl CampaignDesigns {
     }
 }
 
-/// Neither the designs nor those that may be added are more simulations than are kept.
+/// Requires that neither the designs nor those that may be added need more simulations than are stored.
 fn check_simulations(found: &mut Findings, settings: &CampaignSettings, speeds: u32) {
     let (designs, models) = (settings.designs_at_most(), if settings.compared.is_some() { 2 } else { 1 });
     let simulations = u64::from(designs) * models * u64::from(speeds);
@@ -205,7 +205,7 @@ fn check_simulations(found: &mut Findings, settings: &CampaignSettings, speeds: 
     );
 }
 
-/// The same sweep with the model that is compared; what only that one refuses is said to be its.
+/// Resolves the same sweep for the compared model; a violation of that model only names it in its message.
 fn check_compared(
     found: &mut Findings,
     sweep: SweepRequest,
@@ -234,7 +234,7 @@ fn in_words(units: &Units) -> String {
     [&units.mass, &units.length, &units.time, &units.force].map(String::as_str).join("-")
 }
 
-/// What a sweep has within `record`, a campaign has itself.
+/// Moves a violation within `record` of a sweep to the campaign's own field.
 fn at_its_field(violation: Violation) -> Violation {
     match violation.pointer.strip_prefix("/record") {
         Some(pointer) => Violation { pointer: pointer.to_owned(), ..violation },
@@ -291,7 +291,7 @@ fn check_parameters(
     distributions
 }
 
-/// Columns of tables and arrays of results that stand beside those of parameters, in all units of speeds.
+/// Reserved names: columns of tables and arrays of results beside those of parameters, in all units of speed.
 const COLUMNS: [&str; 24] = [
     "design",
     "severity",
@@ -319,7 +319,7 @@ const COLUMNS: [&str; 24] = [
     "version",
 ];
 
-/// A parameter names a column of tables, and an entry of archives.
+/// Requires names of parameters that can be columns of tables and entries of archives.
 fn check_names(found: &mut Findings, parameters: &[Parameter], severity: Severity, units: &Units) {
     let column = severity_column(severity, units);
     for (index, Parameter { name, .. }) in parameters.iter().enumerate() {
@@ -479,7 +479,7 @@ fn moves_heights(parameter: &Parameter) -> bool {
     parameter.at.iter().any(|at| at.starts_with("/scene/casing/measured/"))
 }
 
-/// Designs that change measured heights are as much work as all these heights each.
+/// Limits the measured heights of all designs together: a design that changes some of them costs as much work as all its heights.
 fn check_work(found: &mut Findings, settings: &CampaignSettings, designs: usize) {
     let Some(index) = settings.parameters.iter().position(moves_heights) else { return };
     let casing = settings.sweep.scene.casing.as_ref();
@@ -497,7 +497,7 @@ fn check_work(found: &mut Findings, settings: &CampaignSettings, designs: usize)
     );
 }
 
-/// Tells what was found wrong with design `index`.
+/// Reports the violations of design `index`.
 fn tell_of_design(
     found: &mut Findings,
     parameters: &[Parameter],
@@ -529,7 +529,8 @@ fn tell_of_design(
     }
 }
 
-/// Indices and values of designs that may be added for a threshold, each with its parameter at either end: all others are as they will be.
+/// Indices and values of designs that may be added for a threshold, each with the parameter of the threshold at either end; all other
+/// values are final.
 fn that_may_be_added(
     settings: &CampaignSettings,
     distributions: &[Option<Distribution>],

@@ -1,4 +1,4 @@
-//! Case studies, held against what they are of.
+//! Case studies, checked against their model or their sweep.
 
 use std::collections::BTreeSet;
 
@@ -33,7 +33,7 @@ pub fn resolve_case_study(
     found.finish(ResolvedCaseStudy { sweep, speeds: vec![0], record })
 }
 
-/// The case study of speeds of a sweep that has ended; `critical` are the indices of its critical speeds.
+/// Case study of speeds of a sweep that has ended; `critical` are the indices of its critical speeds.
 pub fn histories_of(
     sweep: &ResolvedSweep,
     request: &HistoriesRequest,

@@ -1,4 +1,4 @@
-//! Checks of the effects that a scene names, and of which go together.
+//! Checks of the effects that a scene names, and of their combination.
 
 use super::findings::Findings;
 use crate::effects::effect::{Acts, Break, Chain, Check};
@@ -8,7 +8,7 @@ use crate::model::ModelFacts;
 use crate::request::SweepDirection;
 use crate::resolved::{ResolvedSweep, Scene};
 
-/// What describes the wheel and its casing.
+/// Checks the effects that describe the wheel and its casing.
 pub(super) fn check_before_integration(found: &mut Findings, request: &ResolvedSweep, facts: &ModelFacts) {
     for effect in EFFECTS {
         if let Check::First(check) = effect.check {
@@ -17,7 +17,7 @@ pub(super) fn check_before_integration(found: &mut Findings, request: &ResolvedS
     }
 }
 
-/// All else, and what effects ask of each other.
+/// Checks all other effects, and the requirements of effects on each other.
 pub(super) fn check_after_integration(found: &mut Findings, request: &ResolvedSweep, facts: &ModelFacts) {
     check_contact_is_there(found, &request.scene);
     for effect in EFFECTS {
@@ -29,7 +29,7 @@ pub(super) fn check_after_integration(found: &mut Findings, request: &ResolvedSw
     check_chain(found, request);
 }
 
-/// What a speed cannot take over from its neighbour.
+/// Refuses scenes whose speeds cannot start from the end of the neighbouring speed, in a sweep up or down.
 fn check_chain(found: &mut Findings, request: &ResolvedSweep) {
     if request.sweep == SweepDirection::Independent {
         return;
@@ -57,7 +57,7 @@ fn check_chain(found: &mut Findings, request: &ResolvedSweep) {
     }
 }
 
-/// Effects on contact need one.
+/// Requires contact for effects on contact.
 fn check_contact_is_there(found: &mut Findings, scene: &Scene) {
     let is_there = scene.contact.is_some() && scene.casing.is_some();
     for effect in named(scene).filter(|effect| effect.acts == Acts::AtContact) {

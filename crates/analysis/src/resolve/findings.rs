@@ -1,4 +1,4 @@
-//! What is found wrong with a request.
+//! Violations found in a request.
 
 use super::limits;
 use crate::error::Violation;
@@ -21,7 +21,7 @@ impl Findings {
         }
     }
 
-    /// Whether something is wrong with what stands at `pointer` or within it.
+    /// Whether a violation lies at `pointer` or within it.
     pub(crate) fn refused(&self, pointer: &str) -> bool {
         let within = |violation: &Violation| {
             let rest = violation.pointer.strip_prefix(pointer);
@@ -35,7 +35,7 @@ impl Findings {
     }
 }
 
-/// Lobes, an orbit or an initial state that would move a tip so far that the run ends as diverged.
+/// Refuses lobes, an orbit or an initial state that would move a tip so far that the run ends as diverged.
 pub(crate) fn check_reach(found: &mut Findings, length: f64, pointer: &str, facts: &ModelFacts) {
     let Some(radius) = facts.contact_radius.filter(|radius| *radius > 0.0) else { return };
     let reach = DIVERGED_SHARE_OF_RADIUS * radius;

@@ -1,4 +1,4 @@
-//! Strain gauges between nodes of the model: between which, and how far from what was asked for.
+//! Strain gauges between nodes of the model: choice of the nodes, and distance from the position asked for.
 
 use crate::component::along;
 use crate::request::Gauge;
@@ -6,23 +6,23 @@ use crate::resolve::findings::Findings;
 use crate::result::{GaugeEnd, PlacedSensor};
 use rubmap_wheel::dynamics::nodes::SectorNode;
 
-/// A fibre at this angle to a uniaxial strain along the direction asked for shows cos² − ν sin² of it, 85 %; at 45° a third.
+/// Largest angle from the direction asked for. A fibre at this angle to a uniaxial strain shows cos² − ν sin² of it, 85 %; at 45° a third.
 const LARGEST_ANGLE_DEG: f64 = 20.0;
-/// A gauge averages over its length; stress at a fillet halves over some lengths of a gauge.
+/// Largest relative difference of the length. A gauge averages over its length; stress at a fillet halves over some lengths of a gauge.
 const LENGTH_OFF: f64 = 0.25;
-/// How far the middle may be from the place asked for, in lengths asked for: the gauge still covers it.
+/// Largest distance of the middle from the position asked for, in lengths asked for: the gauge still covers it.
 const MIDDLE_OFF: f64 = 0.5;
 
-/// A gauge at a place.
+/// Gauge at a position, as it was asked for.
 #[derive(Clone, Copy)]
 struct Asked {
     at: [f64; 3],
-    /// Unit vector.
+    /// Unit vector along the gauge.
     along: [f64; 3],
     length: f64,
 }
 
-/// Gives a gauge its nodes, if it names a place. What says too little or too much is refused elsewhere.
+/// Gives a gauge its nodes, if it names a position. Gauges with too few or too many fields are refused elsewhere.
 pub(super) fn place_gauge(
     found: &mut Findings,
     index: usize,
@@ -107,7 +107,7 @@ fn one_node(node: &SectorNode) -> String {
 }
 
 impl Asked {
-    /// One end, by its sign.
+    /// End of the gauge on the side of `sign`.
     fn end(&self, sign: f64) -> [f64; 3] {
         std::array::from_fn(|d| self.at[d] + sign * 0.5 * self.length * self.along[d])
     }
@@ -119,7 +119,7 @@ impl Asked {
         aside[0].hypot(aside[1]).hypot(aside[2]).atan2(forward).to_degrees()
     }
 
-    /// The field and the words, if a gauge between the nodes nearest to its ends is not the one that was asked for.
+    /// Field and message, if a gauge between the nodes nearest to the ends is not the one that was asked for.
     fn missed(&self, ends: [&SectorNode; 2]) -> Option<(&'static str, String)> {
         let [a, b] = ends;
         let (found, asked) = (a.distance(b.position), self.length);

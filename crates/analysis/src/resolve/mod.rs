@@ -1,4 +1,4 @@
-//! Checks a request against its model and fills in defaults: all violations at once, each at its JSON pointer.
+//! Checks of a request against its model, with defaults filled in: all violations at once, each at its JSON pointer.
 
 use std::ops::RangeInclusive;
 
@@ -30,7 +30,7 @@ pub(crate) mod run_up;
 pub(crate) mod sensors;
 pub(crate) mod study;
 
-/// Parses a sweep and checks it against its model; sensors left away are the default ones.
+/// Parses a sweep and checks it against its model; without sensors it takes the default ones.
 pub fn resolve_sweep(request: SweepRequest, facts: &ModelFacts) -> Result<ResolvedSweep, Vec<Violation>> {
     let mut found = Findings::default();
     check_knobs(&mut found, &request);
@@ -115,7 +115,7 @@ pub fn resolve_modal_analysis(
     found.finish(request)
 }
 
-/// The knobs of a sweep are either given or chosen.
+/// Requires that the knobs of a sweep are either given or chosen.
 fn check_knobs(found: &mut Findings, request: &SweepRequest) {
     let Integration { scheme, kept_modes, steps_per_revolution, .. } = request.integration;
     let fixed = [
@@ -157,7 +157,7 @@ fn check_controls(found: &mut Findings, sweep: &ResolvedSweep) {
     );
 }
 
-/// Either a target or a budget, and none of the knobs (JSON pointer, whether it is given) that it chooses.
+/// Requires either a target or a budget, and none of the knobs (JSON pointer, whether it is given) that it chooses.
 fn check_choice(
     found: &mut Findings,
     accuracy: Option<Accuracy>,
@@ -228,11 +228,11 @@ fn check_speeds(
     }
 }
 
-/// Share that a motion may still change by where it is said to repeat: at least what is above round-off, at most what the verdict on its
-/// window asks for.
+/// Range of the relative change at which a motion counts as repeating: at least above round-off, at most what the verdict on its window
+/// asks for.
 const UNSETTLED: RangeInclusive<f64> = 1e-12..=1e-2;
 
-/// The field that says how long a run is at most.
+/// Field that gives the largest length of a run.
 pub(crate) fn revolutions_field(integration: &Integration) -> &'static str {
     match integration.revolutions {
         AutoOr::Fixed(_) => "revolutions",
@@ -317,7 +317,7 @@ fn check_integration(found: &mut Findings, integration: &Integration, max_engine
     );
 }
 
-/// The displacement over the whole run and the Fourier coordinates of all sectors over the window are held in memory.
+/// Limits the memory of a speed: displacement over the whole run, and Fourier coordinates of all sectors over the window.
 fn check_memory(found: &mut Findings, request: &ResolvedSweep, facts: &ModelFacts) {
     let sectors = facts.sectors as usize;
     let (revolutions, window_revolutions) =

@@ -1,4 +1,4 @@
-//! Speeds of a scene, as case studies, branches and run-ups ask for them: a sweep with nothing beside.
+//! Speeds of a scene for case studies, branches and run-ups: a sweep without refinement, accuracy and recording.
 
 use crate::error::Violation;
 use crate::model::ModelFacts;
@@ -10,7 +10,7 @@ use crate::request::{
 use crate::resolve::resolve_sweep;
 use crate::resolved::ResolvedSweep;
 
-/// What is asked of the speeds.
+/// Part of a request that asks for speeds of a scene.
 pub(super) struct PlainSweep {
     pub(super) model: String,
     pub(super) modes_per_speed: AutoOr,
@@ -23,7 +23,7 @@ pub(super) struct PlainSweep {
 }
 
 impl PlainSweep {
-    /// Parses it and checks it against its model; what is wrong with the speeds is said `at` the field that they came from.
+    /// Parses the sweep and checks it against its model; violations of the speeds are reported at `at`, the field that they came from.
     pub(super) fn resolve(self, facts: &ModelFacts, at: &str) -> Result<ResolvedSweep, Vec<Violation>> {
         let sweep = SweepRequest {
             model: self.model,
@@ -51,12 +51,12 @@ impl PlainSweep {
     }
 }
 
-/// These speeds and no others.
+/// Set of the given speeds.
 pub(super) fn values(values: Vec<f64>, unit: SpeedUnit) -> SpeedSet {
     SpeedSet { from: None, to: None, count: None, values: Some(values), unit }
 }
 
-/// A single one.
+/// Set of a single speed.
 pub(super) fn one(speed: CaseSpeed) -> SpeedSet {
     values(vec![speed.value], speed.unit)
 }

@@ -1,4 +1,4 @@
-//! What is recorded of a sweep, held against it.
+//! Recording of a sweep, checked against the sweep.
 
 use std::collections::BTreeSet;
 
@@ -10,11 +10,11 @@ use crate::resolved::ResolvedSweep;
 use rubmap_numerics::sector_fourier::harmonic_count;
 use rubmap_wheel::dynamics::integrate::Revolutions;
 
-/// Most numbers of the histories of one speed, and most speeds with histories: they are kept as text.
+/// Most numbers of the histories of one speed, and most speeds with histories: they are stored as text.
 const MOST_NUMBERS: usize = 1 << 23;
 const MOST_SPEEDS: usize = 100;
 
-/// Indices of the speeds that histories are asked of.
+/// Indices of the speeds of which histories are asked for.
 pub(crate) fn wanted(request: &HistoriesRequest, critical: &BTreeSet<u32>) -> Vec<u32> {
     match &request.speeds {
         HistorySpeeds::Critical => critical.iter().copied().take(MOST_SPEEDS).collect(),
@@ -96,7 +96,7 @@ pub(super) fn check_recorded(
     );
 }
 
-/// Refuses to leave out the rows of the basis that something recorded `needs`.
+/// Refuses to leave out the rows of the basis that a recording `needs`.
 pub(super) fn check_fields(found: &mut Findings, fields: Option<bool>, needs: bool) {
     found.require(
         !needs || fields != Some(false),
@@ -105,11 +105,11 @@ pub(super) fn check_fields(found: &mut Findings, fields: Option<bool>, needs: bo
     );
 }
 
-/// Spacings of the contact nodes around each of them of which no stress is claimed: what a row of point forces differs by from a line of
-/// them has died out at a distance of their spacing (Saint-Venant).
+/// Excluded radius of stress about contact nodes, in distances of neighbouring ones: at a distance of their spacing, the difference between
+/// a row of point forces and a distributed force has died out (Saint-Venant).
 const EXCLUDED_SPACINGS: f64 = 1.0;
 
-/// Checks stress that a sweep asks for, at `pointer`, and fills in its radius.
+/// Checks stress that a sweep asks for, at `pointer`, and fills in its excluded radius.
 pub(super) fn resolve_stress(
     found: &mut Findings,
     request: &mut StressRequest,
@@ -136,7 +136,7 @@ pub(super) fn resolve_stress(
     }
 }
 
-/// Where recording begins and ends: the window, if nothing else is asked for, or the last revolution where states are recorded, which are
+/// Revolutions to be recorded: those asked for, otherwise the window, or only the last revolution where states are recorded, which are
 /// large.
 pub(crate) fn asked(record: &Recorded, sweep: &ResolvedSweep) -> Revolutions {
     let last = if record.wants(RecordedQuantity::State) { 1 } else { sweep.integration.window_revolutions };
@@ -146,12 +146,12 @@ pub(crate) fn asked(record: &Recorded, sweep: &ResolvedSweep) -> Revolutions {
     }
 }
 
-/// The same in whole revolutions of the longest run.
+/// Recorded revolutions, from and to, of the longest possible run.
 pub(crate) fn revolutions(record: &Recorded, sweep: &ResolvedSweep) -> (usize, usize) {
     asked(record, sweep).of(sweep.integration.revolutions() as usize, None)
 }
 
-/// Histories of one speed, with so many pairs of a contact node and a blade, and so many numbers of a state.
+/// Number of histories of one speed, for this number of pairs of a contact node and a blade and of numbers of a state.
 pub(crate) fn lines(record: &Recorded, sweep: &ResolvedSweep, pairs: usize, state: usize) -> usize {
     let of = |quantity, numbers: usize| if record.wants(quantity) { numbers } else { 0 };
     of(RecordedQuantity::Displacement, sweep.sensors.len())

@@ -1,4 +1,4 @@
-//! Run-ups, held against their model.
+//! Run-up requests, checked against their model.
 
 use super::findings::{Findings, between};
 use super::limits;
@@ -12,13 +12,13 @@ use crate::resolved::run_up::{FRAME, ResolvedCourse};
 use crate::resolved::{ResolvedRunUps, ResolvedSweep};
 use crate::run_up::cutting;
 
-/// Angles by which a wheel may be off, rad: finer ones are round-off, coarser ones are nothing that a run-up is made for.
+/// Range of the angle tolerance, rad: finer ones are round-off, coarser ones are of no use for a run-up.
 const TOLERANCE: std::ops::RangeInclusive<f64> = 1e-8..=0.1;
 
 /// Most revolutions of all runs together.
 const REVOLUTIONS: f64 = 200_000.0;
 
-/// Most pieces of all runs together: every plan cuts them, in well below a second.
+/// Most segments of all runs together: every plan cuts them, in well below a second.
 const PIECES: usize = 500_000;
 
 /// Most frames of a run, and revolutions of a frame.
@@ -98,7 +98,7 @@ pub fn resolve_run_ups(request: RunUpRequest, facts: &ModelFacts) -> Result<Reso
     found.finish(resolved)
 }
 
-/// The lowest and the highest speed, as those of a sweep.
+/// Lowest and highest speed, as the speeds of a sweep.
 fn ends(speed: &ResolvedCourse) -> SpeedSet {
     let (lowest, highest) = speed.range();
     values(if lowest < highest { vec![lowest, highest] } else { vec![lowest] }, SpeedUnit::RadS)
@@ -117,7 +117,7 @@ fn check_limit(found: &mut Findings, request: &RunUpRequest) {
     );
 }
 
-/// What has a state of its own is not handed on from one speed to the next.
+/// Refuses effects with a state of their own, which is not passed from one speed to the next.
 fn check_scene(found: &mut Findings, sweep: &ResolvedSweep) {
     let scene = &sweep.scene;
     found.require(

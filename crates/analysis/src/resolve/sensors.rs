@@ -1,4 +1,4 @@
-//! Sensors at nodes of the model: which node, and whether it moves.
+//! Sensors at nodes of the model: choice of the node, and whether it moves.
 
 use crate::error::Violation;
 use crate::request::{Component, Sensor};
@@ -7,15 +7,15 @@ use crate::resolve::gauges::place_gauge;
 use crate::result::PlacedSensor;
 use rubmap_wheel::dynamics::nodes::SectorNode;
 
-/// Whether any of `sensors` needs the nodes of the model to be understood.
+/// Whether any of `sensors` can only be resolved with the nodes of the model.
 pub fn name_nodes(sensors: &[Sensor]) -> bool {
     sensors.iter().any(|sensor| sensor.node.is_some() || sensor.nearest.is_some() || sensor.gauge.is_some())
 }
 
-/// Gives each of `sensors` that names a point its node, and says where those stand that name a node or a point.
+/// Gives each of `sensors` that names a point its node; returns the positions of those that name a node or a point.
 ///
 /// # Errors
-/// Nodes that are not there or cannot move, each at its JSON pointer.
+/// Nodes that do not exist or cannot move, each at its JSON pointer.
 pub fn place_sensors(
     sensors: &mut [Sensor],
     nodes: &[SectorNode],
@@ -33,10 +33,10 @@ pub fn place_sensors(
             }
             Sensor { nearest: Some(point), contact_node: None, node: None, .. } => {
                 let free = nodes.iter().filter(|node| node.is_free());
-                // Of equally near ones the first.
+                // The first of equally near nodes.
                 (free.min_by(|a, b| a.distance(point).total_cmp(&b.distance(point))), "nearest")
             }
-            // Those at contact nodes, and what is refused elsewhere.
+            // Sensors at contact nodes, and sensors that are refused elsewhere.
             _ => continue,
         };
         let Some(node) = node else {

@@ -1,4 +1,4 @@
-//! The request of a study, resolved against the facts of its model.
+//! Convergence studies, resolved against the facts of their model.
 
 use crate::accuracy::grid::FINER;
 use crate::discretisation::aligned_samples;
@@ -13,11 +13,11 @@ use crate::resolved::ResolvedStudy;
 const MOST_SPEEDS: usize = 8;
 const MOST_ENTRIES: usize = 12;
 
-/// Most runs of a study, and most displacements kept of all of them together (8 bytes each).
+/// Most runs of a study, and most displacements recorded in all of them together (8 bytes each).
 const MOST_RUNS: usize = 2000;
 const MOST_KEPT: usize = 1 << 24;
 
-/// Parses a study and checks it against its model; sensors left away are the default ones.
+/// Parses a study and checks it against its model; without sensors it takes the default ones.
 pub fn resolve_study(request: StudyRequest, facts: &ModelFacts) -> Result<ResolvedStudy, Vec<Violation>> {
     let (sweep, mut found) = match resolve_sweep(request.sweep(), facts) {
         Ok(sweep) => (Some(sweep), Vec::new()),
@@ -91,7 +91,7 @@ pub fn resolve_study(request: StudyRequest, facts: &ModelFacts) -> Result<Resolv
     if found.is_empty() { Ok(study) } else { Err(found) }
 }
 
-/// What the scene does not allow of a grid that is sound in itself, or what would take too much memory; each field once.
+/// Violations of settings of a valid grid that the scene does not allow or that would take too much memory; each field once.
 fn refused_settings(request: &ResolvedStudy, facts: &ModelFacts) -> Vec<Violation> {
     let sweep = &request.sweep;
     let mut found: Vec<Violation> = Vec::new();

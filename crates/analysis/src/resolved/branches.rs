@@ -6,33 +6,33 @@ use crate::error::Violation;
 use crate::request::{Along, BranchParameter, BranchesSettings};
 use crate::resolved::sweep::ResolvedSweep;
 
-/// A scene at one speed and the number of it that changes; see [`BranchesSettings`], as which it is written.
+/// Branches: a scene at one speed and the number of it that changes; written as [`BranchesSettings`].
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(into = "BranchesSettings")]
 pub struct ResolvedBranches {
     pub(crate) sweep: ResolvedSweep,
-    /// A speed in rad/s.
+    /// Number of the scene that changes, and its range; a speed in rad/s.
     pub(crate) along: Along,
     pub(crate) doubled: bool,
     pub(crate) most_points: u32,
 }
 
 impl ResolvedBranches {
-    /// Reads again what was resolved before.
+    /// Reads branches that were resolved and stored before.
     ///
     /// # Errors
-    /// What is wrong with it, if it was not.
+    /// Violations, if the branches were never resolved.
     pub fn stored(written: BranchesSettings) -> Result<Self, Vec<Violation>> {
         let BranchesSettings { sweep, along, doubled, most_points } = written;
         Ok(Self { sweep: ResolvedSweep::stored(sweep, 0)?, along, doubled, most_points })
     }
 
-    /// The scene at the speed where they begin.
+    /// Scene at the speed where the branches begin, as a sweep.
     pub fn sweep(&self) -> &ResolvedSweep {
         &self.sweep
     }
 
-    /// The value of the parameter where they begin.
+    /// Value of the parameter where the branches begin.
     pub(crate) fn start(&self) -> f64 {
         match self.along.parameter {
             BranchParameter::Speed => self.speed_rad_s(),
@@ -40,7 +40,7 @@ impl ResolvedBranches {
         }
     }
 
-    /// The speed where they begin.
+    /// Speed where the branches begin, rad/s.
     pub(crate) fn speed_rad_s(&self) -> f64 {
         self.sweep.speeds.rad_s()[0]
     }

@@ -8,26 +8,26 @@ use crate::request::{CampaignSettings, Change, Parameter, SweepRequest, Threshol
 use crate::resolved::distribution::Distribution;
 use crate::resolved::sweep::ResolvedSweep;
 
-/// A sweep of which numbers vary, and its designs; see [`CampaignSettings`], as which it is written. What is computed is one speed of one
-/// model of one design: of all designs one after the other, so that designs which are added change no index.
+/// Campaign: a sweep of which numbers vary, and its designs; written as [`CampaignSettings`]. A simulation is one speed of one model of one design;
+/// simulations are counted design by design, so that designs which are added change no index.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(into = "CampaignSettings")]
 pub struct ResolvedCampaign {
-    /// With the scene before anything is changed.
+    /// Sweep that is run for every design, with the scene before anything is changed.
     pub(crate) sweep: ResolvedSweep,
-    /// The same with the model that is compared with it.
+    /// Sweep that is run for every design with the model that is compared.
     pub(crate) compared: Option<ResolvedSweep>,
-    /// One per parameter; none of one that is only listed.
+    /// Distributions of the parameters, one each; none for a parameter that is only listed.
     pub(crate) distributions: Vec<Option<Distribution>>,
-    /// All that was asked for. The scene is as it was written: pointers into it are those of the request.
+    /// Settings as they were asked for. The scene is as it was written: pointers into it are those of the request.
     pub(crate) settings: CampaignSettings,
 }
 
 impl ResolvedCampaign {
-    /// Reads again what was resolved before.
+    /// Reads a campaign that was resolved and stored before.
     ///
     /// # Errors
-    /// What is wrong with it, if it was not.
+    /// Violations, if the campaign was never resolved.
     pub fn stored(settings: CampaignSettings) -> Result<Self, Vec<Violation>> {
         let sweep = ResolvedSweep::stored(settings.sweep.clone(), 0)?;
         let compared = settings.compared.clone().map(|sweep| ResolvedSweep::stored(sweep, 0)).transpose()?;
@@ -35,47 +35,47 @@ impl ResolvedCampaign {
         Ok(Self { sweep, compared, distributions, settings })
     }
 
-    /// The sweep that every design is, before anything is changed.
+    /// Sweep that is run for every design, before anything is changed.
     pub fn sweep(&self) -> &ResolvedSweep {
         &self.sweep
     }
 
-    /// That of every model, the one that is compared last.
+    /// Sweeps of all models, that of the model that is compared last.
     pub fn sweeps(&self) -> impl Iterator<Item = &ResolvedSweep> {
         std::iter::once(&self.sweep).chain(&self.compared)
     }
 
-    /// The same sweep with the model that is compared, if one is.
+    /// Sweep with the model that is compared, if one is.
     pub fn compared(&self) -> Option<&ResolvedSweep> {
         self.compared.as_ref()
     }
 
-    /// The model that is compared, if one is.
+    /// Id of the model that is compared, if one is.
     pub fn compared_model(&self) -> Option<&str> {
         self.compared().map(ResolvedSweep::model)
     }
 
-    /// How many designs there are.
+    /// Number of designs.
     pub fn designs(&self) -> usize {
         self.settings.designs.len()
     }
 
-    /// How many simulations a design has: one for every model and speed.
+    /// Number of simulations of a design: one for every model and speed.
     fn simulations_each(&self) -> u32 {
         self.sweeps().count() as u32 * self.sweep.speeds.count()
     }
 
-    /// How many simulations there are.
+    /// Number of simulations of all designs.
     pub fn simulations(&self) -> u32 {
         self.designs() as u32 * self.simulations_each()
     }
 
-    /// How many designs there may come to be, with those that are added for a threshold.
+    /// Largest number of designs, with those that are added for a threshold.
     pub fn designs_at_most(&self) -> u32 {
         self.settings.designs_at_most()
     }
 
-    /// How many simulations there may come to be.
+    /// Largest number of simulations, with those of designs that are added for a threshold.
     pub fn simulations_at_most(&self) -> u32 {
         self.designs_at_most().saturating_mul(self.simulations_each())
     }
@@ -90,7 +90,7 @@ impl ResolvedCampaign {
     /// Simulation `index`: the sweep of its design, and the index of its speed there.
     ///
     /// # Errors
-    /// What is wrong with a design, if it was never held against its model.
+    /// Violations of a design, if it was never checked against its model.
     pub fn simulation(&self, index: u32) -> Result<(ResolvedSweep, u32), Vec<Violation>> {
         let (design, is_compared, speed) = self.place(index);
         let settings = &self.settings;
@@ -104,7 +104,7 @@ impl ResolvedCampaign {
         self.settings.parameter(name)
     }
 
-    /// Whether one parameter is all that varies: then the same value always comes to the same.
+    /// Whether one parameter is all that varies: then the same value always gives the same result.
     pub(crate) fn varies_alone(&self) -> bool {
         self.settings.parameters.len() == 1
     }
@@ -114,13 +114,13 @@ impl ResolvedCampaign {
         Some(&self.settings.threshold.as_ref()?.parameter)
     }
 
-    /// What is asked about a threshold, with the index of its parameter.
+    /// Threshold that is asked for, with the index of its parameter.
     pub(crate) fn threshold(&self) -> Option<(&Threshold, usize)> {
         let threshold = self.settings.threshold.as_ref()?;
         Some((threshold, self.parameter(&threshold.parameter)?))
     }
 
-    /// The same with more designs.
+    /// Campaign with more designs.
     pub(crate) fn with_designs(&self, more: Vec<Vec<f64>>) -> Self {
         let mut longer = self.clone();
         longer.settings.added += more.len() as u32;
@@ -135,15 +135,15 @@ impl From<ResolvedCampaign> for CampaignSettings {
     }
 }
 
-/// A sweep in which pointers lead to numbers.
+/// Writes a sweep as JSON, in which pointers lead to numbers.
 pub(crate) fn written(sweep: &SweepRequest) -> Result<Value, Vec<Violation>> {
     serde_json::to_value(sweep).map_err(|error| vec![Violation::new("/scene", error.to_string())])
 }
 
-/// The [`written`] `sweep` with these `values` of the parameters, each in its turn.
+/// Puts these `values` of the parameters into the [`written`] `sweep`, each in its turn.
 ///
 /// # Errors
-/// At the parameter that meets no number, or makes none that the field takes.
+/// Violation at the parameter that meets no number, or makes one that the field does not take.
 pub(crate) fn changed(
     mut sweep: Value,
     parameters: &[Parameter],

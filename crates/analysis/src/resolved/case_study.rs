@@ -6,7 +6,7 @@ use crate::error::Violation;
 use crate::request::{CaseStudySettings, Recorded, RecordedQuantity};
 use crate::resolved::sweep::ResolvedSweep;
 
-/// Speeds of a sweep with what is recorded of each; see [`CaseStudySettings`], as which it is written.
+/// Case study: speeds of a sweep with what is recorded of each; written as [`CaseStudySettings`].
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(into = "CaseStudySettings")]
 pub struct ResolvedCaseStudy {
@@ -16,21 +16,21 @@ pub struct ResolvedCaseStudy {
 }
 
 impl ResolvedCaseStudy {
-    /// Reads again what was resolved before, its sweep with so many `rounds` of a refinement.
+    /// Reads a case study that was resolved and stored before, its sweep with so many `rounds` of a refinement.
     ///
     /// # Errors
-    /// What is wrong with it, if it was not.
+    /// Violations, if the case study was never resolved.
     pub fn stored(written: CaseStudySettings, rounds: u32) -> Result<Self, Vec<Violation>> {
         let CaseStudySettings { sweep, speeds, record } = written;
         Ok(Self { sweep: ResolvedSweep::stored(sweep, rounds)?, speeds, record })
     }
 
-    /// The sweep of whose speeds it is.
+    /// Sweep whose speeds are studied.
     pub fn sweep(&self) -> &ResolvedSweep {
         &self.sweep
     }
 
-    /// Whether rows of the reduction's basis must be beside it, must not, or are kept where it reduces.
+    /// Whether the rows of the reduction's basis must be stored, must not, or are stored where the study reduces.
     pub fn fields(&self) -> Option<bool> {
         if self.records_states() { Some(true) } else { self.sweep.fields() }
     }

@@ -4,7 +4,7 @@ use crate::error::Violation;
 use crate::request::{DistributionKind, Parameter};
 use rubmap_numerics::sampling::quantile;
 
-/// How the values of a parameter are distributed.
+/// Distribution of the values of a parameter.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Distribution {
     /// Uniform between two ends.
@@ -13,9 +13,9 @@ pub enum Distribution {
     LogUniform(f64, f64),
     /// Normal, cut off where `from` and `to` are finite.
     Normal {
-        /// Mean before it is cut off.
+        /// Mean before the distribution is cut off.
         mean: f64,
-        /// Standard deviation before it is cut off.
+        /// Standard deviation before the distribution is cut off.
         standard_deviation: f64,
         /// Smallest value.
         from: f64,
@@ -26,18 +26,18 @@ pub enum Distribution {
     Triangular(f64, f64, f64),
     /// Whole numbers between two ends.
     Whole(f64, f64),
-    /// These, equally probable.
+    /// Given values, equally probable.
     Values(Vec<f64>),
 }
 
-/// Whole numbers beyond this have neighbours that a double does not know.
+/// Largest magnitude of a whole number: beyond it doubles do not hold all of them.
 const LARGEST_WHOLE: f64 = (1u64 << 53) as f64;
 
 impl Distribution {
-    /// What a parameter says; none where it says nothing at all, as it may in a list.
+    /// Reads the distribution of a parameter; none where the parameter says nothing at all, as it may in a list.
     ///
     /// # Errors
-    /// What is wrong with it, at JSON pointers into the parameter.
+    /// Violations, at JSON pointers into the parameter.
     pub(crate) fn of(parameter: &Parameter) -> Result<Option<Self>, Vec<Violation>> {
         use DistributionKind::{LogUniform, Normal, Triangular, Uniform, Values, Whole};
         let Parameter { distribution: kind, from, to, mode, mean, standard_deviation, ref values, .. } =
@@ -114,7 +114,7 @@ impl Distribution {
         }))
     }
 
-    /// The value below which a share `u` of it lies, 0 < u < 1.
+    /// Value below which a share `u` of the distribution lies, 0 < u < 1.
     pub fn quantile(&self, u: f64) -> f64 {
         match *self {
             Self::Uniform(from, to) => quantile::uniform(u, (from, to)),
@@ -128,7 +128,7 @@ impl Distribution {
         }
     }
 
-    /// Its smallest and largest value; either may be infinite.
+    /// Smallest and largest value; either may be infinite.
     pub fn range(&self) -> (f64, f64) {
         match *self {
             Self::Uniform(from, to)
@@ -144,12 +144,12 @@ impl Distribution {
         }
     }
 
-    /// Whether it takes every value of its range.
+    /// Whether the distribution takes every value of its range.
     pub fn is_continuous(&self) -> bool {
         !matches!(self, Self::Whole(..) | Self::Values(_))
     }
 
-    /// How many levels it has of its own.
+    /// Number of levels that the distribution has of its own.
     pub(crate) fn own_levels(&self) -> Option<f64> {
         match self {
             Self::Whole(from, to) => Some(to - from + 1.0),
@@ -158,7 +158,7 @@ impl Distribution {
         }
     }
 
-    /// Level `index` of so many.
+    /// Level `index` of a grid of so many `levels`.
     pub(crate) fn level(&self, index: usize, levels: usize) -> f64 {
         let evenly = |from: f64, to: f64| {
             let share = if levels == 1 { 0.5 } else { index as f64 / (levels - 1) as f64 };

@@ -2,29 +2,29 @@
 
 use crate::request::{Accuracy, AutoOr, Budget};
 
-/// k where nobody says otherwise.
+/// Fixed-interface modes kept per stiffness speed and nodal diameter, k, where nobody says otherwise.
 pub(crate) const DEFAULT_MODES_PER_SPEED: u32 = 20;
 
 /// Fixed-interface modes kept per stiffness speed and nodal diameter, the accuracy dial k.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Modes {
-    /// This many.
+    /// Given number.
     Given(u32),
-    /// As many as this takes; pilot runs or reductions will tell.
+    /// Number to be chosen for an aim, by pilot runs or reductions.
     Sought(Aim),
 }
 
-/// What is asked for in place of knobs.
+/// Aim that is asked for in place of knobs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Aim {
-    /// An error to stay below.
+    /// Error to stay below.
     Accuracy(Accuracy),
-    /// A time to keep.
+    /// Time to keep to.
     Budget(Budget),
 }
 
 impl Modes {
-    /// Of the three fields of a request, which together say one thing; a number goes before an aim, as what was chosen for it.
+    /// Reads the three fields of a request, which together say one thing; a number goes before an aim, being what was chosen for it.
     pub(crate) fn of(modes_per_speed: AutoOr, accuracy: Option<Accuracy>, budget: Option<Budget>) -> Self {
         match (modes_per_speed, accuracy, budget) {
             (AutoOr::Fixed(modes), ..) => Self::Given(modes),
@@ -34,7 +34,7 @@ impl Modes {
         }
     }
 
-    /// The same three fields.
+    /// Writes the three fields of a request: `modes_per_speed`, `accuracy` and `budget`.
     pub(crate) fn fields(self) -> (AutoOr, Option<Accuracy>, Option<Budget>) {
         match self {
             Self::Given(modes) => (AutoOr::Fixed(modes), None, None),
@@ -43,7 +43,7 @@ impl Modes {
         }
     }
 
-    /// k, once it is known.
+    /// Fixed-interface modes kept per stiffness speed and nodal diameter, k, once they are known.
     pub fn given(self) -> Option<u32> {
         match self {
             Self::Given(modes) => Some(modes),
@@ -51,7 +51,7 @@ impl Modes {
         }
     }
 
-    /// k; while it is sought, what nobody would have to ask for.
+    /// Fixed-interface modes kept per stiffness speed and nodal diameter, k; the default while they are sought.
     pub(crate) fn or_usual(self) -> u32 {
         self.given().unwrap_or(DEFAULT_MODES_PER_SPEED)
     }

@@ -1,8 +1,8 @@
-//! Requests as they are stored and run: parsed and held against a model by `resolve`, and sound from then on. What
-//! was stored is parsed again by the functions `stored`, without the model.
+//! Requests as they are stored and run: parsed and held against a model by `resolve`, and sound from then on. Stored requests are parsed again by the
+//! functions `stored`, without the model.
 //!
-//! Speeds are numbers, defaults are filled in, alternatives are enums. What was asked for can be had back, as the
-//! `settings` of results, and asked for again.
+//! Speeds are numbers, defaults are filled in, alternatives are enums. The request can be had back, as the `settings` of results, and asked for
+//! again.
 
 pub mod branches;
 pub mod campaign;
@@ -38,12 +38,12 @@ pub(crate) mod from_json {
 
     use super::{ResolvedSweep, Scene};
 
-    /// A sound scene, held against no model.
+    /// Sound scene, checked against no model.
     pub(crate) fn scene(asked: Value) -> Scene {
         Scene::of(serde_json::from_value(asked).unwrap(), &mut |violation| panic!("{violation:?}"))
     }
 
-    /// A sound sweep, held against no model.
+    /// Sound sweep, checked against no model.
     pub(crate) fn sweep(asked: Value) -> ResolvedSweep {
         ResolvedSweep::stored(serde_json::from_value(asked).unwrap(), 0).unwrap()
     }

@@ -7,7 +7,7 @@ use crate::request::ModalAnalysisRequest;
 use crate::resolved::knobs::Modes;
 use crate::resolved::speeds::ResolvedSpeeds;
 
-/// A modal analysis that was checked against its model; see [`ModalAnalysisRequest`], as which it is written.
+/// Modal analysis that was checked against its model; written as [`ModalAnalysisRequest`].
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(into = "ModalAnalysisRequest")]
 pub struct ResolvedModalAnalysis {
@@ -23,7 +23,7 @@ pub struct ResolvedModalAnalysis {
 }
 
 impl ResolvedModalAnalysis {
-    /// What `asked` says; `refuse` hears of what is wrong with its speeds. Nothing is held against a model.
+    /// Resolves `asked` without checking it against a model; `refuse` is given the violations of its speeds.
     pub(crate) fn of(asked: ModalAnalysisRequest, refuse: &mut dyn FnMut(Violation)) -> Self {
         let speeds = ResolvedSpeeds::of(asked.speeds, 0).unwrap_or_else(|violations| {
             violations.into_iter().for_each(refuse);
@@ -42,27 +42,27 @@ impl ResolvedModalAnalysis {
         }
     }
 
-    /// Reads again what was resolved before.
+    /// Reads a modal analysis that was resolved and stored before.
     ///
     /// # Errors
-    /// What is wrong with it, if it was not.
+    /// Violations, if the analysis was never resolved.
     pub fn stored(written: ModalAnalysisRequest) -> Result<Self, Vec<Violation>> {
         let mut found = Vec::new();
         let resolved = Self::of(written, &mut |violation| found.push(violation));
         if found.is_empty() { Ok(resolved) } else { Err(found) }
     }
 
-    /// Id of its model.
+    /// Id of the model.
     pub fn model(&self) -> &str {
         &self.model
     }
 
-    /// How k is set.
+    /// Fixed-interface modes kept per stiffness speed and nodal diameter, k: given, or still to be chosen.
     pub fn modes(&self) -> Modes {
         self.modes
     }
 
-    /// k; the usual one while it is sought.
+    /// Fixed-interface modes kept per stiffness speed and nodal diameter, k; the default while they are sought.
     pub fn modes_per_speed(&self) -> u32 {
         self.modes.or_usual()
     }
@@ -72,17 +72,17 @@ impl ResolvedModalAnalysis {
         self.modes.given().is_none()
     }
 
-    /// Its speeds.
+    /// Speeds of the diagram.
     pub fn speeds(&self) -> &ResolvedSpeeds {
         &self.speeds
     }
 
-    /// As of a sweep: whether rows of the reduction's basis must be beside it, must not, or are kept where it reduces.
+    /// Whether the rows of the reduction's basis must be stored, must not, or are stored where the analysis reduces.
     pub fn fields(&self) -> Option<bool> {
         self.fields
     }
 
-    /// With k.
+    /// Modal analysis with so many modes per stiffness speed and nodal diameter.
     pub(crate) fn at(&self, modes_per_speed: u32) -> Self {
         Self { modes: Modes::Given(modes_per_speed), ..self.clone() }
     }

@@ -9,7 +9,7 @@ use crate::request::{
 use crate::resolved::sweep::ResolvedSweep;
 use rubmap_wheel::dynamics::run_up::profile::SpeedProfile;
 
-/// A scene whose speed changes; see [`RunUpSettings`], as which it is written.
+/// Run-ups: a scene whose speed changes; written as [`RunUpSettings`].
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(into = "RunUpSettings")]
 pub struct ResolvedRunUps {
@@ -21,33 +21,33 @@ pub struct ResolvedRunUps {
     pub(crate) limit: Option<f64>,
 }
 
-/// How the speed changes, in rad/s.
+/// Course of the speed, in rad/s.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum ResolvedCourse {
-    /// A run for each rate, which have no sign.
+    /// One run for each rate; rates have no sign.
     Rates { from: f64, to: f64, rates: Vec<f64>, hold_s: f64 },
     /// One run through points of time and speed.
     Points { points: Vec<(f64, f64)>, course: SpeedCourse },
 }
 
-/// Most frames of a run where their length is chosen.
+/// Largest number of frames of a run where their length is chosen.
 const FRAMES: u64 = 1000;
 
-/// Revolutions of a frame, of which longer ones are multiples.
+/// Revolutions of a frame where their number is chosen; longer frames are multiples of it.
 pub(crate) const FRAME: u64 = 8;
 
-/// Shortest time in which a speed changes, s: what is shorter is a jump.
+/// Shortest time in which a speed changes, s: a shorter one is a jump.
 const SHORTEST_S: f64 = 1e-6;
 
-/// Most runs, and points of one.
+/// Largest number of runs, and of points of a run.
 const RUNS: usize = 100;
 const POINTS: usize = 10_000;
 
 impl ResolvedRunUps {
-    /// Reads again what was resolved before.
+    /// Reads run-ups that were resolved and stored before.
     ///
     /// # Errors
-    /// What is wrong with it, if it was not.
+    /// Violations, if the run-ups were never resolved.
     pub fn stored(written: RunUpSettings) -> Result<Self, Vec<Violation>> {
         let RunUpSettings { sweep, speed, euler_force, angle_tolerance_rad, frame_revolutions, limit } =
             written;
@@ -55,7 +55,7 @@ impl ResolvedRunUps {
         Ok(Self { sweep, speed, euler_force, angle_tolerance_rad, frame_revolutions, limit })
     }
 
-    /// The scene, with the lowest and the highest speed.
+    /// Scene at the lowest and the highest speed, as a sweep.
     pub fn sweep(&self) -> &ResolvedSweep {
         &self.sweep
     }
@@ -65,12 +65,12 @@ impl ResolvedRunUps {
         self.euler_force
     }
 
-    /// How many runs there are.
+    /// Number of runs.
     pub fn runs(&self) -> u32 {
         self.speed.runs()
     }
 
-    /// Revolutions of a frame of a run that turns so often.
+    /// Revolutions of a frame, in a run of so many `revolutions`.
     pub(crate) fn frame_revolutions(&self, revolutions: f64) -> u64 {
         match self.frame_revolutions {
             AutoOr::Fixed(frame) => u64::from(frame),
@@ -80,7 +80,7 @@ impl ResolvedRunUps {
 }
 
 impl ResolvedCourse {
-    /// What is asked for; pointers are those of the field `speed` of a request.
+    /// Reads the course that is asked for; violations have pointers into the field `speed` of a request.
     pub(crate) fn of(asked: RunUpSpeed) -> Result<Self, Vec<Violation>> {
         let RunUpSpeed { unit, from, to, rates, hold_s, points, course } = asked;
         let unit = unit.rad_s();
@@ -160,7 +160,7 @@ impl ResolvedCourse {
         if found.is_empty() { Ok(resolved) } else { Err(found) }
     }
 
-    /// How many runs there are.
+    /// Number of runs.
     pub(crate) fn runs(&self) -> u32 {
         match self {
             Self::Rates { rates, .. } => rates.len() as u32,
@@ -168,7 +168,7 @@ impl ResolvedCourse {
         }
     }
 
-    /// Rate of a run, rad/s², without a sign; none of one through points.
+    /// Rate of a run, rad/s², without a sign; none for a run through points.
     pub(crate) fn rate(&self, run: u32) -> Option<f64> {
         match self {
             Self::Rates { rates, .. } => Some(rates[run as usize]),
@@ -176,7 +176,7 @@ impl ResolvedCourse {
         }
     }
 
-    /// Ω(t) of a run.
+    /// Speed of a run over time, Ω(t).
     pub(crate) fn profile(&self, run: u32) -> SpeedProfile {
         match self {
             Self::Rates { from, to, rates, hold_s } => {

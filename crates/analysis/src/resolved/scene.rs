@@ -1,4 +1,4 @@
-//! The scene with its alternatives told apart.
+//! The scene, its alternatives resolved.
 
 use crate::effects::asked::Asked;
 use crate::effects::casing::shape::Shape;
@@ -16,8 +16,8 @@ macro_rules! scene {
         }
 
         impl Scene {
-            /// The scene that is asked for. `refuse` hears of fields that together say too much or too little: a clearance that
-            /// they would give is none then, an elastic casing or mistuning left away.
+            /// Resolves the scene that is asked for. `refuse` is given violations of fields that together say too much or too little: clearances from
+            /// such fields become 0, an elastic casing or mistuning is left away.
             pub(crate) fn of(asked: request::Scene, refuse: &mut dyn FnMut(Violation)) -> Self {
                 Self { $($effect: asked.$effect.resolve(refuse),)* }
             }
@@ -33,7 +33,7 @@ macro_rules! scene {
 effects!(scene);
 
 impl Scene {
-    /// What of the casing passes the blades and may be touched.
+    /// Shape of the casing that the blades may touch; none without a casing or without contact.
     pub(crate) fn touched_shape(&self) -> Option<&Shape> {
         self.contact.as_ref()?;
         self.casing.as_ref().map(|casing| &casing.shape)

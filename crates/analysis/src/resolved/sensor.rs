@@ -5,7 +5,7 @@ use serde::Serialize;
 use crate::error::Violation;
 use crate::request::{Component, Gauge, Sensor};
 
-/// A recorded displacement; see [`Sensor`], as which it is written.
+/// Recorded displacement or strain, at a known place and along a known direction; written as [`Sensor`].
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(into = "Sensor")]
 pub struct ResolvedSensor {
@@ -14,30 +14,30 @@ pub struct ResolvedSensor {
     pub(crate) along: Along,
 }
 
-/// A node of the sector.
+/// Place of a sensor in its sector.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Place {
     /// A contact node, from the leading edge.
     Contact(u32),
     /// Any node, by its id in the package.
     Node(u64),
-    /// Two nodes, of a strain gauge.
+    /// Two nodes of a strain gauge.
     Gauge([u64; 2]),
 }
 
-/// Along what it is recorded.
+/// Direction along which a sensor records.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Along {
-    /// By name.
+    /// Component, by name.
     Component(Component),
-    /// In radial, tangential and axial components, of any length but 0.
+    /// Direction in radial, tangential and axial components, of any length but 0.
     Direction([f64; 3]),
-    /// From one node of a gauge to the other, per length.
+    /// Strain from one node of a gauge to the other, per length.
     Strain,
 }
 
 impl ResolvedSensor {
-    /// What `asked`, sensor `index` of a request, says; `refuse` hears of what says too much, too little or nothing.
+    /// Resolves `asked`, sensor `index` of a request; `refuse` is given violations where it says too much, too little or nothing.
     pub(crate) fn of(asked: Sensor, index: usize, refuse: &mut dyn FnMut(Violation)) -> Option<Self> {
         let Sensor { contact_node, node, nearest, sector, component, direction, gauge } = asked;
         let mut found = |field: &str, message: &str| {

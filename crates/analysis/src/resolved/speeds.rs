@@ -8,18 +8,18 @@ use crate::request::speeds::{SpeedSet, SpeedUnit, Speeds};
 pub struct ResolvedSpeeds {
     /// The lists as they were given, and one for every round.
     lists: Speeds,
-    /// How many of the last lists are rounds.
+    /// Number of the last lists that are rounds of `refine`.
     rounds: u32,
     rad_s: Vec<f64>,
-    /// How many of `rad_s` each list has.
+    /// Number of speeds in `rad_s` from each list.
     counts: Vec<usize>,
 }
 
 impl ResolvedSpeeds {
-    /// Of `lists`, the last `rounds` of which a refinement has added.
+    /// Resolves `lists`, the last `rounds` of which a refinement has added.
     ///
     /// # Errors
-    /// What is wrong with them, at its JSON pointer.
+    /// Violations, each at its JSON pointer.
     pub(crate) fn of(lists: Speeds, rounds: u32) -> Result<Self, Vec<Violation>> {
         let parts = lists.parts()?;
         if rounds as usize >= parts.len() {
@@ -31,40 +31,40 @@ impl ResolvedSpeeds {
         Ok(Self { lists, rounds, rad_s, counts })
     }
 
-    /// What stands in the place of speeds that were refused.
+    /// Stand-in for speeds that were refused: no speeds at all.
     pub(crate) fn none() -> Self {
         Self { lists: Speeds::Several(Vec::new()), rounds: 0, rad_s: Vec::new(), counts: Vec::new() }
     }
 
-    /// A single one.
+    /// A single speed.
     pub(crate) fn one(speed_rad_s: f64) -> Self {
         let lists = Speeds::One(list(vec![speed_rad_s]));
         Self { lists, rounds: 0, rad_s: vec![speed_rad_s], counts: vec![1] }
     }
 
-    /// All of them, rad/s, by index.
+    /// All speeds, rad/s, by index.
     pub fn rad_s(&self) -> &[f64] {
         &self.rad_s
     }
 
-    /// The same in ascending order.
+    /// All speeds, rad/s, in ascending order.
     pub fn ascending(&self) -> Vec<f64> {
         let mut speeds = self.rad_s.clone();
         speeds.sort_by(f64::total_cmp);
         speeds
     }
 
-    /// How many there are.
+    /// Number of speeds.
     pub fn count(&self) -> u32 {
         self.rad_s.len() as u32
     }
 
-    /// How many of them were asked for.
+    /// Number of speeds that were asked for, without those that rounds of `refine` have added.
     pub(crate) fn asked(&self) -> usize {
         self.counts[..self.counts.len() - self.rounds as usize].iter().sum()
     }
 
-    /// The speeds of each list that no earlier one has, with the JSON pointer to the list.
+    /// Speeds of each list that no earlier one has, with the JSON pointer to the list.
     pub(crate) fn by_list(&self) -> impl Iterator<Item = (String, &[f64])> {
         let mut rest = &self.rad_s[..];
         self.counts.iter().enumerate().map(move |(index, &count)| {
@@ -78,18 +78,18 @@ impl ResolvedSpeeds {
         })
     }
 
-    /// How many rounds of `refine` have added speeds.
+    /// Number of rounds of `refine` that have added speeds.
     pub fn rounds(&self) -> u32 {
         self.rounds
     }
 
-    /// As a request would name them.
+    /// Lists of the speeds, as a request would name them.
     pub fn lists(&self) -> &Speeds {
         &self.lists
     }
 
-    /// The same and a round of `speeds_rad_s` after them: no speed changes its index. None if none of them is new, or there is no
-    /// room for them.
+    /// Speeds with a round of `speeds_rad_s` after them: no speed changes its index. None if none of the added speeds is new, or there is no room for
+    /// them.
     pub(crate) fn with_round(&self, speeds_rad_s: Vec<f64>) -> Option<Self> {
         let mut lists = match &self.lists {
             Speeds::One(set) => vec![set.clone()],

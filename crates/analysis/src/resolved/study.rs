@@ -12,21 +12,21 @@ use crate::resolved::sensor::ResolvedSensor;
 use crate::resolved::speeds::ResolvedSpeeds;
 use crate::resolved::sweep::ResolvedSweep;
 
-/// A study that was checked against its model; see [`StudyRequest`], as which it is written.
+/// Convergence study that was checked against its model; written as [`StudyRequest`].
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(into = "StudyRequest")]
 pub struct ResolvedStudy {
-    /// What its runs are speeds of; each has knobs of its own.
+    /// Sweep whose speeds are the runs of the study; each run has knobs of its own.
     pub(crate) sweep: ResolvedSweep,
     pub(crate) grid: Grid,
     pub(crate) history_revolutions: u32,
 }
 
 impl ResolvedStudy {
-    /// Reads again what was resolved before.
+    /// Reads a study that was resolved and stored before.
     ///
     /// # Errors
-    /// What is wrong with it, if it was not.
+    /// Violations, if the study was never resolved.
     pub fn stored(written: StudyRequest) -> Result<Self, Vec<Violation>> {
         Ok(Self {
             sweep: ResolvedSweep::stored(written.sweep(), 0)?,
@@ -35,24 +35,24 @@ impl ResolvedStudy {
         })
     }
 
-    /// Id of its model.
+    /// Id of the model.
     pub fn model(&self) -> &str {
         &self.sweep.model
     }
 
-    /// Its speeds.
+    /// Speeds of the study.
     pub fn speeds(&self) -> &ResolvedSpeeds {
         &self.sweep.speeds
     }
 
-    /// Its sensors; at least one.
+    /// Sensors of the study; at least one.
     pub fn sensors(&self) -> &[ResolvedSensor] {
         &self.sweep.sensors
     }
 }
 
 impl StudyRequest {
-    /// The sweep that its runs are speeds of.
+    /// Sweep whose speeds are the runs of the study.
     pub(crate) fn sweep(&self) -> SweepRequest {
         SweepRequest {
             model: self.model.clone(),

@@ -14,13 +14,13 @@ use crate::resolved::scene::Scene;
 use crate::resolved::sensor::{Place, ResolvedSensor};
 use crate::resolved::speeds::ResolvedSpeeds;
 
-/// Share of an error that is asked for by which a motion may still change where it is said to repeat.
+/// Share of the error that is asked for by which a motion may still change where it counts as repeating.
 const SETTLED_SHARE: f64 = 0.1;
 
-/// Control runs where the service chooses the knobs.
+/// Default number of control runs where the service chooses the knobs.
 const DEFAULT_CONTROL_SPEEDS: u32 = 5;
 
-/// A sweep that was checked against its model; see [`SweepRequest`], as which it is written.
+/// Sweep that was checked against its model; written as [`SweepRequest`].
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(into = "SweepRequest")]
 pub struct ResolvedSweep {
@@ -35,22 +35,22 @@ pub struct ResolvedSweep {
     pub(crate) sweep: SweepDirection,
     pub(crate) refine: bool,
     pub(crate) reproducible: bool,
-    /// Speeds that are simulated again at a finer setting.
+    /// Number of speeds that are simulated again at a finer setting.
     pub(crate) control_speeds: u32,
     pub(crate) record: Record,
     pub(crate) fields: Option<bool>,
 }
 
 impl ResolvedSweep {
-    /// What `asked` says, the last `rounds` of its lists of speeds being rounds of a refinement; nothing is held against a model.
-    /// `refuse` hears of what says too much or too little, or nothing that is a speed.
+    /// Resolves `asked` without checking it against a model; the last `rounds` of its lists of speeds are rounds of a refinement. `refuse` is given
+    /// violations where it says too much or too little, or nothing that is a speed.
     pub(crate) fn of(asked: SweepRequest, rounds: u32, refuse: &mut dyn FnMut(Violation)) -> Self {
         let modes = Modes::of(asked.modes_per_speed, asked.accuracy, asked.budget);
         let speeds = ResolvedSpeeds::of(asked.speeds, rounds).unwrap_or_else(|violations| {
             violations.into_iter().for_each(&mut *refuse);
             ResolvedSpeeds::none()
         });
-        // Of all of them before any is given up.
+        // All sensors are resolved before any is given up, so that all violations are found.
         let sensors: Vec<_> = (asked.sensors.into_iter().enumerate())
             .map(|(index, asked)| ResolvedSensor::of(asked, index, refuse))
             .collect();
@@ -78,42 +78,42 @@ impl ResolvedSweep {
         }
     }
 
-    /// Reads again what was resolved before, with so many `rounds` of a refinement.
+    /// Reads a sweep that was resolved and stored before, with so many `rounds` of a refinement.
     ///
     /// # Errors
-    /// What is wrong with it, if it was not.
+    /// Violations, if the sweep was never resolved.
     pub fn stored(written: SweepRequest, rounds: u32) -> Result<Self, Vec<Violation>> {
         let mut found = Vec::new();
         let resolved = Self::of(written, rounds, &mut |violation| found.push(violation));
         if found.is_empty() { Ok(resolved) } else { Err(found) }
     }
 
-    /// Id of its model.
+    /// Id of the model.
     pub fn model(&self) -> &str {
         &self.model
     }
 
-    /// How k is set.
+    /// Fixed-interface modes kept per stiffness speed and nodal diameter, k: given, or still to be chosen.
     pub fn modes(&self) -> Modes {
         self.modes
     }
 
-    /// k; the usual one while it is sought.
+    /// Fixed-interface modes kept per stiffness speed and nodal diameter, k; the default while they are sought.
     pub fn modes_per_speed(&self) -> u32 {
         self.modes.or_usual()
     }
 
-    /// Whether its knobs have still to be chosen.
+    /// Whether the knobs have still to be chosen.
     pub fn is_sought(&self) -> bool {
         self.modes.given().is_none()
     }
 
-    /// Its speeds.
+    /// Speeds of the sweep.
     pub fn speeds(&self) -> &ResolvedSpeeds {
         &self.speeds
     }
 
-    /// It as it was asked for, without the speeds that rounds of `refine` have added: who asks so again gets the same rounds.
+    /// Request as it was asked for, without the speeds that rounds of `refine` have added: asked for again, it gets the same rounds.
     pub fn unrefined(&self) -> SweepRequest {
         let mut request = SweepRequest::from(self.clone());
         if let Speeds::Several(lists) = &mut request.speeds {
@@ -122,17 +122,17 @@ impl ResolvedSweep {
         request
     }
 
-    /// Its sensors; at least one.
+    /// Sensors of the sweep; at least one.
     pub fn sensors(&self) -> &[ResolvedSensor] {
         &self.sensors
     }
 
-    /// Whether its wheel stiffens with speed.
+    /// Whether the wheel stiffens with speed.
     pub fn is_stiffened(&self) -> bool {
         self.scene.centrifugal_stiffening
     }
 
-    /// Whether clearances are given cold, and touched.
+    /// Whether clearances are given cold and the casing may be touched.
     pub fn has_cold_clearances(&self) -> bool {
         let cold = self.scene.casing.as_ref().is_some_and(|casing| casing.given == ClearanceState::Cold);
         cold && self.scene.contact.is_some()
@@ -143,7 +143,7 @@ impl ResolvedSweep {
         self.scene.abradable.is_some()
     }
 
-    /// Ids of the nodes that its sensors name, ascending, each once.
+    /// Ids of the nodes that the sensors name, ascending, each once.
     pub fn sensor_nodes(&self) -> Vec<u64> {
         let of = |sensor: &ResolvedSensor| match sensor.place {
             Place::Contact(_) => [None; 2],
@@ -156,57 +156,57 @@ impl ResolvedSweep {
         nodes
     }
 
-    /// Highest engine order of its spectra.
+    /// Highest engine order of the spectra.
     pub fn max_engine_order(&self) -> u32 {
         self.max_engine_order
     }
 
-    /// Revolutions that its spectra are computed from: as many lines have they per engine order.
+    /// Revolutions that the spectra are computed from; spectra have as many lines per engine order.
     pub fn window_revolutions(&self) -> u32 {
         self.integration.window_revolutions
     }
 
-    /// Whether speeds are added around its peaks.
+    /// Whether speeds are added around the peaks.
     pub fn is_refined(&self) -> bool {
         self.refine
     }
 
-    /// Whether all of it must be computed on processors with one kind of vectors.
+    /// Whether the whole sweep must be computed on processors with one kind of vector instructions.
     pub fn is_of_one_kind(&self) -> bool {
         self.reproducible || self.sweep != SweepDirection::Independent
     }
 
-    /// The histories it asks for.
+    /// Histories that the sweep asks for.
     pub fn histories(&self) -> Option<&HistoriesRequest> {
         self.record.histories.as_ref()
     }
 
-    /// Where it asks for stress, the radius about contact nodes within which none is claimed.
+    /// Radius about contact nodes within which no stress is claimed, if the sweep asks for stress.
     pub fn stress_outside(&self) -> Option<f64> {
         self.record.stress.map(|stress| stress.excluded_radius.unwrap_or(0.0))
     }
 
-    /// Whether rows of the reduction's basis must be beside it, must not, or are kept where it reduces.
+    /// Whether the rows of the reduction's basis must be stored, must not, or are stored where the sweep reduces.
     pub fn fields(&self) -> Option<bool> {
         if self.records_states() { Some(true) } else { self.fields }
     }
 
-    /// Whether states are among the histories it asks for.
+    /// Whether states are among the histories that the sweep asks for.
     pub fn records_states(&self) -> bool {
         self.record.wants_states()
     }
 
-    /// Speeds that are simulated again at a finer setting.
+    /// Number of speeds that are simulated again at a finer setting.
     pub fn control_speeds(&self) -> usize {
         self.control_speeds as usize
     }
 
-    /// In which order its speeds follow each other; none if each is on its own.
+    /// Order in which the speeds follow each other, by index; none if each is on its own.
     pub fn chain(&self) -> Option<Vec<u32>> {
         self.sweep.chain(self.speeds.rad_s())
     }
 
-    /// With other knobs.
+    /// Sweep with other knobs.
     pub(crate) fn at(&self, setting: Setting) -> Self {
         Self {
             modes: Modes::Given(setting.modes_per_speed),
@@ -220,13 +220,13 @@ impl ResolvedSweep {
         }
     }
 
-    /// With marches that do not end before their limit.
+    /// Sweep whose marches do not end before their limit.
     pub(crate) fn taking_all(&self) -> Self {
         let revolutions = AutoOr::Fixed(self.integration.revolutions());
         Self { integration: Integration { revolutions, ..self.integration.clone() }, ..self.clone() }
     }
 
-    /// A single speed of it at one setting, without what concerns several, and what chooses settings.
+    /// Sweep of a single speed at one setting, without what concerns several speeds, and without what chooses settings.
     pub(crate) fn one_speed(&self, speed_rad_s: f64, setting: Setting) -> Self {
         Self {
             speeds: ResolvedSpeeds::one(speed_rad_s),
@@ -235,7 +235,7 @@ impl ResolvedSweep {
             peak_prominence: default_peak_prominence(),
             control_speeds: 0,
             record: Record::default(),
-            // What is compared needs none.
+            // Runs that are only compared need no rows.
             fields: self.fields.filter(|wanted| !wanted),
             ..self.at(setting)
         }

@@ -10,130 +10,131 @@ use rubmap_wheel::dynamics::sector::Units;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Branches {
-    /// What they have in common.
+    /// Parameter, sensors, scheme, units and settings that all branches have in common.
     #[serde(flatten)]
     pub head: BranchesHead,
-    /// Whether all of them were followed to their ends; otherwise the job is still at it, or was stopped.
+    /// Whether all branches were followed to their ends; otherwise the job is still running, or was stopped.
     pub complete: bool,
-    /// The branch on which the search ended, then those of doubled period.
+    /// Branches: first the one on which the search ended, then those of doubled period.
     pub branches: Vec<BranchTrack>,
 }
 
-/// What branches have in common.
+/// Parameter, sensors, scheme, units and settings that all branches of a job have in common.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct BranchesHead {
-    /// What changes along them.
+    /// Number of the scene that changes along the branches.
     pub parameter: BranchParameter,
-    /// Whose amplitudes are told.
+    /// Sensors whose amplitudes are reported.
     pub sensors: Vec<Sensor>,
-    /// How time is stepped, everywhere.
+    /// Time-stepping scheme, the same on all branches.
     pub scheme: SchemeChoice,
-    /// Modes per nodal diameter that `massless_boundary` integrates, everywhere.
+    /// Modes per nodal diameter that `massless_boundary` integrates, the same on all branches.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub kept_modes: Option<u32>,
-    /// Steps per revolution, everywhere.
+    /// Steps per revolution, the same on all branches.
     pub steps_per_revolution: u32,
-    /// Units of lengths.
+    /// Units of the model.
     pub units: Units,
-    /// What was asked for, with every default filled in.
+    /// Request with every default filled in.
     pub settings: BranchesSettings,
     /// Version of the program.
     pub version: String,
-    /// Kind of vectors of the processor.
+    /// Kind of vector instructions of the processor: another kind may round differently.
     pub vectors: String,
 }
 
-/// A branch.
+/// A branch of periodic responses, with its bifurcations, maxima and ends.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct BranchTrack {
-    /// Which it is.
+    /// Number and origin of the branch.
     #[serde(flatten)]
     pub track: Track,
-    /// Its points, in the order of the branch.
+    /// Points of the branch, in its order.
     pub points: Vec<BranchPoint>,
-    /// Where it turns back or changes its stability, in the same order.
+    /// Places where the branch turns back or changes its stability, in the order of the branch.
     pub bifurcations: Vec<Bifurcation>,
-    /// Critical values: maxima of a sensor's amplitude along the branch, those of each sensor in the same order.
+    /// Critical values: maxima of a sensor's amplitude along the branch, those of each sensor in the order of the branch.
     pub maxima: Vec<BranchMaximum>,
-    /// Why it ends: at its first point, unless it begins there, and at its last.
+    /// Reasons for which the branch ends: at its first point, unless the branch begins there, and at its last.
     pub ends: Vec<BranchEnd>,
 }
 
-/// Which branch something is of.
+/// Number of a branch, and where it comes from.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Track {
-    /// Its number among the branches, from 0.
+    /// Number of the branch among all branches, from 0.
     pub branch: u32,
-    /// Passages of a lobe after which its motions repeat; absent of those that repeat as their scene does: after the shortest time
+    /// Passages of a lobe after which the motions of the branch repeat; absent for motions that repeat as their scene does, after the shortest time
     /// that its symmetry allows.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lobe_passages: Option<u32>,
-    /// The flip from which it comes, by the number of the branch (`branch`, no place in a list) and the value there; absent of the first.
+    /// Flip from which the branch comes: number of the other branch (its `branch`, not an index into a list) and value of the parameter there; absent
+    /// for the first branch.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub doubles: Option<(u32, f64)>,
 }
 
-/// A periodic response.
+/// A periodic response on a branch.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct BranchPoint {
-    /// Value of the parameter: a speed in rad/s, otherwise a multiple of what the scene says.
+    /// Value of the parameter: a speed in rad/s, otherwise a multiple of the number in the scene.
     pub value: f64,
-    /// Rotational speed.
+    /// Rotational speed, rad/s.
     pub speed_rad_s: f64,
     /// Half the peak-to-peak displacement of every sensor.
     pub half_peak_to_peak: Vec<f64>,
-    /// Whether it lasts, by its multipliers.
+    /// Stability of the response, by its multipliers.
     pub stability: Stability,
-    /// The largest multipliers, largest first.
+    /// Floquet multipliers of largest modulus, largest first.
     pub multipliers: Vec<FloquetMultiplier>,
-    /// Passages of a lobe which they are of.
+    /// Passages of a lobe over which the multipliers are taken.
     pub lobe_passages: u32,
-    /// ‖P(x) − x‖ / ‖x‖.
+    /// Residual ‖P(x) − x‖ / ‖x‖ of the response x, P being the return map.
     pub residual: f64,
-    /// Steps of Newton's method.
+    /// Steps of Newton's method that the point took.
     pub newton_steps: u32,
-    /// Revolutions of the wheel that it took.
+    /// Revolutions of the wheel that the point took.
     pub revolutions: f64,
 }
 
-/// Where a branch turns back or changes its stability.
+/// Place where a branch turns back or changes its stability.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Bifurcation {
-    /// What happens.
+    /// Kind of the bifurcation.
     pub kind: BifurcationKind,
-    /// Value of the parameter.
+    /// Value of the parameter at the bifurcation: a speed in rad/s, otherwise a multiple of the number in the scene.
     pub value: f64,
-    /// Rotational speed.
+    /// Rotational speed at the bifurcation, rad/s.
     pub speed_rad_s: f64,
-    /// How far from there it may be, in the unit of `value`.
+    /// Error of `value`, in the same unit: how far from there the bifurcation may be.
     pub error: f64,
-    /// Half the peak-to-peak displacement of every sensor there.
+    /// Half the peak-to-peak displacement of every sensor at the bifurcation.
     pub half_peak_to_peak: Vec<f64>,
-    /// The leading multiplier on the unstable side; absent of a fold.
+    /// Leading multiplier on the unstable side; absent for a fold.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub multiplier: Option<FloquetMultiplier>,
-    /// Modulus of the leading multiplier on the stable side: far below 1 where what touches changes, so that stability is lost at once.
+    /// Modulus of the leading multiplier on the stable side: far below 1 where the set of touching nodes changes, so that stability is lost at once.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stable_modulus: Option<f64>,
 }
 
-/// What happens to a branch.
+/// Kind of a bifurcation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum BifurcationKind {
-    /// It turns back: two responses meet and vanish, and the motion jumps.
+    /// Fold: the branch turns back; two responses meet and vanish, and the motion jumps.
     Fold,
-    /// A multiplier passes −1: the period doubles.
+    /// Flip: a multiplier passes −1, and the period doubles.
     Flip,
-    /// A pair of multipliers leaves the unit circle: a second frequency, and lines split.
+    /// Neimark–Sacker bifurcation: a pair of multipliers leaves the unit circle; a second frequency appears, and lines split.
     NeimarkSacker,
-    /// A multiplier passes +1 without a fold: another branch of the same period, or of less symmetry, meets this one.
+    /// Branching: a multiplier passes +1 without a fold; another branch of the same period, or of less symmetry, meets this one.
     Branching,
 }
 
@@ -143,59 +144,59 @@ pub enum BifurcationKind {
 pub struct BranchMaximum {
     /// Index of the sensor.
     pub sensor: u32,
-    /// Value of the parameter.
+    /// Value of the parameter at the maximum: a speed in rad/s, otherwise a multiple of the number in the scene.
     pub value: f64,
-    /// Rotational speed.
+    /// Rotational speed at the maximum, rad/s.
     pub speed_rad_s: f64,
-    /// How far from there it may be, in the unit of `value`.
+    /// Error of `value`, in the same unit: how far from there the maximum may be.
     pub error: f64,
-    /// Half the peak-to-peak displacement.
+    /// Half the peak-to-peak displacement of the sensor at the maximum.
     pub half_peak_to_peak: f64,
-    /// Whether the response there lasts.
+    /// Stability of the response at the maximum.
     pub stability: Stability,
 }
 
-/// Why a branch ends.
+/// Reason for which a branch ends.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case", tag = "why")]
 pub enum BranchEnd {
-    /// It leaves the range.
+    /// End of the range: the branch leaves it.
     LeavesRange,
-    /// It has as many points as were asked for.
+    /// Largest number of points: the branch has as many as were asked for.
     MostPoints,
-    /// It comes back to the branch that it doubles.
+    /// Junction: the branch comes back to the one that it doubles.
     Joins,
-    /// It could not be followed further.
+    /// Lost branch: it could not be followed further.
     Lost {
-        /// Why.
+        /// Reason for which the branch was lost, in words.
         reason: String,
     },
 }
 
-/// A stretch of a branch, as it is computed and stored.
+/// Leg of a branch: a stretch of it, as it is computed and stored.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct BranchLeg {
-    /// What all have in common.
+    /// Parameter, sensors, scheme, units and settings that all legs of the job have in common.
     pub head: BranchesHead,
-    /// Which branch it belongs to.
+    /// Branch that the leg belongs to.
     pub track: Track,
-    /// Whether it leads away from the beginning of the branch backwards.
+    /// Whether the leg leads backwards from the beginning of its branch.
     pub backwards: bool,
-    /// Its points, away from the beginning.
+    /// Points of the leg, away from the beginning of the branch.
     pub points: Vec<BranchPoint>,
-    /// What was found among them.
+    /// Bifurcations found among the points of the leg.
     pub bifurcations: Vec<Bifurcation>,
-    /// What was found among them.
+    /// Maxima found among the points of the leg.
     pub maxima: Vec<BranchMaximum>,
-    /// Why the branch ends with it, if it does.
+    /// Reason for which the branch ends with this leg, if it does.
     pub end: Option<BranchEnd>,
-    /// Whether nothing is left to follow.
+    /// Whether nothing is left to follow after this leg.
     pub is_last: bool,
 }
 
 impl Branches {
-    /// What the legs of a job make together, in the order in which they were computed; none of no legs.
+    /// Joins the legs of a job, in the order in which they were computed, into branches; none without legs.
     pub fn of(legs: Vec<BranchLeg>) -> Option<Self> {
         let head = legs.first()?.head.clone();
         let mut branches = Vec::<BranchTrack>::new();
@@ -235,14 +236,15 @@ impl Branches {
 }
 
 impl Bifurcation {
-    /// Whether both are of one kind, and where the one may be the other may be, too. A branch may turn back twice at nearly one value.
+    /// Whether two bifurcations of one kind may lie at the same place, by their errors. Folds never count as the same: a branch may turn back twice
+    /// at nearly one value.
     pub(crate) fn is_same_as(&self, other: &Self) -> bool {
         self.kind == other.kind
             && self.kind != BifurcationKind::Fold
             && (self.value - other.value).abs() <= self.error + other.error
     }
 
-    /// Extends its error over all places where the other may be.
+    /// Extends the error of this bifurcation over all places where the other may be.
     fn reach(&mut self, other: &Self) {
         self.error = self.error.max((self.value - other.value).abs() + other.error);
     }

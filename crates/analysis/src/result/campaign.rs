@@ -1,4 +1,4 @@
-//! What a campaign says.
+//! Result and plan of a campaign.
 
 use serde::{Deserialize, Serialize};
 
@@ -7,28 +7,28 @@ use crate::result::plan::{Estimate, ReductionState, Spent, SweepPlan};
 use crate::result::stress::stress_unit;
 use rubmap_wheel::dynamics::sector::Units;
 
-/// All designs of a campaign and what they say together, as far as it has come.
+/// Result of a campaign as far as it has come: all designs, and what they say together.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Campaign {
     /// Speeds of every design, rad/s.
     pub speeds_rad_s: Vec<f64>,
-    /// One per design, in the order of `settings.designs`.
+    /// Outcome of every design, in the order of `settings.designs`.
     pub designs: Vec<CampaignDesign>,
-    /// How much of the variance of the severity each parameter accounts for; of `indices`, once three blocks are complete. Absent where
-    /// nothing varies.
+    /// Share of the variance of the severity that each parameter accounts for; with a design of kind `indices`, once three blocks are complete.
+    /// Absent where nothing varies.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sensitivities: Option<Sensitivities>,
-    /// Where the limit is met with the probability asked for.
+    /// Value of a parameter from which on the limit is met with the probability asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub threshold: Option<CampaignThreshold>,
-    /// How the model that is compared differs.
+    /// Difference between the severities with the model that is compared and with that of the campaign.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub comparison: Option<Comparison>,
-    /// What the designs of `design` were expected to cost; absent before they are queued.
+    /// Expected cost of the designs of `design`; absent before they are queued.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plan: Option<Estimate>,
-    /// What the finished simulations have cost.
+    /// Cost of the finished simulations.
     pub spent: Spent,
     /// Units of the model.
     pub units: Units,
@@ -38,176 +38,181 @@ pub struct Campaign {
     pub version: String,
 }
 
-/// One design.
+/// One design of a campaign and its outcome.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct CampaignDesign {
     /// Index of the design.
     pub index: u32,
-    /// The values of its parameters.
+    /// Values of the parameters in this design.
     pub values: Vec<f64>,
-    /// What the speeds of the model say of it.
+    /// Outcome of the design with the model of the campaign.
     #[serde(flatten)]
     pub outcome: DesignOutcome,
-    /// The same of the model that is compared.
+    /// Outcome of the design with the model that is compared.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub compared: Option<DesignOutcome>,
 }
 
-/// What the speeds of a design say, with one model.
+/// Outcome of a design over its speeds, with one model.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct DesignOutcome {
-    /// Speeds that are finished, however they ended.
+    /// Number of speeds that are finished, however they ended.
     pub finished: u32,
-    /// Those of them that diverged.
+    /// Number of finished speeds that diverged.
     pub diverged: u32,
-    /// Those of them that could not be integrated.
+    /// Number of finished speeds that could not be integrated.
     pub failed: u32,
-    /// Those of them that had not settled at the end of their revolutions, so that nobody knows what they would come to.
+    /// Number of finished speeds whose motion had not settled at the end of their revolutions, so that its final level is unknown.
     #[serde(default)]
     pub not_settled: u32,
-    /// Why one of those that failed did.
+    /// Reason for which one of the failed speeds failed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub message: Option<String>,
     /// Severity by speed; null where it is not known.
     pub by_speed: Vec<Option<f64>>,
-    /// The largest of them, once all are known.
+    /// Largest severity of all speeds, once the severity of every speed is known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub severity: Option<f64>,
-    /// The speed where it is, rad/s.
+    /// Speed of the largest severity, rad/s.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub worst_speed_rad_s: Option<f64>,
-    /// Whether it meets the limit, as soon as that is known: not if it is exceeded at one speed, or one diverged.
+    /// Whether the design meets the limit, as soon as that is known: it does not if the limit is exceeded at one speed, or one speed diverged.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub meets_limit: Option<bool>,
 }
 
-/// How much of the variance of the severity each parameter accounts for.
+/// Share of the variance of the severity that each parameter accounts for.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Sensitivities {
     /// Mean of the severity.
     pub mean: f64,
-    /// Its variance.
+    /// Variance of the severity.
     pub variance: f64,
-    /// Blocks of designs that they rest on: those of which every severity is known.
+    /// Number of blocks of designs that the indices rest on: those of which every severity is known.
     pub blocks: u32,
-    /// One per parameter.
+    /// Indices of every parameter.
     pub parameters: Vec<ParameterSensitivity>,
 }
 
-/// Sobol's indices of one parameter with their standard errors, from the jackknife over blocks. The errors take blocks for independent; with
-/// Sobol points they tend to be smaller. Estimates may be a little below 0 or above 1.
+/// Sobol's indices of one parameter with their standard errors, from the jackknife over blocks. The errors assume independent blocks; with Sobol
+/// points they tend to be smaller. Estimates may be a little below 0 or above 1.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct ParameterSensitivity {
-    /// Its name.
+    /// Name of the parameter.
     pub parameter: String,
-    /// Share of the variance that would be gone, on average, if the parameter were known.
+    /// First-order index: share of the variance that would vanish, on average, if the parameter were known.
     pub first_order: f64,
-    /// Its standard error.
+    /// Standard error of `first_order`.
     pub first_order_error: f64,
-    /// Share that would be left, on average, if all others were known: it alone and with others.
+    /// Total index: share of the variance that would remain, on average, if all other parameters were known: what this one does alone and with
+    /// others.
     pub total: f64,
-    /// Its standard error.
+    /// Standard error of `total`.
     pub total_error: f64,
 }
 
-/// Where a parameter meets the limit with a probability, whatever the others are.
+/// Value of a parameter from which on the limit is met with a probability, whatever the other parameters are.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct CampaignThreshold {
-    /// The parameter.
+    /// Name of the parameter.
     pub parameter: String,
-    /// The probability.
+    /// Probability with which the limit is met.
     pub probability: f64,
-    /// The value of the parameter; absent where designs tell none.
+    /// Value of the parameter at which the limit is met with `probability`; absent where the designs do not determine it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub value: Option<f64>,
-    /// The true value is no less than this, with a confidence of 95 % both ways; absent where nothing bounds it.
+    /// Lower end of the interval in which the true value lies with a confidence of 95 %, two-sided; absent where the designs do not bound it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub from: Option<f64>,
-    /// Nor more than this.
+    /// Upper end of the interval in which the true value lies with a confidence of 95 %, two-sided; absent where the designs do not bound it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub to: Option<f64>,
-    /// Mean of the thresholds of single designs, at which half of them meet the limit; absent where they lie apart.
+    /// Mean of the thresholds of single designs, at which half of the designs meet the limit; absent where the designs that meet it and those that do
+    /// not lie apart.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mean: Option<f64>,
-    /// Their standard deviation.
+    /// Standard deviation of the thresholds of single designs.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub standard_deviation: Option<f64>,
-    /// Whether the value is known as well as was asked for, if that was.
+    /// Whether `value` is known as well as was asked for; absent if nothing was asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub met_within: Option<bool>,
-    /// Designs of which it is known whether they meet the limit.
+    /// Number of designs of which it is known whether they meet the limit.
     pub decided: u32,
-    /// Of up to ten groups of neighbouring designs how many meet the limit, ascending in the parameter.
+    /// Shares of the designs that meet the limit, in up to ten groups of neighbouring designs, ascending in the parameter.
     pub shares: Vec<ThresholdShare>,
-    /// What it is, in words.
+    /// Threshold in words.
     pub message: String,
 }
 
-/// Neighbouring designs and how many of them meet the limit.
+/// Group of designs with neighbouring values of a parameter, and how many of them meet the limit.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct ThresholdShare {
-    /// Smallest value of the parameter.
+    /// Smallest value of the parameter in the group.
     pub from: f64,
-    /// Largest value.
+    /// Largest value of the parameter in the group.
     pub to: f64,
-    /// So many designs.
+    /// Number of designs in the group.
     pub designs: u32,
-    /// So many of them meet the limit.
+    /// Number of designs in the group that meet the limit.
     pub met: u32,
-    /// Share that the fitted curve expects to; absent where there is none.
+    /// Share of the group that meets the limit by the fitted curve; absent without a curve.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub expected: Option<f64>,
 }
 
-/// How another model differs from that of the campaign: its severity less that of the campaign's model, design by design. Designs that lean on
-/// others, those added for a threshold and the mixed ones of `indices`, are left out.
+/// Difference between another model and that of the campaign: severity with the other model less severity with the campaign's, design by design.
+/// Designs that depend on others, those added for a threshold and the mixed ones of `indices`, are left out.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Comparison {
     /// Id of the model that is compared.
     pub model: String,
-    /// The difference of the severities, the largest of all speeds each; absent until those of a design are known with both models.
+    /// Difference of the severities, the largest of all speeds each; absent until those of a design are known with both models.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub severity: Option<Difference>,
-    /// The same at every speed; null where no design is known with both.
+    /// Difference of the severities at every speed; null where no design is known with both models.
     pub by_speed: Vec<Option<Difference>>,
-    /// Designs of which it is known with both models whether they meet the limit.
+    /// Numbers of designs that meet the limit with both models, one or neither, of those for which that is known with both.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub limit: Option<LimitsMet>,
     /// Sensitivities with the model that is compared.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sensitivities: Option<Sensitivities>,
-    /// Where the limit is met with it.
+    /// Threshold with the model that is compared.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub threshold: Option<CampaignThreshold>,
-    /// What it comes to, in words.
+    /// Comparison in words.
     pub message: String,
 }
 
-/// Differences of pairs, and whether they are larger than their errors.
+/// Mean difference of the pairs of severities of two models, and whether it is larger than its errors.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Difference {
-    /// Designs that are known with both models.
+    /// Number of designs that are known with both models.
     pub pairs: u32,
     /// Mean of the differences.
     pub mean: f64,
-    /// Its standard error; of one pair there is none.
+    /// Standard error of the mean difference; absent for a single pair.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub standard_error: Option<f64>,
-    /// The mean over all designs that could have been drawn is no less than this, with a confidence of 95 % both ways (Student's t).
+    /// Lower end of the interval in which the mean over all designs that could have been drawn lies with a confidence of 95 %, two-sided (Student's
+    /// t).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub from: Option<f64>,
-    /// Nor more than this.
+    /// Upper end of the interval in which the mean over all designs that could have been drawn lies with a confidence of 95 %, two-sided (Student's
+    /// t).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub to: Option<f64>,
-    /// What severities are known to at best: `settled_to` of their mean, of both models together. No smaller difference is told from none.
+    /// Best accuracy to which severities are known: `settled_to` of their mean, of both models together. A smaller difference cannot be distinguished
+    /// from none.
     pub resolution: f64,
     /// Whether the difference is larger than its errors.
     pub verdict: DifferenceVerdict,
@@ -220,44 +225,44 @@ pub struct Difference {
 pub enum DifferenceVerdict {
     /// The model that is compared is more severe.
     Greater,
-    /// It is less severe.
+    /// The model that is compared is less severe.
     Smaller,
-    /// The interval reaches to within the resolution of 0, or there is none.
+    /// No difference is shown: the interval reaches to within the resolution of 0, or there is no interval.
     Undecided,
 }
 
-/// How many designs meet the limit with which model.
+/// Numbers of designs that meet the limit, by the model with which they meet it.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct LimitsMet {
-    /// With both.
+    /// Number of designs that meet the limit with both models.
     pub both: u32,
-    /// Only with the model of the campaign.
+    /// Number of designs that meet the limit only with the model of the campaign.
     pub only_model: u32,
-    /// Only with the model that is compared.
+    /// Number of designs that meet the limit only with the model that is compared.
     pub only_compared: u32,
-    /// With neither.
+    /// Number of designs that meet the limit with neither model.
     pub neither: u32,
 }
 
-/// What a campaign will do and cost.
+/// Plan of a campaign: what it will simulate, and the cost of it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct CampaignPlan {
-    /// Designs of `design`.
+    /// Number of designs of `design`.
     pub designs: u32,
-    /// Designs there are at most, with those that are added to decide on a threshold.
+    /// Largest number of designs, with those that are added to decide on a threshold.
     pub designs_at_most: u32,
-    /// Simulations of `designs`: one for every design, model and speed.
+    /// Number of simulations of `designs`: one for every design, model and speed.
     pub simulations: u32,
-    /// Whether the reduction that all rest on is there.
+    /// Whether the reduction that all simulations rest on is stored.
     pub reduction: ReductionState,
-    /// Cost of `simulations`, each as dear as that of the scene before anything is changed; absent until all reductions are stored.
+    /// Cost of `simulations`, each as expensive as that of the scene before anything is changed; absent until all reductions are stored.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub estimate: Option<Estimate>,
-    /// The plan of that scene.
+    /// Plan of the scene before anything is changed.
     pub scene: SweepPlan,
-    /// Its plan with the model that is compared.
+    /// Plan of the scene before anything is changed, with the model that is compared.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub compared: Option<SweepPlan>,
     /// The whole request as resolved, with the values of all designs.
@@ -265,20 +270,21 @@ pub struct CampaignPlan {
 }
 
 impl DesignOutcome {
-    /// Whether all its speeds are finished and known. Of others only that they exceed a limit can be known, so that those would count that do.
+    /// Whether all speeds of the design are finished and known. Of other designs it can only be known that they exceed the limit: counting them would
+    /// favour designs that do.
     pub(crate) fn is_complete(&self) -> bool {
         self.finished as usize == self.by_speed.len() && self.failed + self.not_settled == 0
     }
 }
 
 impl Campaign {
-    /// What the model that is compared says of all designs; nothing where there is none.
+    /// Outcomes of all designs with the model that is compared; empty where no model is compared.
     pub fn compared(&self) -> Vec<&DesignOutcome> {
         self.designs.iter().filter_map(|design| design.compared.as_ref()).collect()
     }
 
-    /// The map of a parameter over speed: its values in ascending order, each with the largest severity by speed of the designs that have
-    /// it. None of a speed where nothing is known.
+    /// Map of a parameter over speed: its values in ascending order, each with the largest severity by speed of the designs that have it. None at a
+    /// speed where nothing is known.
     pub fn map(&self, parameter: usize) -> Vec<(f64, Vec<Option<f64>>)> {
         let value = |design: &&CampaignDesign| design.values.get(parameter).copied().unwrap_or(f64::NAN);
         let mut designs: Vec<&CampaignDesign> = self.designs.iter().collect();
@@ -294,13 +300,13 @@ impl Campaign {
     }
 }
 
-/// The column of severities in tables: what they are and in what unit.
+/// Name of the column of severities in tables: which severity, and in which unit.
 pub fn severity_column(severity: Severity, units: &Units) -> String {
     let unit = severity_unit(severity, units);
     if unit.is_empty() { severity.as_str().to_owned() } else { format!("{}_{unit}", severity.as_str()) }
 }
 
-/// What a severity is measured in, of a model with these units; empty for a ratio.
+/// Unit of a severity, for a model with these units; empty for a ratio.
 pub fn severity_unit(severity: Severity, units: &Units) -> String {
     match severity {
         Severity::Amplitude | Severity::Tip | Severity::Wear => units.length.clone(),

@@ -12,32 +12,32 @@ use rubmap_wheel::response::waves::{Table, Wave};
 pub struct Campbell {
     /// Speeds, rad/s.
     pub speeds_rad_s: Vec<f64>,
-    /// `[speed][nodal diameter][family]`: natural frequencies in the rotating frame without Coriolis forces, Hz. A family is the rank of
-    /// a frequency at its speed, in ascending order: modes that cross swap their families there.
+    /// Natural frequencies in the rotating frame without Coriolis forces, `[speed][nodal diameter][family]`, Hz. A family is the rank of a frequency
+    /// at its speed, in ascending order: modes that cross swap their families there.
     pub frequencies_hz: Vec<Vec<Vec<f64>>>,
-    /// Those with Coriolis forces, if asked for.
+    /// Natural frequencies with Coriolis forces, if asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub waves: Option<WaveTables>,
-    /// `[superharmonic][speed][nodal diameter][family]`: |−f + i·n·Ω/2π| in the absolute frame, Hz (Eq. 11); with Coriolis
-    /// forces f is the backward wave's.
+    /// Frequencies |−f + i·n·Ω/2π| in the absolute frame, `[superharmonic][speed][nodal diameter][family]`, Hz (Eq. 11); with Coriolis forces f is
+    /// the backward wave's.
     pub absolute_frequencies_hz: Vec<AbsoluteFrequencies>,
-    /// The linear criterion's critical speeds within the range.
+    /// Critical speeds of the linear criterion within the range.
     pub crossings: Vec<Crossing>,
-    /// Those crossings that the lobes can drive.
+    /// Crossings that the lobes can drive.
     pub driven_crossings: Vec<DrivenCrossing>,
-    /// What the reduction found about the model.
+    /// Report of the reduction: what it found about the model.
     pub reduction: ReductionReport,
     /// The whole request as resolved.
     pub settings: crate::request::ModalAnalysisRequest,
-    /// Wall time, s.
+    /// Wall time of the analysis, s.
     pub wall_time_s: f64,
     /// Version of the code.
     pub version: String,
 }
 
 impl Campbell {
-    /// Natural frequencies as they are met, `[speed][nodal diameter][family]`: of waves of either direction where Coriolis
-    /// forces split them, otherwise one table.
+    /// Tables of natural frequencies, `[speed][nodal diameter][family]`: one for each direction of travel where Coriolis forces split them, otherwise
+    /// a single one.
     pub fn branches(&self) -> Vec<(Option<Wave>, &Table)> {
         match &self.waves {
             None => vec![(None, &self.frequencies_hz)],
@@ -53,9 +53,9 @@ impl Campbell {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct WaveTables {
-    /// Of waves that travel with the rotation.
+    /// Frequencies of waves that travel with the rotation, Hz.
     pub forward_hz: Vec<Vec<Vec<f64>>>,
-    /// Of waves that travel against it.
+    /// Frequencies of waves that travel against the rotation, Hz.
     pub backward_hz: Vec<Vec<Vec<f64>>>,
 }
 
@@ -63,8 +63,8 @@ pub struct WaveTables {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct AbsoluteFrequencies {
-    /// n in |−f + i·n·Ω/2π|.
+    /// Superharmonic number n in |−f + i·n·Ω/2π|.
     pub superharmonic: u32,
-    /// `[speed][nodal diameter][family]`, Hz.
+    /// Frequencies in the absolute frame, `[speed][nodal diameter][family]`, Hz.
     pub frequencies_hz: Vec<Vec<Vec<f64>>>,
 }

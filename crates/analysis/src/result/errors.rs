@@ -1,4 +1,4 @@
-//! How far runs are from finer ones.
+//! Errors of runs against finer ones.
 
 use serde::{Deserialize, Serialize};
 
@@ -9,30 +9,29 @@ use crate::result::steady::SteadyReport;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Errors {
-    /// Displacement over the first revolutions: root mean square of the difference over that of the displacement, all sensors
-    /// together. Absent where no history was kept.
+    /// Error of the displacement over the first revolutions: root mean square of the difference over that of the displacement, all sensors together.
+    /// Absent where no history was stored.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub history: Option<f64>,
-    /// Steady amplitude: the largest difference of a sensor's root mean square over the window, relative to the largest
-    /// sensor's.
+    /// Error of the steady amplitude: the largest difference of a sensor's root mean square over the window, relative to the largest sensor's.
     pub amplitude: f64,
     /// Standard error of `amplitude` where the response does not repeat: its level varies from part to part of the window.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub amplitude_spread: Option<f64>,
-    /// Peaks at integer engine orders: the largest root sum of squares over a sensor's differences, relative to the largest
-    /// sensor's peaks. Absent where a response does not repeat.
+    /// Error of the peaks at integer engine orders: the largest root sum of squares over a sensor's differences, relative to the largest sensor's
+    /// peaks. Absent where a response does not repeat.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub engine_orders: Option<f64>,
-    /// Contact impulse over the whole run; over the window where a run ended by itself or was solved for. Absent where there is none.
+    /// Error of the contact impulse over the whole run; over the window where a run ended by itself or was solved for. Absent without impulse.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub impulse: Option<f64>,
-    /// Largest von Mises stress; absent where none was recorded. It converges more slowly with the modes than displacement.
+    /// Error of the largest von Mises stress; absent where none was recorded. It converges more slowly with the modes than displacement.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stress: Option<f64>,
 }
 
 impl Errors {
-    /// The error of one quantity, if it is there.
+    /// Error of one quantity, if it is known.
     pub fn of(&self, quantity: Quantity) -> Option<f64> {
         match quantity {
             Quantity::History => self.history,
@@ -43,7 +42,7 @@ impl Errors {
         }
     }
 
-    /// What a run is judged by on a Pareto front: the error of one quantity, but no less than chance lets it be known.
+    /// Error by which a run is judged on a Pareto front: that of one quantity, but no less than its standard error, if it has one.
     pub fn judged(&self, quantity: Quantity) -> Option<f64> {
         let error = self.of(quantity)?;
         Some(match quantity {
@@ -53,7 +52,7 @@ impl Errors {
     }
 }
 
-/// A quantity of interest.
+/// Quantity of interest, of which an error is reported.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
@@ -71,11 +70,11 @@ pub enum Quantity {
 }
 
 impl Quantity {
-    /// All of them.
+    /// All quantities.
     pub const ALL: [Self; 5] =
         [Self::History, Self::Amplitude, Self::EngineOrders, Self::Impulse, Self::Stress];
 
-    /// The word on the wire.
+    /// Name of the quantity on the wire.
     pub fn as_str(self) -> &'static str {
         match self {
             Self::History => "history",
@@ -91,54 +90,54 @@ impl Quantity {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct ErrorEstimate {
-    /// The speeds that were simulated again: half of them at the most prominent peaks of the response, the others evenly spread.
+    /// Speeds that were simulated again: half of them at the most prominent peaks of the response, the others evenly spread.
     pub controls: Vec<Control>,
-    /// One per completed speed, in the order of the request, unless a control run at or beside it ended early.
+    /// Estimated errors, one per completed speed, in the order of the request, unless a control run at or beside the speed ended early.
     pub points: Vec<PointError>,
-    /// The largest of them; absent where there are none.
+    /// Largest estimated error of `points`; absent where there are none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub largest: Option<f64>,
-    /// The largest `estimated_stress_error`; absent where there are none.
+    /// Largest `estimated_stress_error` of `points`; absent where there are none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub largest_of_stress: Option<f64>,
     /// Whether all completed speeds are known to be within the accuracy that was asked for, if one was; absent where the modes could
     /// not be refined.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub target_met: Option<bool>,
-    /// What these numbers are, in words.
+    /// Meaning of the estimates, in words.
     pub message: String,
 }
 
 impl ErrorEstimate {
-    /// The estimated error of speed `index`, if there is one.
+    /// Estimated error of speed `index`, if there is one.
     pub fn of(&self, index: u32) -> Option<f64> {
         self.points.iter().find(|point| point.index == index).map(|point| point.estimated_error)
     }
 }
 
-/// A speed that was simulated again.
+/// A speed that was simulated again at a finer setting.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Control {
     /// Index of the speed in the request.
     pub index: u32,
-    /// Ω, rad/s.
+    /// Rotational speed Ω, rad/s.
     pub speed_rad_s: f64,
-    /// The finer setting.
+    /// Finer setting of the control run.
     pub setting: Setting,
     /// The periodic response of the finer run; absent unless the request's `integration.steady` asks for it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub steady: Option<SteadyReport>,
-    /// Differences between the two; absent where the finer run was not completed.
+    /// Differences between the run and the finer one; absent where the finer run was not completed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub differences: Option<Errors>,
     /// Estimated relative error of the steady response.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub estimated_error: Option<f64>,
-    /// The same of the largest von Mises stress; absent where it was not recorded.
+    /// Estimated relative error of the largest von Mises stress; absent where it was not recorded.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub estimated_stress_error: Option<f64>,
-    /// Why the finer run was not completed.
+    /// Reason for which the finer run was not completed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub message: Option<String>,
 }
@@ -151,10 +150,9 @@ pub struct PointError {
     pub index: u32,
     /// Relative error of the steady response.
     pub estimated_error: f64,
-    /// Relative error of the largest von Mises stress; absent where it was not recorded, or no control run tells it.
+    /// Relative error of the largest von Mises stress; absent where it was not recorded, or no control run gives it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub estimated_stress_error: Option<f64>,
-    /// Whether this speed was simulated again itself; otherwise the numbers are the larger ones of the nearest that were on
-    /// either side.
+    /// Whether this speed was simulated again itself; otherwise its errors are the larger ones of the nearest speeds on either side that were.
     pub controlled: bool,
 }

@@ -1,4 +1,4 @@
-//! Where the nodes of a sector are: what its sections are drawn from.
+//! Positions of the nodes of a sector, from which its sections are drawn.
 
 use serde::{Deserialize, Serialize};
 
@@ -14,9 +14,9 @@ pub struct SectorGeometry {
     pub sectors: u32,
     /// Units of the model.
     pub units: Units,
-    /// All nodes, those of the contact line too, in no particular order.
+    /// Nodes of the sector, those of the contact line among them, in no particular order.
     pub nodes: Vec<SectorNode>,
-    /// The contact line from the leading to the trailing edge.
+    /// Contact line, from the leading to the trailing edge.
     pub contact: Vec<ContactPlace>,
 }
 
@@ -26,26 +26,26 @@ pub struct SectorGeometry {
 pub struct SectorNode {
     /// Node id in the user's model.
     pub id: u64,
-    /// What it is to the sector.
+    /// Part of the sector that the node belongs to.
     pub kind: NodeKind,
-    /// `[r, θ, z]`: radius, angle in rad, axial coordinate.
+    /// Position `[r, θ, z]`: radius, angle in rad, axial coordinate.
     pub position: [f64; 3],
 }
 
-/// What a node is to its sector.
+/// Part of its sector that a node belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum NodeKind {
-    /// Inside, or on a free surface.
+    /// Node inside the sector, or on a free surface.
     Internal,
-    /// On the low cyclic face.
+    /// Node on the low cyclic face.
     Low,
-    /// On the high cyclic face, where the next sector begins.
+    /// Node on the high cyclic face, where the next sector begins.
     High,
-    /// On the contact line.
+    /// Node on the contact line.
     Contact,
-    /// Held: all its displacements are zero.
+    /// Clamped node: all its displacements are zero.
     Clamped,
 }
 
@@ -55,15 +55,15 @@ pub enum NodeKind {
 pub struct ContactPlace {
     /// Node id in the user's model.
     pub id: u64,
-    /// `[r, θ, z]`: radius, angle in rad, axial coordinate.
+    /// Position `[r, θ, z]`: radius, angle in rad, axial coordinate.
     pub position: [f64; 3],
     /// Unit normal out of the blade into the casing, (r, θ, z) components.
     pub normal: [f64; 3],
-    /// Distance of the casing along the normal at rest, length; absent where no scene says it.
+    /// Distance of the casing along the normal at rest, length; absent where no scene gives it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub clearance: Option<f64>,
-    /// How far the casing stands inward of its clearance before the node, at 720 equal angles of the fixed frame from the package's x axis
-    /// on; absent of a circular casing.
+    /// Height of the casing inward of its clearance before the node, length, at 720 equal angles of the fixed frame from the package's x axis on;
+    /// absent for a circular casing.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub heights: Vec<f64>,
 }

@@ -1,4 +1,4 @@
-//! What happened at one speed, sample by sample.
+//! Histories of one speed, sample by sample.
 
 use serde::{Deserialize, Serialize};
 
@@ -7,25 +7,25 @@ use crate::result::point::Point;
 use rubmap_wheel::dynamics::sector::Units;
 use rubmap_wheel::dynamics::states::WheelStates;
 
-/// Histories of one speed over chosen revolutions, as downloaded. Sample j = 0, 1, … is at `revolutions[0]` + (j + 1) /
-/// `samples_per_revolution` revolutions after the start. What was not asked for is empty or absent.
+/// Histories of one speed over chosen revolutions, as downloaded. Sample j = 0, 1, … is at `revolutions[0]` + (j + 1) / `samples_per_revolution`
+/// revolutions after the start. Histories that were not asked for are empty or absent.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct SpeedHistories {
     /// Index of the speed in the request.
     pub index: u32,
-    /// Ω, rad/s.
+    /// Rotational speed Ω, rad/s.
     pub speed_rad_s: f64,
     /// Samples per revolution.
     pub samples_per_revolution: u32,
     /// Whole revolutions after which recording begins and ends.
     pub revolutions: [u32; 2],
-    /// One per sensor, in the order of the request.
+    /// Histories of the sensors, in the order of the request.
     pub sensors: Vec<SensorHistory>,
-    /// Contact; absent where nothing may touch.
+    /// History of the contact; absent where nothing may touch.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub contact: Option<ContactHistory>,
-    /// Energy of the whole wheel.
+    /// History of the energy of the whole wheel.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub energy: Option<EnergyHistory>,
     /// Credentials of the run.
@@ -36,19 +36,19 @@ pub struct SpeedHistories {
     pub settings: SweepRequest,
     /// Version of the code.
     pub version: String,
-    /// Where the whole wheel was, if that was asked for; kept apart from the rest.
+    /// States of the whole wheel, if they were asked for; stored apart from the rest.
     #[serde(skip)]
     pub states: Option<Box<WheelStates>>,
 }
 
-/// One sensor, `[sample]`.
+/// History of one sensor, `[sample]`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct SensorHistory {
-    /// The sensor.
+    /// Sensor that was recorded.
     pub sensor: Sensor,
-    /// Where its node meets the casing; absent of a node that is not on the contact line, of a sensor that does not measure along its
-    /// outward normal, and without a casing.
+    /// Place where the sensor's node meets the casing; absent for a node that is not on the contact line, for a sensor that does not measure along
+    /// its outward normal, and without a casing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tip: Option<TipPlace>,
     /// Displacement, length.
@@ -59,16 +59,16 @@ pub struct SensorHistory {
     pub velocity: Vec<f64>,
 }
 
-/// Where a node of the contact line stands before the casing.
+/// Place of a node of the contact line before the casing.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct TipPlace {
-    /// Angle of the node from the package's x axis at the start of a revolution, rad: its own, and that of its sector.
+    /// Angle of the node from the package's x axis at the start of a revolution, rad: its own angle and that of its sector together.
     pub angle_rad: f64,
-    /// Clearance of the node at this speed, length; of a scene whose clearances change, as they are at last.
+    /// Clearance of the node at this speed, length; where the scene changes its clearances, the last one.
     pub clearance: f64,
-    /// How far the fully grown casing stands inward of its clearance before the node, at 720 equal angles of the fixed frame from the
-    /// package's x axis on; absent of a circular casing.
+    /// Height of the fully grown casing inward of its clearance before the node, length, at 720 equal angles of the fixed frame from the package's x
+    /// axis on; absent for a circular casing.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub heights: Vec<f64>,
 }
@@ -78,40 +78,40 @@ pub struct TipPlace {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct ContactHistory {
-    /// `[sector][contact node][sample]`: force. Where the scene repeats around the wheel, the sectors of one part.
+    /// Contact force, `[sector][contact node][sample]`. Where the scene repeats around the wheel, the sectors of one part.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub force: Vec<Vec<Vec<f64>>>,
-    /// `[sample]`: contact nodes of the wheel that touch.
+    /// Number of contact nodes of the wheel that touch, `[sample]`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub nodes_in_contact: Vec<f64>,
-    /// `[sample]`: length of the contact lines of all blades that touches: every node stands for half the way to its neighbours.
+    /// Length of the contact lines of all blades that touches, `[sample]`: every node stands for half the way to its neighbours.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub contact_length: Vec<f64>,
 }
 
-/// Energy and where it came from and went since the start of the run, `[sample]`, force·length: mechanical = initial + all works − all
-/// losses. Effects that the scene does not name are empty.
+/// Energy balance since the start of the run, `[sample]`, force·length: mechanical = initial + all works − all losses. Lists of effects that the
+/// scene does not name are empty.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct EnergyHistory {
     /// Mechanical energy at the start of the run, of wheel and elastic casing.
     pub initial: f64,
-    /// The same at the samples.
+    /// Mechanical energy at the samples, of wheel and elastic casing.
     pub mechanical: Vec<f64>,
     /// Work of the contact forces on the wheel.
     pub contact_work: Vec<f64>,
-    /// Lost to modal damping, and to modes that follow statically.
+    /// Energy lost to modal damping, and to modes that respond quasi-statically.
     pub damping_loss: Vec<f64>,
     /// Work of the forces at engine orders.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub excitation_work: Vec<f64>,
-    /// Minus the change of the energy that the stiffness deviations store.
+    /// Work of mistuning: minus the change of the energy that the stiffness deviations store.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub mistuning_work: Vec<f64>,
     /// Work of the contact forces on the elastic casing.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub casing_work: Vec<f64>,
-    /// Lost in the casing's damping.
+    /// Energy lost in the casing's damping.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub casing_loss: Vec<f64>,
     /// Heat of friction; its work on the vibration is part of the work of contact.

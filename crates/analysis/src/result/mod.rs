@@ -1,4 +1,4 @@
-//! What computations return: numbers with their credentials.
+//! Results of computations: numbers with their credentials.
 
 pub mod branches;
 pub mod campaign;

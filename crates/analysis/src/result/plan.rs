@@ -1,4 +1,4 @@
-//! What a job will do and cost.
+//! Plans: what jobs will do and cost.
 
 use serde::{Deserialize, Serialize};
 
@@ -8,7 +8,7 @@ use crate::request::{BranchesSettings, ModalAnalysisRequest, SweepRequest};
 use crate::result::choice::{Choice, ModesChoice};
 use crate::result::point::{Point, SchemeReport};
 
-/// What a sweep will do and cost.
+/// Plan of a sweep: what it will do and cost.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct SweepPlan {
@@ -16,51 +16,50 @@ pub struct SweepPlan {
     pub effects: Vec<PlannedEffect>,
     /// Symmetry of the scene.
     pub symmetry: FoundSymmetry,
-    /// The shape of its casing; absent without a casing and of a circular one.
+    /// Shape of the scene's casing; absent without a casing and for a circular one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub casing_shape: Option<FoundShape>,
     /// Pairs of contact node and casing: all contact nodes of all simulated sectors where the scene has contact, otherwise none. A
     /// node whose clearance is too large ever to be closed counts too; it costs its gap in every step.
     pub contact_pairs: u64,
-    /// Whether the reduction that the sweep rests on is there. While it is not, `points` and `estimate` are left out.
+    /// Whether the reduction that the sweep rests on is stored. While it is not, `points` and `estimate` are left out.
     pub reduction: ReductionState,
-    /// The whole reduced wheel has at most so many real unknowns: its own number if the reduction is stored, otherwise N(n_b +
-    /// speeds·k), of which nearly dependent directions will be dropped.
+    /// Largest number of real unknowns of the whole reduced wheel: the exact number if the reduction is stored, otherwise N(n_b + speeds·k), of which
+    /// nearly dependent directions will be dropped.
     pub reduced_unknowns_at_most: u64,
-    /// The basis of a reduction that has still to be computed takes at most so many bytes of disk, as long as the model is there:
-    /// rows of 16 bytes an unknown, one for every DOF and nodal diameter. Absent where the reduction is stored, and where
-    /// `fields` is false.
+    /// Largest size of the basis of a reduction that has still to be computed, bytes of disk as long as the model is there: rows of 16 bytes an
+    /// unknown, one for every DOF and nodal diameter. Absent where the reduction is stored, and where `fields` is false.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub basis_bytes_at_most: Option<u64>,
-    /// Stress in the coordinates of the reduction takes about so many bytes of disk, as long as the model is there, and of memory while
-    /// speeds run; of a sweep that records stress.
+    /// Approximate size of stress in the coordinates of the reduction, bytes of disk as long as the model is there, and of memory while speeds run;
+    /// only for a sweep that records stress.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stress_bytes: Option<u64>,
-    /// Where those sensors stand that name a node or a point.
+    /// Positions of those sensors that name a node or a point.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub placed_sensors: Vec<PlacedSensor>,
-    /// Speeds to simulate, those of the request.
+    /// Number of speeds to simulate, those of the request.
     pub speeds: u32,
-    /// Threads that compute speeds side by side, on all machines; one where each starts from the end of another.
+    /// Threads that compute speeds side by side, on all machines; one where each speed starts from the end of another.
     pub workers: u32,
-    /// The machine whose steps were measured for the times below.
+    /// Machine whose steps were measured for the times of this plan.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub machine: Option<Machine>,
-    /// Every speed if there are no more than three, otherwise the slowest, the middle and the fastest one; of wheels with
-    /// large eigenproblems the slowest alone, which usually takes most steps.
+    /// Planned speeds: every speed if there are no more than three, otherwise the slowest, the middle and the fastest one; of wheels with large
+    /// eigenproblems the slowest alone, which usually takes most steps.
     pub points: Vec<PlannedPoint>,
     /// Cost of all speeds together; absent where none of `points` can be integrated.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub estimate: Option<Estimate>,
-    /// The setting that pilot runs of earlier jobs choose for the accuracy or the budget asked for; `points` and `estimate` are for it.
-    /// A budget has them for nothing; a job that still has to run them has less of it left.
+    /// Setting that pilot runs of earlier jobs choose for the accuracy or the budget asked for; `points` and `estimate` are for it. Pilot runs that
+    /// are stored cost nothing of a budget; a job that still has to run them has less of it left.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub choice: Option<Choice>,
-    /// Speeds of the pilot runs that the job begins with, rad/s; absent where none are missing. Choosing may take
-    /// `settings.accuracy.seconds`; a budget is for all of the job.
+    /// Speeds of the pilot runs that the job begins with, rad/s; absent where none are missing. Choosing may take `settings.accuracy.seconds`; a
+    /// budget is for the whole job.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pilot_speeds_rad_s: Option<Vec<f64>>,
-    /// What its numbers will not be worth: a K(Ω) that cannot be trusted between the speeds at which the stiffness is given.
+    /// Warnings about numbers that cannot be relied on: a K(Ω) that cannot be trusted between the speeds at which the stiffness is given.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub warnings: Vec<String>,
     /// The whole request as resolved, with the setting chosen in place of what was asked for.
@@ -73,39 +72,40 @@ pub struct SweepPlan {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Machine {
-    /// Its name.
+    /// Name of the machine.
     pub name: String,
-    /// Its processor, as the system calls it.
+    /// Processor of the machine, as the system calls it.
     pub processor: String,
     /// Processors that the system gives to the program.
     pub processors: u32,
-    /// Kind of vectors of the processor.
+    /// Kind of vector instructions of the processor: another kind may round differently.
     pub vectors: String,
 }
 
-/// Where a sensor stands.
+/// Position of a sensor.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct PlacedSensor {
     /// Index of the sensor in the request.
     pub sensor: u32,
-    /// Id of its node; of a gauge the first of two.
+    /// Id of the sensor's node; for a gauge, the first of two.
     pub node: u64,
     /// Position of the node, x, y, z as in the package.
     pub position: [f64; 3],
-    /// Its place among the contact nodes, if it is one.
+    /// Index of the node among the contact nodes, if it is one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub contact_node: Option<u32>,
-    /// Distance from the point that the request names, if it does; of a gauge the larger one of its ends from where they should be.
+    /// Distance of the node from the point that the request names, if it names one; for a gauge, the larger distance of its two ends from where they
+    /// should be.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub distance: Option<f64>,
-    /// Of a gauge: its other node.
+    /// Second node of a gauge.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub end: Option<GaugeEnd>,
-    /// Of a gauge at a place: the angle between it and the direction asked for, in degrees; at most 20.
+    /// Angle between the gauge and the direction asked for, in degrees, at most 20; for a gauge that was asked for at a point.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub angle_deg: Option<f64>,
-    /// Of a gauge at a place: the length asked for, in the model's unit of length; that of the gauge is within a quarter of it.
+    /// Length asked for, in the model's unit of length, for a gauge that was asked for at a point; the gauge's own length is within a quarter of it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub asked_length: Option<f64>,
 }
@@ -114,35 +114,35 @@ pub struct PlacedSensor {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct GaugeEnd {
-    /// Its id.
+    /// Id of the gauge's second node.
     pub node: u64,
-    /// Its position, x, y, z as in the package.
+    /// Position of the gauge's second node, x, y, z as in the package.
     pub position: [f64; 3],
-    /// Length of the gauge: the distance of both nodes.
+    /// Length of the gauge: the distance between its nodes.
     pub length: f64,
 }
 
-/// Whether a reduction is there.
+/// Whether a reduction is stored or has to be computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub enum ReductionState {
-    /// Computed before, and kept.
+    /// Reduction computed before, and stored.
     #[serde(rename = "stored")]
     Stored,
-    /// The first task of the job.
+    /// Reduction to be computed, as the first task of the job.
     #[serde(rename = "to be computed")]
     ToBeComputed,
 }
 
-/// What one speed of a sweep will do and cost.
+/// Plan of one speed of a sweep: what it will do and cost.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct PlannedPoint {
     /// Index of the speed in the request.
     pub index: u32,
-    /// Ω in rad/s.
+    /// Rotational speed Ω, rad/s.
     pub speed_rad_s: f64,
-    /// Why this speed cannot be integrated; then all below is absent or 0.
+    /// Reason for which this speed cannot be integrated; all numbers but the speed are then absent or 0.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub message: Option<String>,
     /// Real unknowns that are integrated.
@@ -152,7 +152,7 @@ pub struct PlannedPoint {
     pub scheme: Option<SchemeReport>,
     /// Steps per revolution.
     pub steps_per_revolution: u32,
-    /// Steps of the whole run; at most, where a march ends once it repeats or a periodic response is solved for.
+    /// Steps of the whole run; an upper bound where a march ends once it repeats or a periodic response is solved for.
     pub steps: u64,
     /// Computing time of this speed, s.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -161,13 +161,13 @@ pub struct PlannedPoint {
     pub memory_bytes: u64,
 }
 
-/// A cost that depends on how much contact there will be.
+/// Cost that depends on how much contact there will be.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct CostRange {
-    /// If nothing ever touches; of a march that ends once it repeats, as early as it may.
+    /// Cost if nothing ever touches; for a march that ends once it repeats, if it ends as early as it may.
     pub free: f64,
-    /// If something touches in every step, and no march ends before its limit.
+    /// Cost if something touches in every step, and no march ends before its limit.
     pub contact: f64,
 }
 
@@ -176,7 +176,7 @@ pub struct CostRange {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Estimate {
-    /// Steps over all speeds, counted as those of one are.
+    /// Steps over all speeds, counted as for a single speed.
     pub steps: u64,
     /// Computing time summed over the speeds, s; compare `spent.computing_time_s`.
     pub computing_time_s: CostRange,
@@ -192,7 +192,7 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// With what is computed afterwards, in no more memory and by no more workers.
+    /// Adds the cost of what is computed afterwards, in no more memory and by no more workers.
     pub(crate) fn followed_by(self, later: Self) -> Self {
         let both =
             |a: CostRange, b: CostRange| CostRange { free: a.free + b.free, contact: a.contact + b.contact };
@@ -205,14 +205,13 @@ impl Estimate {
     }
 }
 
-/// What was really spent on the finished speeds of a sweep.
+/// Cost of the finished speeds of a sweep, as measured.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Spent {
-    /// Computing time summed over the speeds, s; compare `plan.computing_time_s`. Speeds that ran side by side took less of the
-    /// clock on the wall.
+    /// Computing time summed over the speeds, s; compare `plan.computing_time_s`. Speeds that ran side by side took less wall time.
     pub computing_time_s: f64,
-    /// Steps taken.
+    /// Steps taken on the finished speeds.
     pub steps: u64,
 }
 
@@ -225,32 +224,32 @@ impl Spent {
     }
 }
 
-/// What a modal analysis will do and cost.
+/// Plan of a modal analysis: what it will do and cost.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct ModalAnalysisPlan {
-    /// The effects that natural frequencies can have.
+    /// Effects that natural frequencies can have.
     pub effects: Vec<PlannedEffect>,
-    /// Whether the reduction that it rests on is there.
+    /// Whether the reduction that the analysis rests on is stored.
     pub reduction: ReductionState,
-    /// The whole reduced wheel has at most so many real unknowns: its own number if the reduction is stored, otherwise N(n_b +
-    /// speeds·k), of which nearly dependent directions will be dropped.
+    /// Largest number of real unknowns of the whole reduced wheel: the exact number if the reduction is stored, otherwise N(n_b + speeds·k), of which
+    /// nearly dependent directions will be dropped.
     pub reduced_unknowns_at_most: u64,
-    /// The basis of a reduction that has still to be computed takes at most so many bytes of disk; see the plan of a sweep.
+    /// Largest size of the basis of a reduction that has still to be computed, bytes of disk; see the plan of a sweep.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub basis_bytes_at_most: Option<u64>,
-    /// Speeds of the diagram.
+    /// Number of speeds of the diagram.
     pub speeds: u32,
-    /// Eigenproblems solved at each of them, one a nodal diameter.
+    /// Eigenproblems solved at each speed, one a nodal diameter.
     pub nodal_diameters: u32,
     /// Computing time of the frequencies, s, from those of one speed; crossings cost a few more. Absent while the reduction is
     /// to be computed or where that speed has none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub computing_time_s: Option<f64>,
-    /// The modes that the stored reductions choose for the accuracy asked for; absent until they do.
+    /// Modes that the stored reductions choose for the accuracy asked for; absent until they do.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub choice: Option<ModesChoice>,
-    /// What its numbers will not be worth: a K(Ω) that cannot be trusted between the speeds at which the stiffness is given.
+    /// Warnings about numbers that cannot be relied on: a K(Ω) that cannot be trusted between the speeds at which the stiffness is given.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub warnings: Vec<String>,
     /// The whole request as resolved, with the modes chosen in place of what was asked for.
@@ -259,7 +258,7 @@ pub struct ModalAnalysisPlan {
     pub version: String,
 }
 
-/// What branches will do and cost.
+/// Plan of branches: what they will do and cost.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct BranchesPlan {
@@ -269,29 +268,30 @@ pub struct BranchesPlan {
     pub symmetry: FoundSymmetry,
     /// Pairs of contact node and casing; see the plan of a sweep.
     pub contact_pairs: u64,
-    /// Whether the reduction that they rest on is there. While it is not, `point` and `estimate` are left out.
+    /// Whether the reduction that the branches rest on is stored. While it is not, `point` and `estimate` are left out.
     pub reduction: ReductionState,
-    /// The whole reduced wheel has at most so many real unknowns; see the plan of a sweep.
+    /// Largest number of real unknowns of the whole reduced wheel; see the plan of a sweep.
     pub reduced_unknowns_at_most: u64,
-    /// The basis of a reduction that has still to be computed takes at most so many bytes of disk; see the plan of a sweep.
+    /// Largest size of the basis of a reduction that has still to be computed, bytes of disk; see the plan of a sweep.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub basis_bytes_at_most: Option<u64>,
-    /// The machine whose steps were measured for the times below.
+    /// Machine whose steps were measured for the times of this plan.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub machine: Option<Machine>,
-    /// Points of the branch through the response at `speed`, if it goes straight to both ends of the range. Where it turns back, and
-    /// where responses change fast, there are more.
+    /// Number of points of the branch through the response at `speed`, if it goes straight to both ends of the range. Where the branch turns back,
+    /// and where responses change fast, there are more.
     pub points_at_least: u32,
-    /// Most points of that branch, of which `most_points` are on either side. Branches of doubled period may have as many again.
+    /// Largest number of points of the branch through the response at `speed`: `most_points` on either side. Branches of doubled period may have as
+    /// many again.
     pub points_at_most: u32,
-    /// What a point takes, where they begin.
+    /// Cost of a point, where the branches begin.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub point: Option<PlannedResponse>,
-    /// Cost of a branch of `points_at_least` points, by one worker; `steps` are those of a march that takes as long as the upper bound of its
-    /// time. Absent where `point` cannot be integrated.
+    /// Cost of a branch of `points_at_least` points, by one worker; `steps` are those of a march that takes as long as the upper bound of its time.
+    /// Absent where `point` cannot be integrated.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub estimate: Option<Estimate>,
-    /// What its numbers will not be worth: a K(Ω) that cannot be trusted between the speeds at which the stiffness is given.
+    /// Warnings about numbers that cannot be relied on: a K(Ω) that cannot be trusted between the speeds at which the stiffness is given.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub warnings: Vec<String>,
     /// The whole request as resolved.
@@ -300,11 +300,11 @@ pub struct BranchesPlan {
     pub version: String,
 }
 
-/// What a point of a branch takes.
+/// Plan of a point of a branch.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct PlannedResponse {
-    /// Why the scene cannot be integrated where the branches begin or at an end of their range; then all below is absent or 0.
+    /// Reason for which the scene cannot be integrated where the branches begin or at an end of their range; all else is then absent or 0.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub message: Option<String>,
     /// Real unknowns that are integrated.
@@ -314,21 +314,21 @@ pub struct PlannedResponse {
     pub scheme: Option<SchemeReport>,
     /// Steps per revolution.
     pub steps_per_revolution: u32,
-    /// Computing time of a point, s, what is sought between points included: as long as 20 revolutions of a march take if nothing touches,
-    /// and as 260 if something always does. Lightly damped responses take more.
+    /// Computing time of a point, s, with the search between points: as long as 20 revolutions of a march take if nothing touches, and as 260 if
+    /// something always does. Lightly damped responses take more.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub computing_time_s: Option<CostRange>,
 }
 
-/// An effect of a scene, named or not.
+/// Effect that a scene may name, on or off.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct PlannedEffect {
-    /// Field of the scene.
+    /// Name of the effect: its field in the scene.
     pub name: String,
-    /// Whether the scene names it.
+    /// Whether the scene names the effect.
     pub on: bool,
-    /// What it adds; absent where it is off, as is its cost.
+    /// Description of what the effect adds to a run; absent where the effect is off, as is its cost.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub adds: Option<String>,
 }

@@ -21,19 +21,19 @@ use rubmap_wheel::response::symmetry_breaking::SymmetryBreaking;
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum PointStatus {
-    /// Integrated to the end; its numbers are valid within the credentials.
+    /// Run integrated to the end; its numbers are valid within the credentials.
     Completed,
-    /// Stopped because the response grew beyond any physical bound; no amplitudes.
+    /// Run stopped because the response grew beyond any physical bound; no amplitudes.
     Diverged,
-    /// Could not be integrated at this speed; `message` says why; no amplitudes.
+    /// Speed that could not be integrated; `message` says why; no amplitudes.
     Failed,
 }
 
-/// Steady response of one sensor in one number each.
+/// Steady response of one sensor, as single numbers.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct SensorResponse {
-    /// The sensor.
+    /// Sensor that was recorded.
     pub sensor: Sensor,
     /// Mean displacement over the window.
     pub mean: f64,
@@ -60,12 +60,12 @@ pub struct SensorResponse {
 pub struct SchemeReport {
     /// The scheme; never `auto`.
     pub name: SchemeChoice,
-    /// Why this scheme and this step.
+    /// Reason for this scheme and this step.
     pub reason: String,
     /// Modes integrated per nodal diameter (fewer where a nodal diameter has fewer); absent if all are.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub kept_modes: Option<u32>,
-    /// Modes over all nodal diameters (a pair counts twice) that follow statically because a step does not resolve them.
+    /// Number of modes over all nodal diameters (a pair counts twice) that respond quasi-statically because a step does not resolve them.
     pub following_modes: u32,
     /// Frequency up to which modes of every nodal diameter are integrated, Hz.
     pub reach_hz: f64,
@@ -77,33 +77,33 @@ pub struct SchemeReport {
 pub struct EnergyReport {
     /// Mechanical energy at the start, of wheel and elastic casing.
     pub initial: f64,
-    /// The same at the end: `initial` and all works less all losses.
+    /// Mechanical energy at the end, of wheel and elastic casing: `initial` and all works less all losses.
     #[serde(rename = "final")]
     pub last: f64,
     /// Work of the contact forces on the wheel.
     pub contact_work: f64,
-    /// Lost to modal damping, and to modes that follow statically.
+    /// Energy lost to modal damping, and to modes that respond quasi-statically.
     pub damping_loss: f64,
     /// Work of the forces at engine orders.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub excitation_work: Option<f64>,
-    /// Minus the change of the energy that the stiffness deviations store.
+    /// Work of mistuning: minus the change of the energy that the stiffness deviations store.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mistuning_work: Option<f64>,
     /// Work of the contact forces on the elastic casing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub casing_work: Option<f64>,
-    /// Lost in the casing's damping.
+    /// Energy lost in the casing's damping.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub casing_loss: Option<f64>,
-    /// Heat of friction; its work on the vibration is part of the work of contact. By the law `sliding` what the shaft supplies against the
-    /// rotation alone, by the law `disc` friction times all sliding, never negative in any step.
+    /// Heat of friction; its work on the vibration is part of the work of contact. By the law `sliding`, what the shaft supplies against the rotation
+    /// alone; by the law `disc`, friction times all sliding, never negative in any step.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub friction_heat: Option<f64>,
 }
 
 impl EnergyReport {
-    /// Of a run on one of the `parts` of a wheel, to which effects add theirs; none if a number is not finite.
+    /// Reads the energies of a run on one of the `parts` of a wheel, without the works of effects, which add theirs; none if a number is not finite.
     pub(crate) fn of(audit: &EnergyAudit, parts: f64) -> Option<Self> {
         let (initial, last) = audit.ends();
         let EffectWork { excitation, mistuning, casing, casing_loss, friction_heat } = audit.effects();
@@ -129,27 +129,29 @@ impl EnergyReport {
 pub struct Point {
     /// Index of the speed in the request.
     pub index: u32,
-    /// Ω in rad/s.
+    /// Rotational speed Ω, rad/s.
     pub speed_rad_s: f64,
     /// How the run ended.
     pub status: PointStatus,
-    /// Why, for `diverged` and `failed`; why stress that was asked for is absent; and whether a speed of a sweep up or down had to start from rest.
+    /// Reason, for `diverged` and `failed`; reason for which stress that was asked for is absent; note that a speed of a sweep up or down had to
+    /// start from rest.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub message: Option<String>,
-    /// How far the K(Ω) that its numbers rest on can be trusted between the speeds at which the stiffness is given, as the
-    /// reduction found; absent where the scene has no centrifugal stiffening, and of speeds that an earlier version computed.
+    /// Verdict on the K(Ω) that the numbers rest on: how far it can be trusted between the speeds at which the stiffness is given, as the reduction
+    /// found. Absent where the scene has no centrifugal stiffening, and for speeds that an earlier version computed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stiffening: Option<StiffeningVerdict>,
     /// Steady-state verdict; absent without a complete run.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub settling: Option<Settling>,
-    /// How long it was marched; absent unless the request's `integration.revolutions` is `auto`, and where nothing was marched to its end.
+    /// Length of the march, and whether its motion repeats; absent unless the request's `integration.revolutions` is `auto`, and where nothing was
+    /// marched to its end.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub march: Option<MarchReport>,
-    /// The periodic response; absent unless the request's `integration.steady` asks for it.
+    /// Periodic response; absent unless the request's `integration.steady` asks for it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub steady: Option<SteadyReport>,
-    /// How time was stepped; absent where nothing was integrated.
+    /// Time-stepping scheme; absent where nothing was integrated.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub scheme: Option<SchemeReport>,
     /// Steps per revolution used; 0 if none was taken.
@@ -160,34 +162,36 @@ pub struct Point {
     pub steps: u64,
     /// Share of the steps with a contact force.
     pub contact_share: f64,
-    /// The tip that moves most over the window; absent unless `completed`, and of speeds that an earlier version computed.
+    /// Tip that moves most over the window; absent unless `completed`, and for speeds that an earlier version computed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tip: Option<TipResponse>,
-    /// Clearance of every contact node at this speed over the window, where the scene gives it cold: less the growth of the tips, and with
-    /// what a `clearance_change` has left; negative where they are pressed into the casing; empty where nothing was integrated.
+    /// Running clearance of every contact node over the window, where the scene gives clearances cold: less the growth of the tips, and with what a
+    /// `clearance_change` has left; negative where the casing is pressed into the tips. Empty where nothing was integrated.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub running_clearance: Vec<f64>,
-    /// Contact over the window; absent unless `completed`, and of scenes without contact.
+    /// Contact over the window; absent unless `completed`, and for scenes without contact.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub contact: Option<ContactSummary>,
-    /// Sum over contact nodes and steps of λ·h, in force·time of the model's units. This and the next numbers are absent
-    /// where nothing was integrated or the run overflowed.
+    /// Contact impulse: sum over contact nodes and steps of λ·h, in force·time of the model's units. Absent where nothing was integrated or the run
+    /// overflowed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub contact_impulse: Option<f64>,
-    /// Largest penetration left after a step's contact solution, and of the state itself at every sample, in the model's
-    /// unit of length.
+    /// Largest penetration left after a step's contact solution, and of the state itself at every sample, in the model's unit of length. Absent where
+    /// nothing was integrated or the run overflowed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub largest_penetration: Option<f64>,
-    /// Smallest multiplier λ of an active node, in the model's unit of force; absent without contact.
+    /// Smallest multiplier λ of an active node, in the model's unit of force; absent without contact, and where nothing was integrated or the run
+    /// overflowed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub smallest_multiplier: Option<f64>,
-    /// Largest violation of the energy identity, relative to the largest energy seen (docs/method.md, Energy).
+    /// Largest violation of the energy identity, relative to the largest energy seen (docs/method.md, Energy). Absent where nothing was integrated or
+    /// the run overflowed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub energy_residual: Option<f64>,
-    /// Where that energy came from and went; absent where nothing was integrated or the run overflowed.
+    /// Energy balance: where the energy came from and went; absent where nothing was integrated or the run overflowed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub energy: Option<EnergyReport>,
-    /// Largest mechanical energy seen, in force·length.
+    /// Largest mechanical energy seen, in force·length; absent where nothing was integrated or the run overflowed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub largest_energy: Option<f64>,
     /// Largest radial amplitude of any wave of an elastic casing, in the model's unit of length.
@@ -200,34 +204,34 @@ pub struct Point {
     /// Wear of an abradable coating at the end of the run.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub wear: Option<WearReport>,
-    /// What became of a tiny asymmetry; with `symmetry: probe`.
+    /// Outcome of the probe: whether a tiny asymmetry grew; with `symmetry: probe`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub symmetry_breaking: Option<SymmetryBreaking>,
-    /// Stress and margin; of a sweep that records stress, if the speed was `completed`.
+    /// Stress and margin; for a sweep that records stress, if the speed was `completed`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stress: Option<PointStress>,
-    /// Whether linear theory holds; absent unless `completed`, and of speeds that an earlier version computed.
+    /// Whether linear theory holds; absent unless `completed`, and for speeds that an earlier version computed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub validity: Option<Validity>,
     /// Steady response per sensor; empty unless `completed`.
     pub responses: Vec<SensorResponse>,
     /// Wall time of this speed, s.
     pub wall_time_s: f64,
-    /// Version of the code that computed it.
+    /// Version of the code that computed the speed.
     pub version: String,
-    /// Kind of vectors of the processor that computed it: another may round differently. Absent of speeds that an earlier version
-    /// computed.
+    /// Kind of vector instructions of the processor that computed the speed: another kind may round differently. Absent for speeds that an earlier
+    /// version computed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub vectors: Option<String>,
 }
 
 impl Point {
-    /// Whether its numbers are those of a periodic response that was solved for.
+    /// Whether the numbers of the speed are those of a periodic response that was solved for.
     pub(crate) fn is_solved(&self) -> bool {
         self.steady.as_ref().is_some_and(|steady| steady.taken)
     }
 
-    /// The largest utilisation at the speed; none without stress or strengths.
+    /// Largest utilisation at the speed; none without stress or strengths.
     pub fn utilisation(&self) -> Option<f64> {
         self.stress.as_ref()?.utilisation()
     }
@@ -237,7 +241,7 @@ impl Point {
         Some(self.validity.as_ref()?.verdict)
     }
 
-    /// What decides on linear theory and was not looked at.
+    /// Measures that matter for linear theory and could not be checked at the speed.
     pub fn validity_lacking(&self) -> Vec<ValidityMeasure> {
         self.validity.as_ref().map(Validity::measures_lacking).unwrap_or_default()
     }
@@ -247,12 +251,12 @@ impl Point {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct SensorSpectrum {
-    /// The sensor.
+    /// Sensor that was recorded.
     pub sensor: Sensor,
     /// Single-sided physical amplitude per engine order, in the model's unit of length.
     pub amplitude: Vec<f64>,
-    /// `[nodal diameter][engine order]`: amplitude of the wheel's component in that nodal diameter, in the real
-    /// orthonormal Fourier basis over the sectors (cosine and sine joined by root sum of squares).
+    /// Amplitude of the wheel's component in each nodal diameter, `[nodal diameter][engine order]`, in the real orthonormal Fourier basis over the
+    /// sectors (cosine and sine joined by root sum of squares).
     pub nodal_diameters: Vec<Vec<f64>>,
 }
 
@@ -262,21 +266,21 @@ pub struct SensorSpectrum {
 pub struct SpeedSpectra {
     /// Engine orders of the bins: multiples of 1/`window_revolutions` from 0 to `max_engine_order`.
     pub engine_orders: Vec<f64>,
-    /// One per sensor, in the order of the request.
+    /// Spectra of the sensors, in the order of the request.
     pub sensors: Vec<SensorSpectrum>,
 }
 
-/// All that one speed of a sweep produces.
+/// All results of one speed of a sweep.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SpeedResult {
     /// Credentials and summary.
     pub point: Point,
-    /// Absent unless `point.status` is `completed`.
+    /// Spectra; absent unless `point.status` is `completed`.
     pub spectra: Option<SpeedSpectra>,
-    /// Where the wheel was at the end of a completed run of a sweep up or down, otherwise absent.
+    /// State of the wheel at the end of a completed run of a sweep up or down, otherwise absent.
     pub end_state: Option<EndState>,
-    /// Of an abradable coating.
+    /// Wear map of an abradable coating, where the scene has one.
     pub wear: Option<WearMap>,
-    /// Of a completed run with contact.
+    /// Contact forces of a completed run with contact.
     pub contact: Option<ContactForces>,
 }

@@ -1,8 +1,8 @@
-//! What a reduction found and cost, and how far K(Ω) can be trusted.
+//! Findings and cost of a reduction, and how far K(Ω) can be trusted.
 
 use serde::{Deserialize, Serialize};
 
-/// How trustworthy K(Ω) = K0 + Ω²K1 + Ω⁴K2 is between the given speeds (docs/method.md, Centrifugal stiffening).
+/// Verdict on how far K(Ω) = K0 + Ω²K1 + Ω⁴K2 can be trusted between the given speeds (docs/method.md, Centrifugal stiffening).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
@@ -11,7 +11,7 @@ pub enum StiffeningVerdict {
     Absent,
     /// Linear in Ω² as on the undeformed geometry.
     Sound,
-    /// Shows signs of stiffness taken on the deformed geometry; usable with the stated error.
+    /// Signs of stiffness taken on the deformed geometry; usable with the stated error.
     Suspect,
     /// Not to be relied on: frequencies between the given speeds are not smooth, K(Ω) is indefinite there, or K(Ω) is not that of the
     /// given speeds by mass and positions.
@@ -19,7 +19,7 @@ pub enum StiffeningVerdict {
 }
 
 impl StiffeningVerdict {
-    /// What numbers that rest on K(Ω) are worth, where that is not what they seem.
+    /// Warning about numbers that rest on K(Ω), where they are not what they seem.
     pub fn warning(self) -> Option<&'static str> {
         match self {
             Self::Absent | Self::Sound => None,
@@ -35,30 +35,30 @@ impl StiffeningVerdict {
     }
 }
 
-/// What the stiffness matrices of a model tell about K(Ω) by themselves. Preliminary: how far frequencies between the given speeds
-/// are off, and with it the verdict, the first reduction finds.
+/// Verdict on K(Ω) by the stiffness matrices of a model alone. Preliminary: how far frequencies between the given speeds are off, and with it the
+/// verdict, the first reduction finds.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct PreliminaryStiffening {
-    /// Verdict; what is suspect may prove to be unsound.
+    /// Preliminary verdict; a suspect K(Ω) may prove to be unsound.
     pub verdict: StiffeningVerdict,
-    /// ‖Ω1²K1‖/‖K0‖.
+    /// Relative size ‖Ω1²K1‖/‖K0‖ of the term in Ω².
     pub linear_ratio: f64,
-    /// ‖Ω1⁴K2‖/‖K0‖.
+    /// Relative size ‖Ω1⁴K2‖/‖K0‖ of the term in Ω⁴.
     pub quadratic_ratio: f64,
     /// The finding in words, with what to do.
     pub message: String,
 }
 
-/// The check of the stiffness interpolation.
+/// Result of the check of the stiffness interpolation.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct StiffeningReport {
-    /// The verdict.
+    /// Verdict on the stiffness interpolation.
     pub verdict: StiffeningVerdict,
-    /// ‖Ω1²K1‖/‖K0‖.
+    /// Relative size ‖Ω1²K1‖/‖K0‖ of the term in Ω².
     pub linear_ratio: f64,
-    /// ‖Ω1⁴K2‖/‖K0‖.
+    /// Relative size ‖Ω1⁴K2‖/‖K0‖ of the term in Ω⁴.
     pub quadratic_ratio: f64,
     /// Estimated largest relative error of a first-family frequency between the given speeds.
     pub frequency_error: f64,
@@ -70,11 +70,11 @@ pub struct StiffeningReport {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct LargestDifference {
-    /// |reduced/full − 1|.
+    /// Relative difference |reduced/full − 1| of the frequency.
     pub relative: f64,
-    /// Nodal diameter it occurs in.
+    /// Nodal diameter in which the largest difference occurs.
     pub nodal_diameter: u32,
-    /// Mode it occurs in, counted from 1.
+    /// Mode in which the largest difference occurs, counted from 1.
     pub mode: u32,
     /// Frequency of that mode in the full sector, Hz.
     pub full_hz: f64,
@@ -84,19 +84,19 @@ pub struct LargestDifference {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct FrequencyDifference {
-    /// Ω, rad/s.
+    /// Rotational speed Ω, rad/s.
     pub speed_rad_s: f64,
-    /// Where they differ most; null where every nodal diameter is left out.
+    /// Largest difference of any frequency; null where every nodal diameter is left out.
     pub largest: Option<LargestDifference>,
     /// Nodal diameters left out because the full sector's stiffness is not positive definite at this speed.
     pub indefinite: Vec<u32>,
 }
 
-/// What the reduction of a model found and what it cost.
+/// Report of the reduction of a model: what it found, and its cost.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct ReductionReport {
-    /// k.
+    /// Fixed-interface modes kept per stiffness speed and nodal diameter, k.
     pub modes_per_speed: u32,
     /// Generalised coordinates kept per nodal diameter (contact DOF and modes of the basis).
     pub unknowns: Vec<u32>,
@@ -106,17 +106,16 @@ pub struct ReductionReport {
     pub largest_mode_residual: f64,
     /// Fixed-interface modes over all nodal diameters and speeds.
     pub modes: u32,
-    /// How many of them are proven to be the lowest, none missed, by a count of eigenvalues (Sylvester's law of
-    /// inertia) or because they are all there are. Fewer than `modes` only where round-off leaves no shift to count at.
+    /// Number of `modes` that are proven to be the lowest, none missed, by a count of eigenvalues (Sylvester's law of inertia) or because they are
+    /// all there are. Fewer than `modes` only where round-off leaves no shift to count at.
     pub counted_modes: u32,
-    /// The reduced model's ten lowest frequencies per nodal diameter beside the full sector's, at the given speeds
-    /// and between them.
+    /// Ten lowest frequencies per nodal diameter of the reduced model beside the full sector's, at the given speeds and between them.
     pub full_model: Vec<FrequencyDifference>,
     /// Relative tolerance below which nearly dependent directions of the basis were dropped.
     pub basis_tolerance: f64,
-    /// Stiffness interpolation check.
+    /// Check of the stiffness interpolation.
     pub stiffening: StiffeningReport,
-    /// Wall time, s.
+    /// Wall time of the reduction, s.
     pub wall_time_s: f64,
     /// Version of the code.
     pub version: String,

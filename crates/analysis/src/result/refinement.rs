@@ -1,18 +1,18 @@
-//! What `refine` has added to a sweep.
+//! Refinement of a sweep around its critical speeds.
 
 use serde::{Deserialize, Serialize};
 
-/// What `refine` has added to a sweep.
+/// Refinement of a sweep: the speeds that `refine` has added, and the critical speeds that it leaves unresolved.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Refinement {
-    /// Speeds added.
+    /// Number of speeds added.
     pub added: u32,
-    /// Rounds in which they were.
+    /// Number of rounds in which speeds were added.
     pub rounds: u32,
     /// Whether every critical speed, of any sensor, is resolved. False while the job runs.
     pub complete: bool,
-    /// The critical speeds that are not, sensor by sensor in ascending speed; left out while the job runs.
+    /// Critical speeds that are not resolved, sensor by sensor in ascending speed; left out while the job runs.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub unresolved: Vec<Unresolved>,
 }
@@ -25,19 +25,19 @@ pub struct Unresolved {
     pub sensor: u32,
     /// Ω of the peak, rad/s.
     pub speed_rad_s: f64,
-    /// Why.
+    /// Reason for which the critical speed stays unresolved.
     pub reason: Unresolvable,
 }
 
-/// Why a critical speed stays unresolved.
+/// Reason for which a critical speed stays unresolved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Unresolvable {
-    /// It lies at an end of the range, beyond which the response may rise further: ask for a wider range.
+    /// Peak at an end of the range, beyond which the response may rise further: ask for a wider range.
     EndOfRange,
-    /// It lies beside a speed without a result, as close to it as would resolve a peak.
+    /// Peak beside a speed without a result, as close to it as would resolve a peak.
     BesideMissing,
-    /// As many speeds were added as may be, or there is no number between the speeds.
+    /// Speeds too coarse: as many were added as may be, or there is no number between them.
     TooCoarse,
 }

@@ -5,8 +5,8 @@ use serde::{Deserialize, Serialize};
 use rubmap_solid::mesh::{ElementSet, SectorMesh};
 use rubmap_wheel::dynamics::sector::Units;
 
-/// Stress of the mesh's nodes over the last revolution, as the mean over the elements around a node; static stress of the centrifugal load
-/// included. Nodes near the contact line are left out, where forces act on points.
+/// Stress of the mesh's nodes over the last revolution, as the mean over the elements around a node; static stress of the centrifugal load included.
+/// Nodes near the contact line, where forces act on points, are left out.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct PointStress {
@@ -17,26 +17,26 @@ pub struct PointStress {
     pub largest_over_yield: Option<f64>,
     /// Largest von Mises stress of the centrifugal load alone.
     pub largest_static: f64,
-    /// The most utilised places by descending utilisation; without strengths those of the largest alternating stress.
+    /// Stress cycles of the most utilised places by descending utilisation; without strengths, of those with the largest alternating stress.
     #[cfg_attr(feature = "schema", schema(max_items = 20))]
     pub cycles: Vec<StressCycle>,
-    /// Places with the largest von Mises stress among those that were followed, by descending stress; the errors of two settings are compared
-    /// there. Empty in results that an earlier version has kept.
+    /// Places with the largest von Mises stress among those that were followed, by descending stress; the errors of two settings are compared there.
+    /// Empty in results that an earlier version stored.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[cfg_attr(feature = "schema", schema(max_items = 20))]
     pub leading: Vec<LeadingPlace>,
-    /// Nodes within this distance of a contact node are left out, in the model's unit of length.
+    /// Radius about the contact nodes within which nodes are left out, in the model's unit of length.
     pub excluded_radius: f64,
-    /// So many nodes of a sector are left out.
+    /// Number of nodes of a sector that are left out.
     pub excluded_nodes: u32,
-    /// So many places of a sector were followed over all blades and instants; a bound rules the others out.
+    /// Number of places of a sector that were followed over all blades and instants; a bound rules the others out.
     pub followed_nodes: u32,
-    /// What `utilisation` lacks, in words; absent where it is there.
+    /// Strengths that `utilisation` lacks, in words; absent where none is missing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lacking: Option<String>,
 }
 
-/// The largest stress, and where and when it is.
+/// The largest stress, with its place and time.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct StressPeak {
@@ -44,11 +44,11 @@ pub struct StressPeak {
     pub von_mises: f64,
     /// Id of the node.
     pub node: u64,
-    /// Its position in the first sector, x, y, z as in the package.
+    /// Position of the node in the first sector, x, y, z as in the package.
     pub position: [f64; 3],
-    /// Blade.
+    /// Blade with the largest stress.
     pub sector: u32,
-    /// Revolutions since the start.
+    /// Time of the largest stress, revolutions since the start.
     pub revolution: f64,
 }
 
@@ -58,44 +58,44 @@ pub struct StressPeak {
 pub struct LeadingPlace {
     /// Id of the node.
     pub node: u64,
-    /// Name of its element set.
+    /// Name of the node's element set.
     pub set: String,
-    /// Von Mises stress, in the model's units.
+    /// Largest von Mises stress of the place, in the model's units.
     pub von_mises: f64,
 }
 
-/// How the stress of one place goes over a revolution.
+/// Stress cycle of one place over a revolution.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct StressCycle {
     /// Id of the node.
     pub node: u64,
-    /// Its position in the first sector, x, y, z as in the package.
+    /// Position of the node in the first sector, x, y, z as in the package.
     pub position: [f64; 3],
-    /// Blade.
+    /// Blade on which the place is.
     pub sector: u32,
     /// Name of the element set whose strengths count.
     pub set: String,
-    /// (max + min)/2 of the von Mises stress with the sign of the mean normal stress.
+    /// Mean stress: (max + min)/2 of the von Mises stress with the sign of the mean normal stress.
     pub mean: f64,
-    /// (max − min)/2 of the same.
+    /// Alternating stress: (max − min)/2 of the von Mises stress with the sign of the mean normal stress.
     pub alternating: f64,
-    /// (max + min)/2 of the principal stress that is largest in magnitude.
+    /// Mean principal stress: (max + min)/2 of the principal stress that is largest in magnitude.
     pub principal_mean: f64,
-    /// (max − min)/2 of the same.
+    /// Alternating principal stress: (max − min)/2 of the principal stress that is largest in magnitude.
     pub principal_alternating: f64,
-    /// Goodman: `alternating`/fatigue strength + `mean`/ultimate strength, a mean below 0 counted as 0; at 1 nothing is left. Absent
+    /// Utilisation by Goodman: `alternating`/fatigue strength + `mean`/ultimate strength, a mean below 0 counted as 0; at 1 nothing is left. Absent
     /// without these strengths.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub utilisation: Option<f64>,
-    /// Largest von Mises stress over yield strength; absent without it.
+    /// Largest von Mises stress over yield strength; absent without yield strength.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub over_yield: Option<f64>,
 }
 
 impl PointStress {
-    /// Largest difference to a `finer` setting, of the largest stress and of the stress at every place that leads in both: that of one number
-    /// alone vanishes by chance where another place or instant takes over.
+    /// Largest difference from a `finer` setting, of the largest stress and of the stress at every place that leads in both: the difference of a
+    /// single number vanishes by chance where another place or instant takes over.
     pub(crate) fn difference(&self, finer: &Self) -> f64 {
         let there = |here: &LeadingPlace| {
             let same = |there: &&LeadingPlace| there.node == here.node && there.set == here.set;
@@ -105,19 +105,19 @@ impl PointStress {
         self.leading.iter().filter_map(there).fold(of_largest, f64::max)
     }
 
-    /// The largest utilisation of its cycles; none without strengths.
+    /// Largest utilisation of all cycles; none without strengths.
     pub fn utilisation(&self) -> Option<f64> {
         self.cycles.iter().filter_map(|cycle| cycle.utilisation).max_by(f64::total_cmp)
     }
 }
 
-/// The most utilised first, those of which nothing is known last; otherwise in the order that they had.
+/// Sorts by descending utilisation, items whose utilisation is unknown last; equal ones stay in their order.
 pub fn most_utilised_first<T>(all: &mut [T], utilisation: impl Fn(&T) -> Option<f64>) {
     let rank = |of: &T| utilisation(of).unwrap_or(f64::NEG_INFINITY);
     all.sort_by(|a, b| rank(b).total_cmp(&rank(a)));
 }
 
-/// What the material of an element set bears, as far as the model says.
+/// Strengths of the material of an element set, as far as the model gives them.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Strengths {
@@ -132,13 +132,13 @@ pub struct Strengths {
     /// Yield strength.
     #[serde(default, rename = "yield", skip_serializing_if = "Option::is_none")]
     pub yield_: Option<f64>,
-    /// Where the fatigue strength comes from.
+    /// Source of the fatigue strength.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub source: Option<String>,
 }
 
 impl Strengths {
-    /// Those of all sets of a mesh.
+    /// Reads the strengths of all element sets of a mesh.
     pub fn of(mesh: &SectorMesh) -> Vec<Self> {
         let strengths = |set: &ElementSet| Self {
             set: set.name.clone(),
@@ -151,7 +151,7 @@ impl Strengths {
     }
 }
 
-/// What stress is measured in: force over length².
+/// Unit of stress, force over length².
 pub fn stress_unit(units: &Units) -> String {
     match (units.force.as_str(), units.length.as_str()) {
         ("N", "mm") => "MPa".to_owned(),
@@ -160,7 +160,8 @@ pub fn stress_unit(units: &Units) -> String {
     }
 }
 
-/// What stress is drawn in, and how many of it the model's unit is: megapascals instead of pascals, of which a wheel bears hundreds of millions.
+/// Unit in which stress is drawn, and how many of it the model's unit is: megapascals instead of pascals, of which a wheel bears hundreds of
+/// millions.
 pub fn drawn_stress_unit(units: &Units) -> (String, f64) {
     match stress_unit(units).as_str() {
         "Pa" => ("MPa".to_owned(), 1e-6),

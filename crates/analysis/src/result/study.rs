@@ -1,4 +1,4 @@
-//! What a convergence study says.
+//! Results of a convergence study.
 
 use serde::{Deserialize, Serialize};
 
@@ -12,13 +12,13 @@ use rubmap_wheel::dynamics::sector::Units;
 use rubmap_wheel::response::sensitivity::Sensitivity;
 use rubmap_wheel::response::settling::Verdict;
 
-/// Errors of every setting of a study against its reference, and what each costs.
+/// Errors of every setting of a study against its reference, with the cost of each.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct WorkPrecision {
-    /// One per speed.
+    /// Errors and costs at each speed.
     pub speeds: Vec<SpeedStudy>,
-    /// The reductions it rests on, by `modes_per_speed`.
+    /// Reductions that the study rests on, by `modes_per_speed`.
     pub reductions: Vec<StudyReduction>,
     /// The whole request as resolved.
     pub settings: StudyRequest,
@@ -30,13 +30,13 @@ pub struct WorkPrecision {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct StudyReduction {
-    /// k.
+    /// Fixed-interface modes kept per stiffness speed and nodal diameter, k.
     pub modes_per_speed: u32,
     /// Real unknowns of the whole reduced wheel.
     pub wheel_unknowns: u32,
-    /// Wall time when it was computed, s.
+    /// Wall time of the reduction, s.
     pub wall_time_s: f64,
-    /// How far K(Ω) can be trusted between the given speeds; absent of a study that an earlier version made.
+    /// How far K(Ω) can be trusted between the given speeds; absent for a study that an earlier version made.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stiffening: Option<StiffeningVerdict>,
 }
@@ -45,16 +45,17 @@ pub struct StudyReduction {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct SpeedStudy {
-    /// Ω in rad/s.
+    /// Rotational speed Ω, rad/s.
     pub speed_rad_s: f64,
-    /// What all runs are held against; it has no errors.
+    /// Reference that all runs are compared with; it has no errors.
     pub reference: StudyRun,
-    /// Whether trajectories can be compared: the growth of a tiny perturbation of the reference. Absent if it failed, or was solved for.
+    /// Growth of a tiny perturbation of the reference, which decides whether trajectories can be compared. Absent if the reference failed, or was
+    /// solved for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sensitivity: Option<Sensitivity>,
     /// How to read the errors, in words.
     pub message: String,
-    /// One per setting.
+    /// Runs, one per setting.
     pub runs: Vec<StudyRun>,
     /// Observed orders in the time step, one per size and scheme.
     pub orders: Vec<StepOrder>,
@@ -64,29 +65,29 @@ pub struct SpeedStudy {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct StudyRun {
-    /// The setting.
+    /// Setting of the run.
     #[serde(flatten)]
     pub setting: Setting,
     /// Real unknowns that are integrated; 0 if nothing was.
     pub unknowns: u32,
     /// How the run ended.
     pub status: PointStatus,
-    /// Why, unless it was completed.
+    /// Reason for which the run was not completed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub message: Option<String>,
     /// Steady-state verdict of a completed run.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub verdict: Option<Verdict>,
-    /// The periodic response; absent unless the request's `integration.steady` asks for it.
+    /// Periodic response; absent unless the request's `integration.steady` asks for it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub steady: Option<SteadyReport>,
     /// Largest violation of the energy identity, relative to the largest energy seen.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub energy_residual: Option<f64>,
-    /// Differences from the reference; absent unless both were completed.
+    /// Differences from the reference; absent unless both runs were completed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub errors: Option<Errors>,
-    /// CPU time.
+    /// CPU time of the run, by its parts.
     pub cost: Cost,
     /// CPU time of the whole run, s: `set_up_s` and all revolutions.
     pub time_s: f64,
@@ -101,14 +102,14 @@ pub struct StudyRun {
 pub struct StepOrder {
     /// Fixed-interface modes kept per stiffness speed and nodal diameter.
     pub modes_per_speed: u32,
-    /// The scheme.
+    /// Time-stepping scheme.
     pub scheme: SchemeChoice,
     /// Modes that `massless_boundary` was asked to integrate; with `auto` their number grows with the steps, and the order is
     /// that of both together.
     pub kept_modes: AutoOr,
     /// Steps per revolution, ascending.
     pub steps_per_revolution: Vec<u32>,
-    /// Difference from the next finer step, relative; null where there is nothing to compare, and none for the last.
+    /// Relative difference of each step from the next finer one; null where there is nothing to compare, and none for the last step.
     pub differences: Vec<Option<f64>>,
     /// Order observed over each three successive steps; null where differences do not fall or are round-off.
     pub orders: Vec<Option<f64>>,
@@ -118,13 +119,13 @@ pub struct StepOrder {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Histories {
-    /// Ω in rad/s.
+    /// Rotational speed Ω, rad/s.
     pub speed_rad_s: f64,
-    /// What is recorded.
+    /// Sensors that are recorded.
     pub sensors: Vec<Sensor>,
     /// Samples of a revolution; the first is one sampling interval after the start.
     pub samples_per_revolution: u32,
-    /// In ascending size, the reference last.
+    /// Displacements in ascending size, those of the reference last.
     pub lines: Vec<HistoryLine>,
     /// Units of the model.
     pub units: Units,
@@ -136,18 +137,18 @@ pub struct Histories {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct HistoryLine {
-    /// The setting.
+    /// Setting of the line.
     #[serde(flatten)]
     pub setting: Setting,
-    /// Whether it is the reference.
+    /// Whether the line is that of the reference.
     pub reference: bool,
     /// Real unknowns that are integrated.
     pub unknowns: u32,
-    /// `[sensor][sample]`.
+    /// Displacements, `[sensor][sample]`.
     pub displacement: Vec<Vec<f64>>,
 }
 
-/// Indices of the points (time, error) that no other one is as good as in both and better in one.
+/// Indices of the points (time, error) of the Pareto front: those that no other one is as good as in both and better in one.
 pub fn front(points: &[Option<(f64, f64)>]) -> Vec<usize> {
     let beaten = |(time, error): (f64, f64)| {
         points.iter().flatten().any(|&(t, e)| t <= time && e <= error && (t < time || e < error))

@@ -22,12 +22,12 @@ pub struct InteractionMap {
     pub speeds_rad_s: Vec<f64>,
     /// Engine orders of the columns.
     pub engine_orders: Vec<f64>,
-    /// `[speed][engine order]`; a row is null where that speed has no result.
+    /// Amplitudes, `[speed][engine order]`; a row is null where that speed has no result.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub amplitude: Vec<Option<Vec<f64>>>,
-    /// What was recorded.
+    /// Sensor whose spectra the map shows.
     pub sensor: Sensor,
-    /// Restricted to this nodal diameter, if asked for.
+    /// Nodal diameter that the map is restricted to, if asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub nodal_diameter: Option<u32>,
     /// Units of the model.
@@ -40,13 +40,13 @@ pub struct InteractionMap {
     /// Estimated errors of the amplitudes, once the job is successful; absent without control runs.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub errors: Option<ErrorEstimate>,
-    /// What `refine` has added; absent without it.
+    /// Speeds that `refine` has added; absent without it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub refinement: Option<Refinement>,
-    /// What the sweep was expected to cost; absent before its speeds are queued.
+    /// Expected cost of the sweep; absent before its speeds are queued.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plan: Option<Estimate>,
-    /// What its finished speeds have cost.
+    /// Cost of the finished speeds.
     #[serde(default)]
     pub spent: Spent,
     /// The whole request as resolved.
@@ -63,7 +63,7 @@ pub struct CriticalSpeed {
     pub speed_rad_s: f64,
     /// Index of the speed in the sweep.
     pub index: u32,
-    /// Whether it lies at an end of the range or beside a speed without a result, so that the true peak may be beyond.
+    /// Whether the peak lies at an end of the range or beside a speed without a result, so that the true peak may be beyond.
     pub at_edge: bool,
     /// How far the true peak may be from `speed_rad_s` because only the speeds of the sweep were computed, rad/s: the distance
     /// to the farther one of the two neighbouring speeds. A speed without a result, like the end of the range, bounds
@@ -74,15 +74,16 @@ pub struct CriticalSpeed {
     /// within 5e-4 of the peak's, which is then known to that sharpness even where the response jumps (at the fold of a
     /// backbone curve). Otherwise the true peak may be higher. Never with `at_edge`.
     pub resolved: bool,
-    /// Whether it is a maximum on a branch of periodic responses: it and the speeds on both sides were solved for and last, and the neighbours
-    /// are at least 90 % as high. `refine` then goes on until it is known to 1e-5 of its speed. Otherwise it is the highest of the speeds.
+    /// Whether the peak is a maximum on a branch of periodic responses: the peak and the speeds on both sides were solved for and are stable, and the
+    /// neighbours are at least 90 % as high. `refine` then goes on until the peak is known to 1e-5 of its speed. Otherwise the peak is the highest of
+    /// the speeds.
     #[serde(default)]
     pub on_branch: bool,
     /// Steady response: root mean square about the mean, in the model's unit of length.
     pub rms: f64,
-    /// Half the peak-to-peak displacement there.
+    /// Half the peak-to-peak displacement at the peak.
     pub half_peak_to_peak: f64,
-    /// Height above the higher of the two neighbouring valleys, in the same measure as `rms`.
+    /// Prominence: height above the higher of the two neighbouring valleys, in the same measure as `rms`.
     pub prominence: f64,
     /// How far the error of the natural frequencies may have moved the peak, rad/s: the largest relative difference of the reduced
     /// sector's ten lowest ones of any nodal diameter from the full sector's, times the speed.
@@ -94,10 +95,10 @@ pub struct CriticalSpeed {
     /// Engine order of the largest spectral amplitude; absent where no line up to `max_engine_order` stands above round-off.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dominant_engine_order: Option<f64>,
-    /// Nodal diameter that carries it; absent without one.
+    /// Nodal diameter that carries the dominant engine order; absent without one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dominant_nodal_diameter: Option<u32>,
-    /// Steady-state verdict of that speed.
+    /// Steady-state verdict of the peak's speed.
     pub settling: Verdict,
     /// Nearest prediction of the linear criterion.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -105,13 +106,13 @@ pub struct CriticalSpeed {
     /// Peak speed minus the nearest prediction's, rad/s.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub distance_rad_s: Option<f64>,
-    /// Largest utilisation at that speed; absent where no stress was recorded or strengths are not known.
+    /// Largest utilisation at the peak's speed; absent where no stress was recorded or strengths are not known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub utilisation: Option<f64>,
-    /// Whether linear theory holds at that speed; absent of what an earlier version computed.
+    /// Whether linear theory holds at the peak's speed; absent for speeds that an earlier version computed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub validity: Option<ValidityVerdict>,
-    /// What that verdict was given without.
+    /// Measures that were not checked for `validity`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub validity_lacking: Vec<ValidityMeasure>,
 }
@@ -128,21 +129,21 @@ pub struct CriticalSpeeds {
     pub linear_crossings: Vec<Crossing>,
     /// Crossings that the lobes can drive.
     pub driven_crossings: Vec<DrivenCrossing>,
-    /// Where travelling waves of the wheel meet those of an elastic casing; absent where it is rigid.
+    /// Coincidences of travelling waves of the wheel with those of an elastic casing; absent where the casing is rigid.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub casing_coincidences: Vec<Coincidence>,
-    /// Speeds that gave no amplitude, by index.
+    /// Indices of the speeds that gave no amplitude.
     pub missing: Vec<u32>,
-    /// What `refine` has added; absent without it.
+    /// Speeds that `refine` has added; absent without it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub refinement: Option<Refinement>,
-    /// What the sweep was expected to cost.
+    /// Expected cost of the sweep.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plan: Option<Estimate>,
-    /// What it has cost.
+    /// Cost of the finished speeds of the sweep.
     #[serde(default)]
     pub spent: Spent,
-    /// What the reduction found about the model.
+    /// Report of the reduction: what it found about the model.
     pub reduction: ReductionReport,
     /// The whole request as resolved.
     pub settings: crate::request::SweepRequest,

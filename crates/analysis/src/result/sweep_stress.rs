@@ -8,13 +8,13 @@ use crate::result::stress::{PointStress, Strengths, StressCycle};
 use crate::result::validity::Validity;
 use rubmap_wheel::dynamics::sector::Units;
 
-/// Stress of the speeds of a sweep, and what the materials bear.
+/// Stress of the speeds of a sweep, and the strengths of the materials.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct SweepStress {
     /// The speeds whose stress was recorded, in the order of the request.
     pub speeds: Vec<SpeedStress>,
-    /// What the material of each element set bears.
+    /// Strengths of the material of each element set.
     pub strengths: Vec<Strengths>,
     /// Units of the model; stress is force over length².
     pub units: Units,
@@ -30,17 +30,17 @@ pub struct SweepStress {
 pub struct SpeedStress {
     /// Index of the speed in the sweep.
     pub index: u32,
-    /// Ω, rad/s.
+    /// Rotational speed Ω, rad/s.
     pub speed_rad_s: f64,
     /// Stress and margin.
     pub stress: PointStress,
-    /// Whether linear theory holds there.
+    /// Whether linear theory holds at the speed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub validity: Option<Validity>,
 }
 
 impl SpeedStress {
-    /// Of a point that has stress.
+    /// Takes the stress of a speed; none if it has none.
     pub fn of(point: &Point) -> Option<Self> {
         Some(Self {
             index: point.index,

@@ -1,4 +1,4 @@
-//! How far the tips move.
+//! Motion of the blade tips.
 
 use serde::{Deserialize, Serialize};
 
@@ -8,21 +8,20 @@ use crate::request::Component;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct TipResponse {
-    /// Largest root mean square about the mean, from some 128 instants of a revolution.
+    /// Largest root mean square of a component about its mean, from some 128 instants of a revolution.
     pub rms: f64,
-    /// Half the peak-to-peak displacement of the same component, from the same instants.
+    /// Half the peak-to-peak displacement of the component with the largest root mean square, from the instants of `rms`.
     pub half_peak_to_peak: f64,
-    /// Contact node.
+    /// Contact node of the tip.
     pub contact_node: u32,
-    /// Blade; of a scene that repeats around the wheel one of those that move alike.
+    /// Blade of the tip; in a scene that repeats around the wheel, one of those that move alike.
     pub sector: u32,
-    /// Component.
+    /// Component that moves most.
     pub component: Component,
-    /// Half the peak-to-peak displacement over the clearance of the node; absent where nothing can be touched, or without
-    /// clearance.
+    /// Half the peak-to-peak displacement over the clearance of the node; absent where nothing can be touched, or without clearance.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub over_clearance: Option<f64>,
-    /// The same over the length of the contact line; absent of a single node.
+    /// Half the peak-to-peak displacement over the length of the contact line; absent for a single node.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub over_chord: Option<f64>,
 }

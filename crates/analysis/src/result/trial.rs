@@ -1,4 +1,4 @@
-//! What a trial found and cost.
+//! Result and cost of a trial.
 
 use serde::{Deserialize, Serialize};
 
@@ -7,15 +7,15 @@ use crate::result::point::{Point, PointStatus};
 use rubmap_wheel::response::sensitivity::Sensitivity;
 use rubmap_wheel::response::settling::Verdict;
 
-/// What a run costs in time of its thread, from some repetitions.
+/// Cost of a run in CPU time of its thread, from some repetitions.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Cost {
-    /// Before the first step, s: eigenproblems at the speed, tables of contact and casing. Without the reduction.
+    /// CPU time before the first step, s: eigenproblems at the speed, tables of contact and casing. Without the reduction.
     pub set_up_s: f64,
-    /// One revolution, s.
+    /// CPU time of one revolution, s.
     pub per_revolution_s: f64,
-    /// Repetitions; the medians are given.
+    /// Number of repetitions, whose medians are given.
     pub repetitions: u32,
     /// Half the range of `per_revolution_s` over the repetitions, relative to its median; absent where the run was long enough
     /// to be timed once.
@@ -24,12 +24,12 @@ pub struct Cost {
 }
 
 impl Cost {
-    /// Of a run of `revolutions`, s.
+    /// CPU time of a run of `revolutions`, s.
     pub fn of_run(&self, revolutions: f64) -> f64 {
         self.set_up_s + revolutions * self.per_revolution_s
     }
 
-    /// From (set-up, per revolution) of every repetition.
+    /// Computes medians and spread from (set-up, per revolution) of every repetition.
     pub(crate) fn of(mut repetitions: Vec<(f64, f64)>) -> Self {
         let count = repetitions.len();
         let median = |of: fn(&(f64, f64)) -> f64, repetitions: &mut Vec<(f64, f64)>| {
@@ -44,36 +44,36 @@ impl Cost {
     }
 }
 
-/// What a trial found.
+/// Result of a trial.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Trial {
-    /// As a sweep would report it.
+    /// Point, as a sweep would report it.
     pub point: Point,
     /// Real unknowns that are integrated.
     pub unknowns: u32,
-    /// `[sensor][engine order]`: amplitudes at the integer engine orders from 1 on, of a completed run.
+    /// Amplitudes at the integer engine orders from 1 on, `[sensor][engine order]`, of a completed run.
     pub lines: Vec<Vec<f64>>,
-    /// `[sensor][block]`: root mean squares over successive parts of the window, of a completed run.
+    /// Root mean squares over successive parts of the window, `[sensor][block]`, of a completed run.
     pub levels: Vec<Vec<f64>>,
-    /// `[sensor][sample]`: displacement over the first revolutions.
+    /// Displacement over the first revolutions, `[sensor][sample]`.
     pub history: Vec<Vec<f64>>,
     /// Samples of a revolution of `history`.
     pub samples_per_revolution: u32,
-    /// Whether trajectories can be compared; of a completed trial with a twin.
+    /// Growth of a tiny perturbation, which decides whether trajectories can be compared; of a completed trial with a twin.
     pub sensitivity: Option<Sensitivity>,
-    /// What it cost.
+    /// Cost of the trial.
     pub cost: Cost,
 }
 
 impl Trial {
-    /// Whether it was integrated to its end.
+    /// Whether the trial was integrated to its end.
     pub(crate) fn is_completed(&self) -> bool {
         self.point.status == PointStatus::Completed
     }
 
-    /// Revolutions of a run like it.
+    /// Number of revolutions of a run like this trial.
     pub(crate) fn revolutions(&self, asked: &Integration) -> f64 {
-        // One that was sought is as dear as the longest march.
+        // A response that was solved for costs as much as the longest march.
         let marched = self.point.march.as_ref().filter(|_| self.point.steady.is_none());
         f64::from(marched.map_or(asked.revolutions(), |march| march.revolutions))
     }

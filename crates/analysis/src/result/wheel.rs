@@ -1,4 +1,4 @@
-//! At which speeds the wheel as a whole moves dangerously.
+//! Critical speeds of the wheel as a whole.
 
 use serde::{Deserialize, Serialize};
 
@@ -20,7 +20,7 @@ pub struct WheelCriticalSpeeds {
     pub sensors: Vec<SensorView>,
     /// Indices of the speeds without a result, which may hide a peak.
     pub missing: Vec<u32>,
-    /// What `refine` has added; absent without it.
+    /// Speeds that `refine` has added; absent without it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub refinement: Option<Refinement>,
     /// Units of the model.
@@ -31,7 +31,7 @@ pub struct WheelCriticalSpeeds {
     pub version: String,
 }
 
-/// One of them.
+/// One critical speed of the wheel as a whole.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct WheelCriticalSpeed {
@@ -39,29 +39,30 @@ pub struct WheelCriticalSpeed {
     pub speed_rad_s: f64,
     /// Index of the speed in the sweep.
     pub index: u32,
-    /// What it is ranked by: the displacement over the clearance; if a node has none, of all speeds over the contact line; of a single
-    /// node itself.
+    /// Severity by which critical speeds are ranked, half the peak-to-peak displacement of the tip on one scale for all speeds: over the clearance;
+    /// if a node has none, over the length of the contact line; for a single contact node, the displacement itself.
     pub severity: f64,
-    /// The tip that moves most there.
+    /// Tip that moves most at the speed.
     pub tip: TipResponse,
-    /// Mean and largest sum of all contact forces; absent of scenes without contact.
+    /// Mean sum of all contact forces; absent for scenes without contact.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mean_force: Option<f64>,
-    /// See `mean_force`.
+    /// Largest sum of all contact forces; absent for scenes without contact.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub peak_force: Option<f64>,
     /// Largest share of its clearance that the outward motion of a node takes.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub clearance_consumption: Option<f64>,
-    /// By how much the level rises above the higher one of the valleys beside it.
+    /// Prominence: by how much the level rises above the higher one of the valleys beside the peak.
     pub prominence: f64,
-    /// Whether it lies at an end of the range or beside a speed without a result.
+    /// Whether the peak lies at an end of the range or beside a speed without a result.
     pub at_edge: bool,
-    /// How far the true peak may be from `speed_rad_s` because only the speeds of the sweep were computed, as of the sensors.
+    /// How far the true peak may be from `speed_rad_s` because only the speeds of the sweep were computed, rad/s; see the critical speeds of the
+    /// sensors.
     pub speed_error_rad_s: f64,
-    /// Whether the speeds beside it resolve the peak.
+    /// Whether the neighbouring speeds resolve the peak.
     pub resolved: bool,
-    /// Whether it is a maximum on a branch of periodic responses, as of the sensors.
+    /// Whether the peak is a maximum on a branch of periodic responses; see the critical speeds of the sensors.
     #[serde(default)]
     pub on_branch: bool,
     /// Estimated relative error of the steady response at this speed; absent without control runs.
@@ -69,23 +70,23 @@ pub struct WheelCriticalSpeed {
     pub amplitude_error: Option<f64>,
     /// Steady-state verdict of the speed.
     pub settling: Verdict,
-    /// Largest utilisation at that speed; absent where no stress was recorded or strengths are not known.
+    /// Largest utilisation at the peak's speed; absent where no stress was recorded or strengths are not known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub utilisation: Option<f64>,
-    /// Whether linear theory holds at that speed; absent of what an earlier version computed.
+    /// Whether linear theory holds at the peak's speed; absent for speeds that an earlier version computed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub validity: Option<ValidityVerdict>,
-    /// What that verdict was given without.
+    /// Measures that were not checked for `validity`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub validity_lacking: Vec<ValidityMeasure>,
 }
 
-/// What one sensor sees.
+/// Critical speeds that one sensor sees.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct SensorView {
-    /// The sensor.
+    /// Sensor that was recorded.
     pub sensor: Sensor,
-    /// Its critical speeds.
+    /// Critical speeds that the sensor sees.
     pub critical_speeds: Vec<CriticalSpeed>,
 }

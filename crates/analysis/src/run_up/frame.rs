@@ -1,4 +1,4 @@
-//! Some revolutions of a run, and what is told of them.
+//! Frames of a run: some revolutions each, with their results.
 
 use std::f64::consts::TAU;
 
@@ -8,16 +8,16 @@ use rubmap_wheel::dynamics::integrate::Stretch;
 use rubmap_wheel::dynamics::run_up::profile::SpeedProfile;
 use rubmap_wheel::dynamics::run_up::segments::Segment;
 
-/// Most lines of an order, and revolutions of a spectrum.
+/// Most lines of an order, and most revolutions of a spectrum.
 const LINES: u64 = 8;
 
-/// A frame while it is simulated.
+/// Frame while it is simulated.
 pub(super) struct Frame {
-    /// Revolutions before it.
+    /// Revolutions before the frame.
     revolution: u64,
     start_s: f64,
     end_s: f64,
-    /// `[sensor][sample]`
+    /// Displacement, `[sensor][sample]`.
     displacement: Vec<Vec<f64>>,
     largest: Vec<LargestOfRun>,
     steps: u64,
@@ -25,7 +25,7 @@ pub(super) struct Frame {
 }
 
 impl Frame {
-    /// Of so many sensors, before its first segment, which is `segment`.
+    /// Frame of `sensors` before its first segment, which is `segment`.
     pub(super) fn begin(segment: &Segment, samples_per_revolution: usize, sensors: usize) -> Self {
         let nothing =
             LargestOfRun { displacement: 0.0, time_s: segment.times_s[0], speed_rad_s: segment.speed_rad_s };
@@ -60,17 +60,17 @@ impl Frame {
         self.contact_steps += stretch.statistics.contact_steps;
     }
 
-    /// Largest displacements in it.
+    /// Largest displacements in the frame.
     pub(super) fn into_largest(self) -> Vec<LargestOfRun> {
         self.largest
     }
 
-    /// What is told of it where the run ends before it does; none where that is at once.
+    /// Result of a frame in which the run ends early; none where it ends at the beginning of the frame.
     pub(super) fn cut_short(self, profile: &SpeedProfile, told: (usize, u64)) -> Option<RunUpFrame> {
         (self.end_s > self.start_s).then(|| RunUpFrame { spectra: Vec::new(), ..self.told(profile, told, 0) })
     }
 
-    /// What is told of it, with spectra up to `max_engine_order` if it has `frame_revolutions`.
+    /// Result of a frame, with spectra up to `max_engine_order` if it has all `frame_revolutions`.
     pub(super) fn told(
         self,
         profile: &SpeedProfile,
@@ -98,13 +98,13 @@ fn half_peak_to_peak(line: &[f64]) -> f64 {
     if low < high { 0.5 * (high - low) } else { 0.0 }
 }
 
-/// Order of the second line of a spectrum of so many revolutions.
+/// Order of the second line of a spectrum of a frame with this number of revolutions.
 pub(super) fn order_step(frame_revolutions: u64) -> f64 {
     1.0 / frame_revolutions.min(LINES) as f64
 }
 
-/// Amplitudes over the order, line by line, of equally spaced samples of the angle: of eight revolutions at a time under a Hann window, of whose
-/// amplitudes the largest counts. A sinusoid of a whole number of periods reads its amplitude.
+/// Spectrum of equally spaced samples over the angle: amplitudes line by line over the order, of eight revolutions at a time under a Hann
+/// window, of which the largest counts. A sinusoid of a whole number of periods reads its amplitude.
 fn spectrum(samples: &[f64], revolutions: u64, max_engine_order: u32) -> Vec<f64> {
     let windows = (revolutions / LINES).max(1) as usize;
     let lines = max_engine_order as usize * revolutions.min(LINES) as usize + 1;

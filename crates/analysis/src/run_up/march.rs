@@ -1,4 +1,4 @@
-//! Runs taken some frames further.
+//! Legs of run-ups: each takes a run some frames further.
 
 use std::time::Instant;
 
@@ -32,26 +32,26 @@ use rubmap_wheel::dynamics::run_up::segments::Segment;
 use rubmap_wheel::dynamics::schemes::Scheme;
 use rubmap_wheel::vectors::vectors;
 
-/// Steps and amplitudes of a leg, about: what is lost where the service dies, and what is kept at once.
+/// Approximate numbers of steps and amplitudes of a leg: at most these are lost when the service dies, and stored at once.
 const LEG_STEPS: u64 = 1_000_000;
 const LEG_AMPLITUDES: usize = 500_000;
 
-/// Where runs have got to.
+/// State of a run-up job between legs.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RunUpCourse {
     run: u32,
-    /// Segments that are done.
+    /// Number of finished segments.
     segments: usize,
-    /// The wheel after them; none before the first.
+    /// State of the wheel after the finished segments; none before the first.
     state: Option<EndState>,
     so_far: SoFar,
 }
 
-/// What a run has come to so far.
+/// Results of a run so far.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 struct SoFar {
     largest: Vec<LargestOfRun>,
-    /// Of the lowest band so far.
+    /// Scheme of the lowest band so far, with that band.
     scheme: Option<(u32, SchemeReport)>,
     steps: u64,
     contact_steps: u64,
@@ -65,8 +65,8 @@ struct SoFar {
     wall_time_s: f64,
 }
 
-/// The next leg after `course`, or the first, and the course then, unless all runs have ended; deterministic, on the calling thread. A run
-/// that diverges or cannot be integrated is a result.
+/// Computes the leg after `course`, or the first one; returns it with the next course, none when all runs have ended. Deterministic, on the
+/// calling thread. A run that diverges or cannot be integrated is a result.
 ///
 /// # Errors
 /// Cancellation; a refusal where the speed changes too fast for the angle's tolerance.
@@ -93,13 +93,13 @@ pub fn run_up_leg(
 }
 
 impl RunUpCourse {
-    /// That of a run before its first segment.
+    /// State of a run before its first segment.
     fn begins(run: u32) -> Self {
         Self { run, segments: 0, state: None, so_far: SoFar::default() }
     }
 }
 
-/// A run with all that can be known before it begins.
+/// Run with all that is known before it begins.
 pub(super) struct March<'a> {
     asked: &'a ResolvedRunUps,
     pub(super) profile: SpeedProfile,
@@ -108,7 +108,7 @@ pub(super) struct March<'a> {
     pub(super) segments: Vec<Segment>,
 }
 
-/// How bands are stepped, those that were met.
+/// Stepping of the bands met so far.
 struct Steppings(Vec<(u32, Stepping)>);
 
 impl Steppings {
@@ -124,14 +124,14 @@ impl Steppings {
     }
 }
 
-/// A wheel at the speed of a segment.
+/// Wheel at the speed of a segment.
 struct Wheel {
     modal: ModalWheel,
     shapes: Shapes,
 }
 
 impl<'a> March<'a> {
-    /// Of a wheel of so many sectors.
+    /// Run `run` of a wheel of this number of sectors.
     pub(super) fn new(asked: &'a ResolvedRunUps, sectors: usize, run: u32) -> Result<Self, AnalysisError> {
         let profile = asked.speed.profile(run);
         let samples = Discretisation::of_every_speed(&asked.sweep, sectors);
@@ -161,8 +161,8 @@ impl<'a> March<'a> {
         self.segments.iter().map(|segment| segment.band).max().unwrap_or(0)
     }
 
-    /// How a band is stepped: as its lowest speed is. A boundary without mass keeps the modes of the highest band in all: one that is
-    /// integrated only from some speed on would begin at rest, under forces that it had followed.
+    /// Stepping of a band: that of its lowest speed. A boundary without mass keeps the modes of the highest band in all bands: a mode that
+    /// was integrated only above some speed would begin at rest, under forces that it had followed.
     pub(super) fn stepping(&self, sector: &ReducedSector, band: u32) -> Result<Stepping, NotRunnable> {
         let request = self.request();
         let highest = self.highest_band();
@@ -193,14 +193,14 @@ impl<'a> March<'a> {
         Stepping::choose_for_parts(&wheel, &sector.wheel.contact, request, self.asked.euler_force)
     }
 
-    /// Takes the first sample of all, as `stepping` has it: what setting up a segment takes.
+    /// Simulates only the first sample of the run with `stepping`: the time of this is the set-up of a segment.
     pub(super) fn begin(&self, sector: &ReducedSector, stepping: &Stepping) -> Result<(), NotRunnable> {
         let Some(first) = self.segments.first() else { return Ok(()) };
         let first = Segment { samples: 1, ..*first };
         self.take(sector, &first, (None, None), stepping, &mut SoFar::default(), &|_| true).map(|_| ())
     }
 
-    /// Some frames further; `watch` is told the share of the run that is done, and the speed.
+    /// Takes the run some frames further; `watch` receives the finished share of the run, and the speed.
     fn go(
         &self,
         sector: &ReducedSector,
@@ -288,7 +288,7 @@ impl<'a> March<'a> {
         Ok((leg, None))
     }
 
-    /// Takes a segment from `state`, that of the `last` wheel.
+    /// Simulates a segment from `state`, which belongs to the `last` wheel.
     fn take(
         &self,
         sector: &ReducedSector,
@@ -349,7 +349,7 @@ impl<'a> March<'a> {
         Ok((wheel, stretch))
     }
 
-    /// How clearances given cold follow the speed within a segment whose casing has those of its mean speed; none of others.
+    /// Change of cold clearances with speed within a segment, whose casing has those of its mean speed; none without cold clearances.
     fn drift(
         &self,
         sector: &ReducedSector,
@@ -369,7 +369,7 @@ impl<'a> March<'a> {
         }))
     }
 
-    /// The Euler force within a segment, where it is asked for.
+    /// Euler force within a segment, where it is asked for.
     fn euler_force(
         &self,
         sector: &ReducedSector,
@@ -387,7 +387,7 @@ impl<'a> March<'a> {
         }))
     }
 
-    /// Revolutions after which a segment begins and ends.
+    /// Revolutions at which a segment begins and ends.
     fn revolutions(&self, segment: &Segment) -> [f64; 2] {
         [segment.first_sample, segment.first_sample + segment.samples]
             .map(|sample| sample as f64 / self.samples as f64)
@@ -451,7 +451,7 @@ fn reached(segment: &Segment, stretch: &Stretch, profile: &SpeedProfile) -> Vec<
     frame.into_largest()
 }
 
-/// What to say of a run whose largest displacement is in its `last` frame, in which the speed still changes.
+/// Message about a run whose largest displacement is in its `last` frame, in which the speed still changes; none for others.
 fn ends_inside(last: &RunUpFrame, so_far: &SoFar) -> Option<String> {
     if last.speeds_rad_s[0] == last.speeds_rad_s[1] {
         return None;
@@ -464,7 +464,7 @@ fn ends_inside(last: &RunUpFrame, so_far: &SoFar) -> Option<String> {
     ))
 }
 
-/// ½(|ż|² + ω²|z|²) summed over the modes.
+/// Modal energy ½(|ż|² + ω²|z|²), summed over the modes.
 fn modal_energy(wheel: &ModalWheel, modes: &[InitialMode]) -> f64 {
     let of = |mode: &InitialMode| {
         let omega = wheel.harmonics[mode.harmonic].omega[mode.family];

@@ -1,4 +1,4 @@
-//! Wheels whose speed changes (docs/method.md, Run-up and run-down): [`march::run_up_leg`] takes one some frames further.
+//! Run-ups and run-downs (docs/method.md, Run-up and run-down): [`march::run_up_leg`] takes one some frames further.
 
 mod frame;
 pub(crate) mod march;
@@ -9,13 +9,13 @@ pub(crate) mod told;
 use crate::resolved::ResolvedRunUps;
 use rubmap_wheel::dynamics::run_up::segments::Cutting;
 
-/// Highest speed over the lowest of those for which scheme and step are chosen once.
+/// Ratio of the highest to the lowest speed of a band, for which scheme and step are chosen once.
 const BAND_RATIO: f64 = std::f64::consts::SQRT_2;
 
-/// Most pieces of one speed in a run.
+/// Most segments of constant speed in a run.
 const SEGMENTS: usize = 200_000;
 
-/// How a run of so many revolutions is cut.
+/// Cutting of a run of this number of revolutions into segments.
 pub(crate) fn cutting(asked: &ResolvedRunUps, revolutions: f64, samples_per_revolution: usize) -> Cutting {
     Cutting {
         samples_per_revolution,

@@ -1,9 +1,10 @@
-//! How fast one must pass a critical speed.
+//! Rate at which a critical speed must be passed.
 
 use crate::digits::short;
 use crate::result::{PassingRate, RunUp, RunUpEnd};
 
-/// From runs of several rates that have all ended. A run that did not come to its end keeps no limit. Lengths are in `unit`.
+/// Passing rate from runs of several rates that have all ended. A run that was not completed counts as exceeding the limit. Lengths are in
+/// `unit`.
 pub(super) fn passing(limit: f64, unit: &str, runs: &[RunUp]) -> Option<PassingRate> {
     let largest =
         |end: &RunUpEnd| end.largest.iter().fold(0.0f64, |most, largest| most.max(largest.displacement));
@@ -70,7 +71,7 @@ mod tests {
 
     use super::*;
 
-    /// Runs of these rates and largest displacements; none of a run that diverged.
+    /// Runs with these rates and largest displacements; none for a run that diverged.
     fn runs(of: &[(f64, Option<f64>)]) -> Vec<RunUp> {
         let run = |(number, (rate, largest)): (usize, &(f64, Option<f64>))| {
             let status = if largest.is_some() { "completed" } else { "diverged" };
@@ -87,7 +88,7 @@ mod tests {
         of.iter().enumerate().map(run).collect()
     }
 
-    /// A peak that falls with the square root of the rate, in no order: 1 mm at 100 rad/s², so 0.5 mm at 400.
+    /// Peak that falls with the square root of the rate, in no order: 1 mm at 100 rad/s², so 0.5 mm at 400.
     #[test]
     fn the_rate_lies_where_the_law_of_the_peak_has_it() {
         let of = |rate: f64| (rate, Some((100.0 / rate).sqrt()));

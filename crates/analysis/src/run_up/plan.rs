@@ -1,4 +1,4 @@
-//! What run-ups will do and cost, before they begin.
+//! Plan of run-ups: work and cost, before they begin.
 
 use std::collections::hash_map::Entry;
 use std::collections::{BTreeMap, HashMap};
@@ -21,7 +21,7 @@ use crate::speed::ready;
 use crate::wheel::wheel_of;
 use rubmap_wheel::revision::VERSION;
 
-/// Plans resolved run-ups; without `reduced`, what can be said without it. Which machine was measured is for the caller to add.
+/// Plans resolved run-ups; without `reduced`, as far as the facts allow. The caller adds the measured machine.
 pub fn plan_run_ups(
     asked: &ResolvedRunUps,
     facts: &ModelFacts,
@@ -107,13 +107,13 @@ fn plan_run(
     }
 }
 
-/// Prices that runs of one plan share: of rates over one range the bands are the same.
+/// Prices that all runs of one plan share: runs with different rates over one range have the same bands.
 struct Prices<'a> {
     reduced: &'a ReducedSector,
     calibration: &'a Calibration,
-    /// Time that setting up a segment takes, s: all segments take as long.
+    /// Time of the set-up of a segment, s: the same for all segments.
     set_up_s: Option<f64>,
-    /// Bands by their lowest speed and the highest band of the run.
+    /// Prices of bands, by the lowest speed and the highest band of the run.
     bands: HashMap<(u64, u32), BandPrice>,
 }
 
@@ -131,7 +131,7 @@ impl<'a> Prices<'a> {
         Self { reduced, calibration, set_up_s: None, bands: HashMap::new() }
     }
 
-    /// Scheme at the lowest speed, steps and time of a run: of every band its steps, and of every segment what setting it up takes.
+    /// Scheme at the lowest speed, steps and time of a run: the steps of every band, and the set-up of every segment.
     fn of_run(&mut self, march: &March<'_>) -> Result<(SchemeReport, u64, CostRange), NotRunnable> {
         let mut bands = BTreeMap::<u32, u64>::new();
         for segment in &march.segments {
@@ -197,8 +197,8 @@ fn price(
     })
 }
 
-/// Memory that a run holds, in bytes: what a speed does, the lowest or the highest, its shapes, the samples of a frame and the amplitudes of a leg
-/// with their text.
+/// Memory that a run takes, in bytes: that of its lowest or its highest speed, the shapes, the samples of a frame, and the amplitudes of a
+/// leg with their text.
 pub fn run_ups_memory(reduced: &ReducedSector, asked: &ResolvedRunUps) -> u64 {
     const LEG: u64 = 64 << 20;
     let sweep = asked.sweep();

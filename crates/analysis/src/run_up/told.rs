@@ -1,4 +1,4 @@
-//! Legs put together.
+//! Results of run-ups, put together from their legs.
 
 use super::passing::passing;
 use crate::model::ModelFacts;
@@ -7,29 +7,29 @@ use crate::result::{PointStatus, RunUp, RunUpEnd, RunUpLeg, RunUps, Spectrogram}
 use rubmap_wheel::revision::VERSION;
 
 impl RunUpEnd {
-    /// Whether the run came to its end.
+    /// Whether the run was completed.
     pub fn is_complete(&self) -> bool {
         self.status == PointStatus::Completed
     }
 }
 
 impl RunUpLeg {
-    /// Number of its run.
+    /// Number of the run of this leg.
     pub fn run(&self) -> u32 {
         self.run
     }
 
-    /// How the run ended, if this is its last leg.
+    /// Status of the run at its end, if this is its last leg.
     pub fn status(&self) -> Option<PointStatus> {
         self.end.as_ref().map(|end| end.status)
     }
 
-    /// Spectra of its frames, `[frame][sensor][line]`, which are kept apart from it.
+    /// Spectra of the frames, `[frame][sensor][line]`, which are stored apart from the leg.
     pub fn spectra(&self) -> Vec<&[Vec<f64>]> {
         self.frames.iter().map(|frame| frame.spectra.as_slice()).collect()
     }
 
-    /// With the spectra of its frames.
+    /// Adds the spectra of the frames.
     #[must_use]
     pub fn with_spectra(mut self, spectra: Vec<Vec<Vec<f64>>>) -> Self {
         self.frames.iter_mut().zip(spectra).for_each(|(frame, spectra)| frame.spectra = spectra);
@@ -68,7 +68,7 @@ pub fn run_ups(asked: &ResolvedRunUps, facts: &ModelFacts, legs: Vec<RunUpLeg>) 
     })
 }
 
-/// Amplitudes of a sensor in a run, frame by frame; none of a run or a sensor that is not there.
+/// Amplitudes of a sensor in a run, frame by frame; none for a run or a sensor that does not exist.
 pub fn spectrogram(run_ups: &RunUps, run: u32, sensor: usize) -> Option<Spectrogram> {
     let found = run_ups.runs.iter().find(|found| found.run == run)?;
     let frames = || found.frames.iter().filter(|frame| !frame.spectra.is_empty());

@@ -1,4 +1,4 @@
-//! Reduced stress against the sector without reduction: forced response at a nodal diameter, and the centrifugal load.
+//! Reduced stress compared with the sector without reduction: forced response at a nodal diameter, and the centrifugal load.
 
 use std::sync::Mutex;
 
@@ -49,7 +49,7 @@ fn impeller() -> Impeller {
     Impeller { sector, mesh, nodes }
 }
 
-/// Keeps whole bases in memory.
+/// Store that keeps whole bases in memory.
 #[derive(Default)]
 struct Bases(Mutex<Vec<Vec<Vec<f64>>>>);
 
@@ -97,7 +97,7 @@ impl Impeller {
         (wheel, stress)
     }
 
-    /// Ŷ(i), dense.
+    /// Cyclic matrix Ŷ(i) of a nodal diameter, dense.
     fn dense(&self, matrix: &CyclicMatrix, harmonic: usize) -> Mat<c64> {
         let angle = std::f64::consts::TAU * harmonic as f64 / SECTORS as f64;
         let phase = c64::new(angle.cos(), angle.sin());
@@ -112,7 +112,7 @@ impl Impeller {
         dense
     }
 
-    /// (r, θ, z) at all nodes of own DOF.
+    /// Displacement (r, θ, z) at all nodes from the own DOF.
     fn at_nodes(&self, own: &Mat<c64>) -> Mat<c64> {
         let mut shapes = Mat::zeros(3 * self.nodes.len(), own.ncols());
         for (index, node) in self.nodes.iter().enumerate().filter(|(_, node)| !node.on_high_face) {
@@ -136,8 +136,8 @@ fn at(stress: &Mat<c64>, place: usize) -> [Stress; 2] {
     ]
 }
 
-/// A force at the first contact node of every blade, one nodal diameter around, below the first resonance: the stress away from the
-/// contact nodes converges to that of the whole sector, more slowly than displacement.
+/// Force at the first contact node of every blade, one nodal diameter around, below the first resonance: the stress away from the contact
+/// nodes converges to that of the whole sector, more slowly than displacement.
 #[test]
 fn stress_of_a_forced_response_converges_with_the_modes_kept() {
     let impeller = impeller();
@@ -221,7 +221,7 @@ fn stress_of_a_forced_response_converges_with_the_modes_kept() {
     assert!(last.1 < 1e-4, "{errors:?}");
 }
 
-/// K(Ω) u = Ω² f of the whole sector at speeds between those of the matrices.
+/// Solution K(Ω) u = Ω² f of the whole sector at speeds between those of the matrices.
 #[test]
 fn static_stress_between_the_given_speeds_is_that_of_a_solution_there() {
     let impeller = impeller();

@@ -1,11 +1,11 @@
-//! What no instant of no blade exceeds, for every place, before any is looked at.
+//! Upper bounds of the stress of every place over all instants and blades, computed before any place is evaluated.
 //!
 //! ```text
 //! σ_s(t) = σ₀ + Σ_i Re( e^{jisα} Σ_k a_ik c_ik(t) ) + rest,      a = S̃ U
 //! ```
 //!
-//! Von Mises stress is a seminorm, so |σ_s(t) − σ₀| ≤ Σ_ik |a_ik| max|c_ik| + |S̃|_G |rest|_G, with few directions k: those that stress
-//! most. What they have of |S̃|²_G the rest has not.
+//! Von Mises stress is a seminorm, so |σ_s(t) − σ₀| ≤ Σ_ik |a_ik| max|c_ik| + |S̃|_G |rest|_G, with few directions k, those with most
+//! stress. The share of |S̃|²_G in these directions is subtracted in the bound of the rest.
 
 use faer::linalg::matmul::matmul;
 use faer::{Accum, MatMut, Par};
@@ -17,22 +17,22 @@ use super::reduced::ReducedStress;
 use super::sums::{LANES, Sums};
 use super::trajectory::Path;
 
-/// Places whose directions are computed together.
+/// Number of places whose directions are computed together.
 const BATCH: usize = 64;
 
-/// Spacings of single precision per term of a sum, with room.
+/// Rounding error in single precision per term of a sum, relative, with a margin.
 pub(super) const ROUNDING: f64 = 2.0 * f32::EPSILON as f64;
 
-/// No more than this is left out.
+/// Upper bound of the stress that is neglected.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Error {
-    /// Of von Mises stress.
+    /// Bound of the von Mises stress.
     pub(super) von_mises: f64,
-    /// Of three times the mean normal stress.
+    /// Bound of three times the mean normal stress.
     pub(super) trace: f64,
 }
 
-/// Bounds of all places, of the `paths` of a wheel under `fixed` stress.
+/// Bounds of all places, for the `paths` of a wheel under `fixed` stress.
 pub(super) fn bounds(stress: &ReducedStress, fixed: &[Stress], paths: &[Path]) -> Vec<Bound> {
     let mut swings: Vec<Error> = fixed.iter().map(Error::rounded).collect();
     for path in paths {
@@ -47,14 +47,14 @@ pub(super) fn bounds(stress: &ReducedStress, fixed: &[Stress], paths: &[Path]) -
 }
 
 impl Error {
-    /// What single precision does to a fixed stress.
+    /// Rounding error of a fixed stress in single precision.
     pub(super) fn rounded(fixed: &Stress) -> Self {
         let size = fixed.iter().map(|s| s.abs()).sum::<f64>() * ROUNDING;
         Self { von_mises: 3.0 * size, trace: size }
     }
 }
 
-/// Adds what one nodal diameter does to the swings of all places.
+/// Adds the contribution of one nodal diameter to the swings of all places.
 fn add(stress: &ReducedStress, path: &Path, swings: &mut [Error]) {
     let operator = &stress.harmonics[path.harmonic];
     let padded = path.bounding.next_multiple_of(LANES);

@@ -1,10 +1,10 @@
-//! Utilisation: how a cycle of stress is held against what a material bears.
+//! Utilisation: cycles of stress compared with the strength of a material.
 
 use super::measure::{Stress, principal, signed, von_mises};
 use rubmap_solid::material::Material;
 use rubmap_solid::mesh::ElementSet;
 
-/// A linear measure of a cycle: `alternating·σ_a + mean·max(σ_m, 0)`; Goodman's with one over the fatigue strength and one over the
+/// Linear measure of a cycle: `alternating·σ_a + mean·max(σ_m, 0)`; Goodman's measure has one over the fatigue strength and one over the
 /// ultimate strength.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Weights {
@@ -12,17 +12,17 @@ pub(super) struct Weights {
     mean: f64,
 }
 
-/// Which sign the mean normal stress of a place has over the whole path.
+/// Sign of the mean normal stress of a place over the whole path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Sign {
     Tension,
     Pressure,
-    /// It may change.
+    /// Sign that may change.
     Either,
 }
 
 impl Sign {
-    /// Of a trace between `low` and `high`.
+    /// Sign of a trace between `low` and `high`.
     pub(super) fn of(low: f64, high: f64) -> Self {
         match (low > 0.0, high < 0.0) {
             (true, _) => Self::Tension,
@@ -32,35 +32,35 @@ impl Sign {
     }
 }
 
-/// What bounds the cycle of a place.
+/// Bounds of the cycle of a place.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Bound {
-    /// No von Mises stress is more.
+    /// Upper bound of the von Mises stress.
     pub(super) largest: f64,
-    /// No von Mises stress is further than this from that of the middle of its path.
+    /// Upper bound of the difference of the von Mises stress from that of the middle of the path.
     pub(super) swing: f64,
     pub(super) sign: Sign,
 }
 
 impl Weights {
-    /// Goodman's, if the material has both strengths.
+    /// Weights of Goodman's measure, if the material has both strengths.
     pub(super) fn goodman(material: &Material) -> Option<Self> {
         let fatigue = material.fatigue_strength.as_ref()?.amplitude;
         Some(Self { alternating: 1.0 / fatigue, mean: 1.0 / material.ultimate_strength? })
     }
 
-    /// The alternating stress alone.
+    /// Weights of the alternating stress alone.
     pub(super) const ALTERNATING: Self = Self { alternating: 1.0, mean: 0.0 };
 
     pub(super) fn of(self, alternating: f64, mean: f64) -> f64 {
         self.alternating * alternating + self.mean * mean.max(0.0)
     }
 
-    /// No cycle within `bound` has more.
+    /// Upper bound of the measure of cycles within `bound`.
     pub(super) fn most(self, bound: &Bound) -> f64 {
         let Self { alternating, mean } = self;
         match bound.sign {
-            // Of max = σ_m + σ_a ≤ largest and σ_a ≤ swing.
+            // From max = σ_m + σ_a ≤ largest and σ_a ≤ swing.
             Sign::Tension => mean * bound.largest + (alternating - mean).max(0.0) * bound.swing,
             Sign::Pressure => alternating * bound.swing,
             // A jump from one sign to the other swings by both.
@@ -68,18 +68,18 @@ impl Weights {
         }
     }
 
-    /// What a cycle has at least and at most whose ends lie within `lows` and `highs`.
+    /// Bounds of the measure of a cycle whose ends lie within `lows` and `highs`, the lower one first.
     pub(super) fn within(self, lows: (f64, f64), highs: (f64, f64)) -> (f64, f64) {
         let of = |low: f64, high: f64| self.of(0.5 * (high - low).max(0.0), 0.5 * (high + low));
         // Convex in both ends, so that it is largest at a corner.
         let most = of(lows.0, highs.1).max(of(lows.1, highs.1));
-        // It grows with the upper end, and falls with the lower one as long as alternating stress weighs more.
+        // The measure grows with the upper end, and falls with the lower one as long as alternating stress weighs more.
         let least = if self.alternating < self.mean { 0.0 } else { of(lows.1, highs.0) };
         (least, most)
     }
 }
 
-/// Weights of every element set, and what they lack, in words. Sets without strengths are passed over unless none has any.
+/// Weights of every element set, and a sentence about missing strengths. Sets without strengths are skipped unless all lack them.
 pub(super) fn weights(sets: &[ElementSet]) -> (Vec<Option<Weights>>, Option<String>) {
     let goodman: Vec<Option<Weights>> = sets.iter().map(|set| Weights::goodman(&set.material)).collect();
     let without: Vec<&str> = sets
@@ -101,7 +101,7 @@ pub(super) fn weights(sets: &[ElementSet]) -> (Vec<Option<Weights>>, Option<Stri
     (goodman, Some(lacking))
 }
 
-/// Ends of the path of one place of one blade.
+/// Cycle of one place of one blade, from the extremes of its path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Cycle {
     pub(super) mean: f64,
@@ -113,7 +113,7 @@ pub(super) struct Cycle {
 }
 
 impl Cycle {
-    /// Of a path.
+    /// Cycle of a path.
     pub(super) fn of(path: impl Iterator<Item = Stress>) -> Self {
         let mut ends = [(f64::INFINITY, f64::NEG_INFINITY); 2];
         let mut peak = (f64::NEG_INFINITY, 0);

@@ -1,10 +1,10 @@
-//! Why the stress of a speed is not known.
+//! Errors of the stress of a speed.
 
 use thiserror::Error;
 
 use rubmap_numerics::hermitian::EigenError;
 
-/// Why stress is not known.
+/// Reason why stress is not known.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 pub(crate) enum StressError {
     #[error("an eigenvalue iteration failed")]

@@ -1,43 +1,43 @@
-//! The extremes of one place over all blades and instants, in single precision, many instants at a time.
+//! Extremes of one place over all blades and instants, in single precision, many instants at a time.
 
 use pulp::{Simd, WithSimd};
 
-/// What moves a place: σ_s(t) = σ₀ + Σ_i Re( e^{jisα} w_i(t) ).
+/// Stress of a place over time: σ_s(t) = σ₀ + Σ_i Re( e^{jisα} w_i(t) ).
 pub(super) struct Moved<'a> {
-    /// σ₀ of all components.
+    /// Static stress σ₀, all components.
     pub(super) fixed: [f32; 6],
-    /// w of every nodal diameter: `[component][part][instant]`, so many instants padded to whole vectors.
+    /// Waves w of every nodal diameter: `[component][part][instant]`, the instants padded to whole vectors.
     pub(super) waves: &'a [&'a [f32]],
     pub(super) instants: usize,
-    /// Re and Im of e^{jisα}, `[blade][nodal diameter]`.
+    /// Real and imaginary part of e^{jisα}, `[blade][nodal diameter]`.
     pub(super) turns: &'a [(f32, f32)],
     pub(super) blades: usize,
-    /// No trace is further than this from what the waves say.
+    /// Largest error of the trace that follows from the waves.
     pub(super) trace_error: f32,
 }
 
-/// Squares of von Mises stresses, with the sign of the trace where it says so.
+/// Extremes of the squared von Mises stress, signed by the trace where its sign is certain.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Extremes {
     pub(super) largest: f32,
-    /// If every doubtful sign is a plus,
+    /// Largest signed square if every doubtful sign is plus.
     pub(super) high_at_most: f32,
-    /// or a minus.
+    /// Smallest signed square if every doubtful sign is minus.
     pub(super) low_at_least: f32,
-    /// If every doubtful sign is a minus,
+    /// Largest signed square if every doubtful sign is minus.
     pub(super) high_at_least: f32,
-    /// or a plus.
+    /// Smallest signed square if every doubtful sign is plus.
     pub(super) low_at_most: f32,
 }
 
-/// Of every blade.
+/// Computation of the extremes of every blade.
 struct AllBlades<'a, 'b> {
     moved: &'b Moved<'a>,
     found: &'b mut Vec<Extremes>,
 }
 
 impl Moved<'_> {
-    /// Of every blade, into `found`.
+    /// Writes the extremes of every blade into `found`.
     pub(super) fn extremes(&self, arch: pulp::Arch, found: &mut Vec<Extremes>) {
         found.clear();
         arch.dispatch(AllBlades { moved: self, found });

@@ -1,4 +1,4 @@
-//! One place over all blades and instants, as the operator has it.
+//! Stress of one place over all blades and instants, in full precision.
 
 use faer::{Mat, c64};
 
@@ -8,30 +8,30 @@ use super::measure::Stress;
 use super::reduced::ReducedStress;
 use super::trajectory::Path;
 
-/// A place over all blades and instants.
+/// Stress of a place over all blades and instants.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Followed {
-    /// Largest von Mises stress, its instant and its blade.
+    /// Largest von Mises stress and its instant; `peak_blade` is its blade.
     pub(super) peak: (f64, usize),
     pub(super) peak_blade: usize,
-    /// Of the blade with the largest measure of utilisation.
+    /// Cycle of the blade with the largest measure of utilisation.
     pub(super) cycle: Cycle,
     pub(super) cycle_blade: usize,
     pub(super) measure: f64,
 }
 
-/// The wheel that is followed.
+/// Wheel whose places are followed.
 pub(super) struct Follow<'a> {
     pub(super) stress: &'a ReducedStress,
     pub(super) fixed: &'a [Stress],
     pub(super) paths: &'a [Path],
-    /// Told apart, and around the wheel.
+    /// Number of blades that differ, and of blades around the wheel.
     pub(super) blades: (usize, usize),
     pub(super) instants: usize,
 }
 
 impl Follow<'_> {
-    /// A place; `weights` say which blade's cycle is told.
+    /// Follows a place; `weights` decide which blade's cycle is reported.
     pub(super) fn place(&self, place: usize, weights: Weights) -> Followed {
         let fixed = &self.fixed[place];
         let waves: Vec<(usize, Mat<c64>)> = (self.paths.iter())
@@ -63,7 +63,7 @@ impl Follow<'_> {
 }
 
 impl Followed {
-    /// With another blade, if it has more.
+    /// Larger of the results of this blade and another one.
     fn with(mut self, other: &Self) -> Self {
         if other.peak.0 > self.peak.0 {
             (self.peak, self.peak_blade) = (other.peak, other.peak_blade);

@@ -1,16 +1,16 @@
-//! The largest few of many numbers.
+//! Largest few of many numbers.
 
 use std::cmp::Ordering;
 
-/// By value, then by place.
+/// Descending order by value, then ascending by place.
 pub(super) fn descending(a: &(f64, usize), b: &(f64, usize)) -> Ordering {
     b.0.total_cmp(&a.0).then(a.1.cmp(&b.1))
 }
 
-/// The largest few of some numbers.
+/// Largest few of some numbers.
 pub(super) struct Leaders {
     count: usize,
-    /// Descending.
+    /// Values in descending order.
     values: Vec<f64>,
 }
 
@@ -25,7 +25,7 @@ impl Leaders {
         self.values.truncate(self.count);
     }
 
-    /// What one must have to be among them.
+    /// Smallest value that is among the largest few.
     pub(super) fn least(&self) -> f64 {
         if self.values.len() < self.count { f64::NEG_INFINITY } else { self.values[self.count - 1] }
     }

@@ -1,4 +1,4 @@
-//! A look at places at all instants of all blades by the directions that stress them most; what these leave out is bounded.
+//! Evaluation of places at all instants of all blades with the directions that stress them most; the rest is bounded.
 
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, MatMut, MatRef, Par, c64};
@@ -12,38 +12,38 @@ use super::reduced::{HarmonicStress, ReducedStress};
 use super::sums::{LANES, Sums};
 use super::trajectory::Path;
 
-/// Places that are looked at together: their waves stay in the second-level cache.
+/// Number of places that are evaluated together: their waves stay in the second-level cache.
 pub(super) const BATCH: usize = 8;
 
-/// What a look says of a place, over all blades.
+/// Bounds of a place from its evaluation, over all blades.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Seen {
-    /// No von Mises stress is more,
+    /// Upper bound of the von Mises stress.
     pub(super) largest: f64,
-    /// and the largest is no less.
+    /// Lower bound of the largest von Mises stress.
     pub(super) largest_at_least: f64,
-    /// The measure of utilisation is no more,
+    /// Upper bound of the measure of utilisation.
     pub(super) most: f64,
-    /// and no less.
+    /// Lower bound of the measure of utilisation.
     pub(super) most_at_least: f64,
 }
 
-/// Looks at places.
+/// Evaluation of places, prepared for a wheel at a speed.
 pub(super) struct Look<'a> {
     fixed: &'a [Stress],
     arch: pulp::Arch,
-    /// Stresses are divided by this, so that their squares have room in single precision.
+    /// Divisor of stresses, so that their squares have room in single precision.
     scale: f64,
     moving: Vec<Moving<'a>>,
-    /// Padded to whole vectors.
+    /// Number of instants, padded to whole vectors.
     instants: usize,
-    /// Re and Im of e^{jisα}, `[blade][nodal diameter]`.
+    /// Real and imaginary part of e^{jisα}, `[blade][nodal diameter]`.
     turns: Vec<(f32, f32)>,
     blades: usize,
 }
 
 impl<'a> Look<'a> {
-    /// Of the `paths` over `instants` of a wheel of which `blades` are told apart, `around` stand in all.
+    /// Prepares the evaluation of the `paths` over `instants` of a wheel with `blades` that differ, of `around` in all.
     pub(super) fn new(
         stress: &'a ReducedStress,
         bounds: &[Bound],
@@ -71,7 +71,7 @@ impl<'a> Look<'a> {
         }
     }
 
-    /// At some places, at most [`BATCH`], with the `weights` of each.
+    /// Evaluates some places, at most [`BATCH`], with the `weights` of each.
     pub(super) fn at(&self, places: &[usize], weights: &[Option<Weights>]) -> Vec<Seen> {
         let width = 2 * self.instants;
         let mut errors: Vec<Error> = places.iter().map(|&place| Error::rounded(&self.fixed[place])).collect();
@@ -116,18 +116,19 @@ impl<'a> Look<'a> {
     }
 }
 
-/// A nodal diameter that moves.
+/// Nodal diameter that moves.
 struct Moving<'a> {
     operator: &'a HarmonicStress,
-    /// `2·directions × 2·unknowns`, the directions padded.
+    /// Directions as rows, `2·directions × 2·unknowns`, the directions padded.
     turned: Mat<f32>,
-    /// `2·instants × 2·directions` of those that look: what gives the real, then the imaginary part of w_i at all instants.
+    /// Factors of the evaluated directions, `2·instants × 2·directions`: they give the real, then the imaginary part of w_i at all
+    /// instants.
     drive: Mat<f32>,
-    /// Of the directions that do not look.
+    /// Sums over the directions that are not evaluated.
     sums: Sums,
-    /// What all directions leave of |x̃|_G.
+    /// Norm |x̃|_G that all directions neglect.
     left: f64,
-    /// What rounding may have done, of a norm.
+    /// Rounding error, relative to a norm.
     rounding: f64,
 }
 
@@ -160,7 +161,7 @@ impl<'a> Moving<'a> {
         }
     }
 
-    /// w_i at some places, `[place][component][part][instant]`; adds to their `errors` what it leaves out.
+    /// Waves w_i at some places, `[place][component][part][instant]`; adds the neglected rest to their `errors`.
     fn waves(&self, places: &[usize], errors: &mut [Error]) -> Vec<f32> {
         let rows = self.operator.of_places(places);
         let mut parts = vec![0.0f32; self.turned.nrows() * rows.ncols()];
@@ -187,7 +188,7 @@ impl<'a> Moving<'a> {
     }
 }
 
-/// e^{jisα}
+/// Phase e^{jisα} of nodal diameter i at blade s.
 pub(super) fn turn(harmonic: usize, blade: usize, around: usize) -> c64 {
     let angle = std::f64::consts::TAU * ((harmonic * blade) % around) as f64 / around as f64;
     c64::new(angle.cos(), angle.sin())

@@ -13,36 +13,37 @@ use rubmap_wheel::dynamics::nodes::SectorNode;
 use rubmap_wheel::dynamics::reduction::{ReducedHarmonic, ReductionError, Watch, static_response};
 use rubmap_wheel::dynamics::sector::SectorModel;
 
-/// Unknowns whose stress is computed together.
+/// Number of unknowns whose stress is computed together.
 const COLUMNS: usize = 8;
 
-/// Makes the stress of a reduction's unknowns and of the centrifugal load.
+/// Maker of the stress of a reduction's unknowns and of the centrifugal load.
 #[derive(Debug)]
 pub struct StressMaker<'a> {
     mesh: &'a SectorMesh,
-    /// Those of the mesh, in its order.
+    /// Nodes of the mesh, in its order.
     nodes: &'a [SectorNode],
     operator: NodalStress,
 }
 
-/// How a maker is told the rows of a basis: real and imaginary part of every unknown at an own DOF of a nodal diameter.
+/// Source of the rows of a basis: real and imaginary part of every unknown at an own DOF of a nodal diameter.
 pub type StressOf<'r, E> = &'r mut dyn FnMut(usize, usize) -> Result<Vec<f64>, E>;
 
 impl<'a> StressMaker<'a> {
-    /// Of a mesh and its nodes in the same order, as packages have them.
+    /// Maker for a mesh and its nodes in the same order, as packages have them.
     pub fn new(mesh: &'a SectorMesh, nodes: &'a [SectorNode]) -> Self {
         Self { mesh, nodes, operator: NodalStress::new(mesh) }
     }
 
-    /// Stress at nodes.
+    /// Operator of the stress at nodes.
     pub fn operator(&self) -> &NodalStress {
         &self.operator
     }
 
-    /// S̃ of a nodal diameter at all places, in single precision: a millionth of the root sum of squares of its unknowns. In parallel over unknowns, on the current rayon pool.
+    /// Stress S̃ of a nodal diameter at all places, in single precision: a millionth of the root sum of squares of its unknowns. In
+    /// parallel over unknowns, on the current rayon pool.
     ///
     /// # Errors
-    /// Those of `row`.
+    /// Errors of `row`.
     pub fn harmonic<E>(
         &self,
         reduced: &ReducedHarmonic,
@@ -87,7 +88,7 @@ impl<'a> StressMaker<'a> {
     /// Displacement under the centrifugal load, and its stress at all places.
     ///
     /// # Errors
-    /// Those of [`static_response`].
+    /// Errors of [`static_response`].
     pub fn fixed(&self, sector: &SectorModel, watch: Watch<'_>) -> Result<StaticWheel, ReductionError> {
         let load = own_load(self.nodes, &centrifugal(self.mesh), sector.own_dofs());
         let response = static_response(sector, &load, watch)?;
@@ -100,7 +101,7 @@ impl<'a> StressMaker<'a> {
         Ok(StaticWheel { stress, displacement: dofs.map(|at| response.solutions[at]).collect() })
     }
 
-    /// (r, θ, z) at all nodes of `columns` vectors over the own DOF.
+    /// Displacement (r, θ, z) at all nodes of `columns` vectors over the own DOF.
     fn at_nodes(&self, columns: usize, of: impl Fn(usize, usize) -> c64) -> Mat<c64> {
         let mut shapes = Mat::zeros(3 * self.nodes.len(), columns);
         for (index, node) in self.nodes.iter().enumerate().filter(|(_, node)| !node.on_high_face) {
@@ -117,7 +118,7 @@ impl<'a> StressMaker<'a> {
     }
 }
 
-/// L of K_r(0) = L Lᴴ; every reduction has it.
+/// Cholesky factor L of K_r(0) = L Lᴴ; every reduction has it.
 pub(super) fn lower(reduced: &ReducedHarmonic) -> Option<Mat<c64>> {
     Some(reduced.stiffness.coefficients[0].llt(Side::Lower).ok()?.L().to_owned())
 }

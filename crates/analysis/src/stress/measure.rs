@@ -1,11 +1,11 @@
-//! Numbers that stand for a stress: von Mises, its sign, principal stress.
+//! Scalar measures of a stress: von Mises, its sign, principal stress.
 
 use std::f64::consts::TAU;
 
-/// σ_rr, σ_θθ, σ_zz, σ_rθ, σ_θz, σ_zr.
+/// Stress components σ_rr, σ_θθ, σ_zz, σ_rθ, σ_θz, σ_zr.
 pub(super) type Stress = [f64; 6];
 
-/// The symmetric form whose square root is the von Mises stress, a seminorm: pressure has none.
+/// Symmetric form whose square root is the von Mises stress, a seminorm: hydrostatic pressure has none.
 pub(super) fn form(a: &Stress, b: &Stress) -> f64 {
     let normal =
         (a[0] - a[1]) * (b[0] - b[1]) + (a[1] - a[2]) * (b[1] - b[2]) + (a[2] - a[0]) * (b[2] - b[0]);
@@ -28,7 +28,7 @@ pub(super) fn signed(stress: &Stress) -> f64 {
     if trace(stress) < 0.0 { -size } else { size }
 }
 
-/// The principal stress that is largest in magnitude; the tensile one of two equal ones.
+/// Principal stress that is largest in magnitude; the tensile one of two equal ones.
 pub(super) fn principal(stress: &Stress) -> f64 {
     let mean = trace(stress) / 3.0;
     let [x, y, z] = [stress[0] - mean, stress[1] - mean, stress[2] - mean];
@@ -45,7 +45,7 @@ pub(super) fn principal(stress: &Stress) -> f64 {
     if high.abs() >= low.abs() { high } else { low }
 }
 
-/// The largest von Mises stress of Re(e^{jφ} (a + jb)) over φ: half the long axis of an ellipse.
+/// Largest von Mises stress of Re(e^{jφ} (a + jb)) over φ: half the long axis of an ellipse.
 #[cfg(test)]
 pub(super) fn ellipse(a: &Stress, b: &Stress) -> f64 {
     let (aa, bb, ab) = (form(a, a), form(b, b), form(a, b));

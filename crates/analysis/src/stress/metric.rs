@@ -1,4 +1,4 @@
-//! The measure in which directions of the path are told apart: how much they stress all places together.
+//! Measure G of directions of the path: how much they stress all places together.
 
 use faer::linalg::matmul::matmul;
 use faer::linalg::triangular_solve::solve_upper_triangular_in_place;
@@ -6,35 +6,35 @@ use faer::{Accum, Mat, MatMut, MatRef, Par, Side, c64};
 
 use super::sums::{LANES, Sums};
 
-/// Share of the mean of G's eigenvalues that is added to all of them, far above what single precision may take from them.
+/// Share of the mean of G's eigenvalues that is added to all of them, far above the rounding error of single precision.
 const ADDED: f64 = 1e-4;
 
-/// Places whose norms are computed together.
+/// Number of places whose norms are computed together.
 const BATCH: usize = 64;
 
-/// More than what single precision may take from a norm: G's largest eigenvalue over its least is below a million.
+/// Factor above the rounding error of a norm in single precision: G's largest eigenvalue over its least is below a million.
 const ROUNDED_UP: f64 = 1.01;
 
-/// |x̃|_G of coordinates x̃.
+/// Norm |x̃|_G of coordinates x̃.
 #[derive(Debug, Clone)]
 pub(super) struct Metric {
-    /// F of F Fᴴ = G = Σ aᴴ a + λ: over the rows a of all components of all places, and a little of the energy.
+    /// Factor F of F Fᴴ = G = Σ aᴴ a + λ: over the rows a of all components of all places, and a little of the energy.
     pub(super) lower: Mat<c64>,
 }
 
-/// How large the stress of a place may be.
+/// Upper bounds of the stress of a place.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Norm {
-    /// Of coordinates of measure 1, squared: no von Mises stress is more,
+    /// Square of the largest von Mises stress for coordinates of measure 1.
     pub(super) von_mises_squared: f64,
-    /// nor three times the mean normal stress.
+    /// Square of the largest trace, three times the mean normal stress, for coordinates of measure 1.
     pub(super) trace_squared: f64,
-    /// Of coordinates of a unit of root energy: no von Mises stress or trace is more.
+    /// Largest von Mises stress or trace for coordinates of a unit of root energy.
     pub(super) whole: f64,
 }
 
 impl Metric {
-    /// Of the columns of a nodal diameter, `2·unknowns × 6·places`.
+    /// Measure of the columns of a nodal diameter, `2·unknowns × 6·places`.
     pub(super) fn of(rows: &Mat<f32>) -> Self {
         let mut products = Mat::<f32>::zeros(rows.nrows(), rows.nrows());
         matmul(products.as_mut(), Accum::Replace, rows, rows.transpose(), 1.0, Par::Seq);
@@ -53,12 +53,12 @@ impl Metric {
         }
     }
 
-    /// x̃ of the columns of y = Fᴴ x̃, in place.
+    /// Solves y = Fᴴ x̃ for the coordinates x̃ of the columns, in place.
     pub(super) fn coordinates(&self, y: MatMut<'_, c64>) {
         solve_upper_triangular_in_place(self.lower.adjoint(), y, Par::Seq);
     }
 
-    /// The norms of all places.
+    /// Norms of all places.
     pub(super) fn norms(&self, rows: &Mat<f32>) -> Vec<Norm> {
         let unknowns = rows.nrows() / 2;
         let mut all = Mat::<c64>::identity(unknowns, unknowns);
@@ -87,8 +87,8 @@ impl Metric {
     }
 }
 
-/// What gives s·u for every column u of `directions`, from the real and imaginary parts of a row s: Re of every product, then Im, a row
-/// each, both padded with nothing to `padded` rows.
+/// Matrix that gives s·u for every column u of `directions`, from the real and imaginary parts of a row s: the real part of every product,
+/// then the imaginary part, a row each, both padded with zeros to `padded` rows.
 pub(super) fn turned(directions: MatRef<'_, c64>, padded: usize) -> Mat<f32> {
     Mat::from_fn(2 * padded, 2 * directions.nrows(), |row, column| {
         let k = row % padded;

@@ -1,7 +1,7 @@
 //! Stress at every node of every blade over a revolution, and the margin that it leaves (docs/method.md, Stress).
 //!
-//! Stress is linear in the coordinates of the reduction, so one matrix per nodal diameter says all of it; places are bounded first,
-//! and only those that may be the worst are followed over all blades and instants.
+//! Stress is linear in the coordinates of the reduction, so one matrix per nodal diameter describes it; places are bounded first, and only
+//! those that may be the worst are followed over all blades and instants.
 
 #[cfg(test)]
 mod against_full;

@@ -1,4 +1,4 @@
-//! The places of a mesh at which stress is claimed, and what their material bears.
+//! Places of a mesh with valid stress, and the strength of their material.
 
 use std::collections::BTreeSet;
 
@@ -7,22 +7,22 @@ use rubmap_solid::material::Material;
 use rubmap_solid::mesh::SectorMesh;
 use rubmap_solid::stress::NodalStress;
 
-/// A node of the sector with stress.
+/// Node of the sector with stress.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Place {
-    /// Its id.
+    /// Id of the node.
     pub(super) node: u64,
-    /// Where it is.
+    /// Position of the node.
     pub(super) position: [f64; 3],
-    /// Of the element sets around it the weakest in fatigue.
+    /// Weakest in fatigue of the element sets around the node.
     pub(super) set: usize,
-    /// The least yield strength of the sets around it.
+    /// Least yield strength of the element sets around the node.
     pub(super) yield_strength: Option<f64>,
     /// Distance from the nearest contact node, those of the neighbouring blades included.
     pub(super) from_contact: f64,
 }
 
-/// The places of `operator`, in its order; `contact` are the ids of contact nodes.
+/// Places of `operator`, in its order; `contact` are the ids of contact nodes.
 pub(super) fn places(mesh: &SectorMesh, operator: &NodalStress, contact: &[u64]) -> Vec<Place> {
     let mut sets = vec![BTreeSet::new(); mesh.nodes.len()];
     for element in &mesh.elements {
@@ -63,7 +63,7 @@ pub(super) fn places(mesh: &SectorMesh, operator: &NodalStress, contact: &[u64])
     operator.places().iter().map(place).collect()
 }
 
-/// What orders materials by weakness: those without a fatigue strength come last.
+/// Fatigue strength by which materials are ordered from the weakest; infinite without one, so that those come last.
 fn borne(material: &Material) -> f64 {
     material.fatigue_strength.as_ref().map_or(f64::INFINITY, |strength| strength.amplitude)
 }

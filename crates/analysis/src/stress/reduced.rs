@@ -1,4 +1,4 @@
-//! What simulations need of a mesh: stress at its places in the coordinates of a reduction.
+//! Stress at the places of a mesh in the coordinates of a reduction.
 
 use faer::{Mat, c64};
 use serde::{Deserialize, Serialize};
@@ -15,9 +15,9 @@ use rubmap_wheel::dynamics::reduction::{ReducedWheel, StaticSpan};
 pub struct ReducedStress {
     pub(super) places: Vec<Place>,
     pub(super) sets: Vec<ElementSet>,
-    /// Nodes nearer than this to a contact node are left out,
+    /// Distance from a contact node within which nodes are left out.
     pub(super) excluded_radius: f64,
-    /// so many of a sector.
+    /// Number of nodes of a sector that are left out.
     pub(super) excluded_nodes: u32,
     pub(super) harmonics: Vec<HarmonicStress>,
     pub(super) fixed: StaticStress,
@@ -26,38 +26,38 @@ pub struct ReducedStress {
 /// Stress of one nodal diameter.
 #[derive(Debug, Clone)]
 pub struct HarmonicStress {
-    /// S̃ = S L⁻ᴴ with S the stress of the basis Υ̂ and K_r(0) = L Lᴴ, so that coordinates are root energies: `2·unknowns × 6·places`,
-    /// a column for each component of each place, real and imaginary part of every unknown in it.
+    /// Rows of S̃ = S L⁻ᴴ with S the stress of the basis Υ̂ and K_r(0) = L Lᴴ, so that coordinates are root energies: `2·unknowns ×
+    /// 6·places`, a column for each component of each place, with real and imaginary part of every unknown.
     pub(super) rows: Mat<f32>,
-    /// Of every place.
+    /// Bounds of every place.
     pub(super) norms: Vec<Norm>,
     pub(super) metric: Metric,
 }
 
-/// The wheel under its centrifugal load.
+/// Static solution of the wheel under its centrifugal load.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct StaticWheel {
-    /// Its stress.
+    /// Stress of the solution.
     pub stress: StaticStress,
-    /// `[own DOF][given speed]`: the solutions at the given speeds per unit Ω².
+    /// Displacement of the solutions at the given speeds per unit Ω², `[own DOF][given speed]`.
     pub displacement: Vec<f64>,
 }
 
 /// Stress of the wheel under its centrifugal load.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct StaticStress {
-    /// `[place][component][given speed]`: stress of the solutions at the given speeds per unit Ω².
+    /// Stress of the solutions at the given speeds per unit Ω², `[place][component][given speed]`.
     pub stress: Vec<f64>,
-    /// What makes those between them.
+    /// Interpolation between the solutions at the given speeds.
     pub span: StaticSpan,
 }
 
 impl ReducedStress {
-    /// Of a mesh and the places that `load` reads: for each nodal diameter the rows of those places (by number, ascending) that are
+    /// Stress of a mesh at the places that `load` reads: for each nodal diameter the rows of those places (by number, ascending) that are
     /// not within `excluded_radius` of a contact node.
     ///
     /// # Errors
-    /// Those of `load`.
+    /// Errors of `load`.
     pub fn load<E>(
         mesh: &SectorMesh,
         operator: &NodalStress,
@@ -85,17 +85,17 @@ impl ReducedStress {
         })
     }
 
-    /// Nodes within this distance of a contact node are left out.
+    /// Distance from a contact node within which nodes are left out.
     pub fn excluded_radius(&self) -> f64 {
         self.excluded_radius
     }
 
-    /// Places with stress.
+    /// Number of places with stress.
     pub fn places(&self) -> usize {
         self.places.len()
     }
 
-    /// Memory that it takes, in bytes.
+    /// Memory of the stress, in bytes.
     pub fn bytes(&self) -> u64 {
         let of = |h: &HarmonicStress| {
             size_of::<f32>() * h.rows.nrows() * h.rows.ncols() + size_of::<Norm>() * h.norms.len()
@@ -104,7 +104,7 @@ impl ReducedStress {
         (harmonics + size_of::<f64>() * self.fixed.stress.len()) as u64
     }
 
-    /// Stress of the centrifugal load at a speed, of every place.
+    /// Stress of the centrifugal load at a speed, at every place.
     pub(super) fn fixed(&self, speed_rad_s: f64, stiffening: bool) -> Vec<Stress> {
         let shares = self.fixed.span.at(speed_rad_s, stiffening);
         let of = |place: &[f64]| -> Stress {
@@ -118,7 +118,7 @@ impl ReducedStress {
 }
 
 impl StaticWheel {
-    /// Displacement at a speed, of every own DOF; the same in every sector.
+    /// Displacement under the centrifugal load at a speed, of every own DOF; the same in every sector.
     pub fn displacement(&self, speed_rad_s: f64, stiffening: bool) -> Vec<f64> {
         let shares = self.stress.span.at(speed_rad_s, stiffening);
         let of = |dof: &[f64]| shares.iter().zip(dof).map(|(share, u)| share * u).sum();
@@ -127,17 +127,18 @@ impl StaticWheel {
 }
 
 impl HarmonicStress {
-    /// Of its columns, `2·unknowns × 6·places`.
+    /// Stress of a nodal diameter from its columns, `2·unknowns × 6·places`.
     pub(super) fn new(rows: Mat<f32>) -> Self {
         let metric = Metric::of(&rows);
         let norms = metric.norms(&rows);
         Self { rows, norms, metric }
     }
 
-    /// Of so many places, one after the other: `read` gives the numbers of a place as [`Self::of_place`] has them.
+    /// Stress of a nodal diameter at this number of places, one after the other: `read` gives the numbers of a place in the order of
+    /// [`Self::of_place`].
     ///
     /// # Errors
-    /// Those of `read`.
+    /// Errors of `read`.
     pub fn gather<E>(
         unknowns: usize,
         places: usize,
@@ -160,17 +161,17 @@ impl HarmonicStress {
         self.rows.ncols() / 6
     }
 
-    /// Unknowns of the reduction.
+    /// Number of unknowns of the reduction.
     pub fn unknowns(&self) -> usize {
         self.rows.nrows() / 2
     }
 
-    /// The numbers of a place: for σ_rr … σ_zr real and imaginary part of every unknown.
+    /// Numbers of a place: for σ_rr … σ_zr real and imaginary part of every unknown.
     pub fn of_place(&self, place: usize) -> impl Iterator<Item = f32> + use<'_> {
         (6 * place..6 * place + 6).flat_map(|column| self.rows.col(column).iter().copied())
     }
 
-    /// The columns of some places, `2·unknowns × 6·places`.
+    /// Columns of some places, `2·unknowns × 6·places`.
     pub(super) fn of_places(&self, places: &[usize]) -> Mat<f32> {
         let mut found = Mat::zeros(self.rows.nrows(), 6 * places.len());
         for (at, &place) in places.iter().enumerate() {
@@ -179,7 +180,7 @@ impl HarmonicStress {
         found
     }
 
-    /// The rows of a place, `6 × unknowns`.
+    /// Rows of a place, `6 × unknowns`.
     pub(super) fn matrix(&self, place: usize) -> Mat<c64> {
         let columns = self.columns(place);
         Mat::from_fn(6, self.rows.nrows() / 2, |component, unknown| {

@@ -1,4 +1,4 @@
-//! The largest stress of a speed, and its most utilised places.
+//! Search for the largest stress of a speed, and for its most utilised places.
 
 use num_integer::Integer;
 
@@ -16,26 +16,27 @@ use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
 use rubmap_wheel::dynamics::reduction::ReducedHarmonic;
 use rubmap_wheel::dynamics::states::WheelStates;
 
-/// Places whose cycles are told.
+/// Number of places whose cycles are reported.
 const CYCLES: usize = 20;
 
-/// Places whose largest stress is told.
+/// Number of places whose largest stress is reported.
 const LEADING: usize = 20;
 
-/// A wheel at a speed over a revolution.
+/// Motion of a wheel at a speed over a revolution.
 pub(crate) struct Course<'a> {
-    /// Of the whole wheel.
+    /// Nodal diameters of the whole wheel.
     pub(crate) harmonics: &'a [ReducedHarmonic],
-    /// The simulated part of it.
+    /// Simulated part of the wheel.
     pub(crate) wheel: &'a ModalWheel,
     pub(crate) states: &'a WheelStates,
     pub(crate) stiffening: bool,
 }
 
-/// Finds them; none where every node is left out. Exact: a place is left out only if a bound rules it out. On the calling thread; deterministic.
+/// Finds the largest stress of a speed and its most utilised places; none where every node is left out. Exact: a place is skipped only if a
+/// bound rules it out. On the calling thread; deterministic.
 ///
 /// # Errors
-/// If an eigenvalue iteration fails, or a bound is not finite.
+/// Eigenvalue iteration that fails, or bound that is not finite.
 pub(crate) fn stress_of(
     stress: &ReducedStress,
     course: &Course<'_>,
@@ -121,17 +122,17 @@ pub(crate) fn stress_of(
     }))
 }
 
-/// What is sought.
+/// Quantity by which places are ranked.
 #[derive(Clone, Copy)]
 enum Sought<'a> {
-    /// Von Mises stress times a factor of each place; places with a negative one are passed over.
+    /// Von Mises stress times a factor of each place; places with a negative factor are skipped.
     VonMises(&'a [f64]),
-    /// The measure of utilisation.
+    /// Measure of utilisation.
     Utilisation,
 }
 
 impl Sought<'_> {
-    /// From `rough` bounds of von Mises stress and the measure.
+    /// Bound of the quantity from `rough` bounds of von Mises stress and measure.
     fn rough(self, place: usize, rough: (f64, f64)) -> f64 {
         match self {
             Self::VonMises(factors) => factors[place] * rough.0,
@@ -164,14 +165,14 @@ impl Sought<'_> {
 struct Search<'a> {
     look: Look<'a>,
     follow: Follow<'a>,
-    /// Of every place; none of those that are not ranked.
+    /// Weights of every place; none for places that are not ranked.
     weights: Vec<Option<Weights>>,
     seen: Vec<Option<Seen>>,
     followed: Vec<Option<Followed>>,
 }
 
 impl Search<'_> {
-    /// The `count` places that have most of what is sought, the first of equal ones; `rough` bounds of all.
+    /// Ranks the `count` places with most of the quantity, the first of equal ones; `rough` bounds of all places.
     fn best(&mut self, count: usize, rough: &[(f64, f64)], sought: Sought<'_>) -> Vec<usize> {
         let mut order: Vec<(f64, usize)> = (rough.iter().enumerate())
             .map(|(place, &rough)| (sought.rough(place, rough), place))

@@ -2,31 +2,31 @@
 
 use pulp::{Simd, WithSimd};
 
-/// Numbers are padded to a multiple of this: the most that a vector of any processor holds.
+/// Padding of numbers to a multiple of this: the most that a vector of any processor holds.
 pub(super) const LANES: usize = 16;
 
-/// Single precision adds fewer spacings than this to a sum of sizes.
+/// Factor above the rounding error of a sum of sizes in single precision.
 const ROUNDED_UP: f64 = 1.0 + 1e-4;
 
-/// How far each direction goes.
+/// Largest coefficients of directions, by which their stresses are summed.
 pub(super) struct Sums {
     arch: pulp::Arch,
-    /// Over the largest of them, padded.
+    /// Coefficients relative to the largest one, padded.
     reach: Vec<f32>,
     largest: f64,
 }
 
-/// Of one place; von Mises stress first, then three times the mean normal stress.
+/// Sums at one place; von Mises stress first, then three times the mean normal stress.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Sum {
-    /// Σ |a_k| reach_k, never below it.
+    /// Sum Σ |a_k| reach_k, rounded up.
     pub(super) sizes: [f64; 2],
-    /// Σ of the squares of both parts of a_k, whatever their reach.
+    /// Sum of the squares of both parts of a_k, whatever their reach.
     pub(super) squares: [f64; 2],
 }
 
 impl Sums {
-    /// Of directions that go so far, `padded` with none.
+    /// Sums over directions with these largest coefficients, `padded` with zeros.
     pub(super) fn new(reach: &[f64], padded: usize) -> Self {
         let largest = reach.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
         let mut shares: Vec<f32> = reach.iter().map(|reach| (reach / largest) as f32).collect();
@@ -34,7 +34,7 @@ impl Sums {
         Self { arch: pulp::Arch::new(), reach: shares, largest }
     }
 
-    /// Of the `parts` of a place, `[component][part][direction]`, so many as it was made for.
+    /// Sums of the `parts` of a place, `[component][part][direction]`, with the padded number of directions.
     pub(super) fn of(&self, parts: &[f32]) -> Sum {
         let found = self.arch.dispatch(OfPlace { reach: &self.reach, parts }).map(|part| part.map(f64::from));
         Sum { sizes: found[0].map(|size| size * self.largest * ROUNDED_UP), squares: found[1] }

@@ -1,4 +1,4 @@
-//! The search against every instant of every blade at every place, on operators and paths drawn at random.
+//! Search compared with every instant of every blade at every place, on operators and paths drawn at random.
 
 use faer::{Mat, c64};
 use rubmap_solid::material::{FatigueStrength, Material};
@@ -19,7 +19,7 @@ use super::reduced::{HarmonicStress, ReducedStress, StaticStress};
 use super::search::{Course, stress_of};
 use super::trajectory::paths;
 
-/// Numbers in (−1, 1).
+/// Random numbers in (−1, 1).
 struct Numbers(u64);
 
 impl Numbers {
@@ -60,7 +60,7 @@ fn set(name: &str, strengths: Option<(f64, f64)>) -> ElementSet {
     ElementSet { name: name.into(), material }
 }
 
-/// Waves of a few engine orders and some that no order has; `repeats` parts of the wheel move alike.
+/// Waves of a few engine orders and some that belong to no order; `repeats` parts of the wheel move alike.
 fn case(seed: u64, repeats: usize, steady: f64) -> Case {
     let mut numbers = Numbers(seed);
     let moving: Vec<usize> = (0..=SECTORS / 2).filter(|harmonic| harmonic % repeats == 0).collect();
@@ -195,7 +195,7 @@ fn the_search_finds_what_looking_everywhere_finds() {
         followed += found.followed_nodes;
         assert_eq!(found, stress_of(&case.stress, &case.course()).unwrap().unwrap(), "the same bits again");
     }
-    // Of 12 wheels; at least 20 places a wheel are told.
+    // Places of 12 wheels; at least 20 places of each are reported.
     assert!(followed < 12 * PLACES as u32, "{followed} of {}", 12 * PLACES);
 }
 
@@ -258,7 +258,7 @@ fn what_is_not_finite_is_no_stress() {
     }
 }
 
-/// Even nodal diameters of six sectors: three blades differ, and the first of equal ones is told.
+/// Even nodal diameters of six sectors: three blades differ, and the first of equal ones is reported.
 #[test]
 fn blades_that_move_alike_are_looked_at_once() {
     let mut case = case(4, 1, 0.5);

@@ -1,4 +1,4 @@
-//! The path of the wheel over a revolution in few directions, those that stress the wheel most first.
+//! Path of the wheel over a revolution in few directions, those that stress the wheel most first.
 //!
 //! ```text
 //! x̃(t) ≈ Σ_k u_k c_k(t),   the u_k orthonormal in the measure G of the stress at all places
@@ -15,38 +15,39 @@ use rubmap_numerics::hermitian::{EigenError, eigenpairs};
 use rubmap_wheel::dynamics::reduction::ReducedHarmonic;
 use rubmap_wheel::dynamics::states::WheelStates;
 
-/// Directions by which places are bounded, a vector of them: twice as many rule out no more.
+/// Number of directions for the bounds of places, one vector of them: twice as many rule out no more places.
 const BOUNDING: usize = LANES;
-/// Share of the largest stress, as a mean over places, that those directions leave by which places are looked at: the rest is bounded.
+/// Share of the largest stress, as a mean over places, that the evaluated directions may neglect; the rest is bounded.
 const LOOKED: f64 = 5e-3;
-/// The same of those by which places are followed: less than single precision leaves of the operator.
+/// Share of the largest stress, as a mean over places, that the followed directions may neglect: less than the rounding of the operator in
+/// single precision.
 const FOLLOWED: f64 = 1e-8;
 
-/// The path of one nodal diameter, x̃ = Lᴴ X with K_r(0) = L Lᴴ.
+/// Path of one nodal diameter, x̃ = Lᴴ X with K_r(0) = L Lᴴ.
 #[derive(Debug)]
 pub(super) struct Path {
     /// Nodal diameter i of the wheel.
     pub(super) harmonic: usize,
-    /// u_k, `unknowns × directions`.
+    /// Directions u_k, `unknowns × directions`.
     pub(super) directions: Mat<c64>,
-    /// c_k, `directions × instants`.
+    /// Coefficients c_k, `directions × instants`.
     pub(super) course: Mat<c64>,
-    /// max|c_k| over the instants.
+    /// Largest coefficient max|c_k| over the instants.
     pub(super) reach: Vec<f64>,
-    /// By the first so many directions places are bounded,
+    /// Number of directions, the first ones, for the bounds of places.
     pub(super) bounding: usize,
-    /// which leave no more than this of |x̃|_G at any instant.
+    /// Largest |x̃|_G at any instant that the directions for the bounds neglect.
     pub(super) left_by_bounding: f64,
-    /// By so many directions places are looked at.
+    /// Number of directions, the first ones, with which places are evaluated.
     pub(super) looking: usize,
-    /// All directions leave no more than this of |x̃|_G at any instant.
+    /// Largest |x̃|_G at any instant that all directions neglect.
     pub(super) left: f64,
 }
 
-/// The paths of all nodal diameters that move.
+/// Paths of all nodal diameters that move.
 ///
 /// # Errors
-/// If an eigenvalue iteration fails, or a state is not finite.
+/// Eigenvalue iteration that fails, or state that is not finite.
 pub(super) fn paths(
     states: &WheelStates,
     harmonics: &[ReducedHarmonic],
@@ -74,7 +75,7 @@ pub(super) fn paths(
     Ok(found)
 }
 
-/// For every number of directions, how much of the path is left at the instant at which most is.
+/// Largest norm of the path over all instants that is neglected, for every number of directions.
 fn left_by(course: &Mat<c64>) -> Vec<f64> {
     let mut squares = vec![0.0f64; course.ncols()];
     let mut left = vec![0.0; course.nrows() + 1];
@@ -88,7 +89,7 @@ fn left_by(course: &Mat<c64>) -> Vec<f64> {
 }
 
 impl Path {
-    /// Of all directions of a path of root energies.
+    /// Path in all its directions, from root energies.
     fn new(harmonic: usize, energy: &Mat<c64>, metric: &Metric) -> Result<Self, EigenError> {
         let stressing = metric.lower.adjoint() * energy;
         let gram = &stressing * stressing.adjoint();
@@ -104,7 +105,7 @@ impl Path {
         Ok(Self { harmonic, directions, course, reach, bounding, left_by_bounding: 0.0, looking, left: 0.0 })
     }
 
-    /// Keeps so many directions, and looks by `looking` of them; `left` is what every number of them leaves.
+    /// Keeps the first `followed` directions, `looking` of them for evaluation; `left` is what every number of directions neglects.
     fn cut(&mut self, followed: usize, looking: usize, left: &[f64]) {
         self.directions = self.directions.subcols(0, followed).to_owned();
         self.course = self.course.subrows(0, followed).to_owned();
@@ -115,7 +116,7 @@ impl Path {
         self.left = left[followed];
     }
 
-    /// Σ |u_k| max|c_k| of the first `count` directions, in root energies.
+    /// Length Σ |u_k| max|c_k| of the first `count` directions, in root energies.
     pub(super) fn length(&self, count: usize) -> f64 {
         let reach = self.reach[..count].iter().enumerate();
         reach.map(|(k, reach)| reach * self.directions.col(k).norm_l2()).sum()

@@ -1,4 +1,4 @@
-//! A sector of a flat annular disk: annular plates and spinning disks, whose answers are known in closed form.
+//! Sector of a flat annular disk: annular plates and spinning disks, whose solutions are known in closed form.
 
 use std::f64::consts::PI;
 
@@ -13,7 +13,7 @@ use super::to_package::to_package;
 use crate::package::raw::RawPackage;
 use rubmap_wheel::dynamics::sector::Units;
 
-/// A disk of constant thickness about z, in its middle plane z = 0.
+/// Disk of constant thickness about z, in its middle plane z = 0.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct AnnulusParameters {
@@ -31,11 +31,11 @@ pub struct AnnulusParameters {
     pub clamped_bore: bool,
     /// Elements along the radius, around the sector (at least 2) and through the thickness.
     pub elements: [usize; 3],
-    /// 8-node or 20-node hexahedra.
+    /// Order of the elements: 8-node or 20-node hexahedra.
     pub element_order: ElementOrder,
-    /// Material.
+    /// Material of the disk.
     pub material: Material,
-    /// Ω1 (rad/s).
+    /// Highest speed Ω1 of the stiffness matrices (rad/s).
     pub top_speed_rad_s: f64,
 }
 

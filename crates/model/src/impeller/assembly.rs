@@ -1,4 +1,4 @@
-//! Element matrices and loads into those of a mesh, in the cylindrical components of each node.
+//! Assembly of element matrices and loads into those of a mesh, in the cylindrical components of each node.
 
 use nalgebra::{Matrix3, Vector3};
 use rayon::prelude::*;
@@ -7,25 +7,25 @@ use super::element::Blocks;
 use super::mesh::HexMesh;
 use super::pattern::Pattern;
 
-/// Elements computed at once before they are summed: enough work for every thread, little memory.
+/// Number of elements computed at once before they are summed: enough work for every thread, little memory.
 const BATCH: usize = 256;
 
-/// Rows of T with u_(r,θ,z) = T u_(x,y,z) at angle θ.
+/// Rotation T at angle θ, with u_(r,θ,z) = T u_(x,y,z).
 pub fn cylindrical_frame(theta: f64) -> Matrix3<f64> {
     let (s, c) = theta.sin_cos();
     Matrix3::new(c, s, 0.0, -s, c, 0.0, 0.0, 0.0, 1.0)
 }
 
-/// A mesh of elements with N nodes whose displacements are numbered.
+/// Mesh of elements with N nodes whose displacements are numbered.
 ///
 /// Elements are computed in parallel and summed in their order: the result is the same bits for any number of
 /// threads.
 #[derive(Debug)]
 pub(super) struct Assembly<'a, const N: usize> {
     elements: &'a [[usize; N]],
-    /// Per node, the rows of its r, θ and z displacements, where free; tied nodes share theirs.
+    /// Rows of the r, θ and z displacements of each node, where free; tied nodes share theirs.
     numbering: &'a [[Option<usize>; 3]],
-    /// Per node, its [`cylindrical_frame`].
+    /// Rotation of each node, its [`cylindrical_frame`].
     frames: Vec<Matrix3<f64>>,
 }
 
@@ -39,8 +39,8 @@ impl<'a, const N: usize> Assembly<'a, N> {
         Self { elements, numbering, frames }
     }
 
-    /// Sums `matrix(e)`, (skew-)symmetric and in x, y, z, over the elements: a value per position of `pattern`, which is
-    /// that of these elements under this numbering.
+    /// Sums `matrix(e)`, (skew-)symmetric and in x, y, z, over the elements: a value per position of `pattern`, which is the pattern of
+    /// these elements under this numbering.
     pub(super) fn matrix(&self, pattern: &Pattern, matrix: impl Fn(usize) -> Blocks<N> + Sync) -> Vec<f64> {
         let mut values = vec![0.0; pattern.len()];
         for (batch, elements) in self.elements.chunks(BATCH).enumerate() {
@@ -75,7 +75,7 @@ impl<'a, const N: usize> Assembly<'a, N> {
         self.elements[element].map(|node| self.frames[node].transpose() * Vector3::from(nodal[node]))
     }
 
-    /// An element's blocks between the cylindrical components of its nodes.
+    /// Turns the blocks of an element to the cylindrical components of its nodes.
     fn turned(&self, nodes: &[usize; N], mut blocks: Blocks<N>) -> Blocks<N> {
         for (a, row) in blocks.iter_mut().enumerate() {
             for (b, block) in row.iter_mut().enumerate() {

@@ -8,20 +8,20 @@
 use super::element::{CORNERS, EDGES};
 use super::mesh::{ElementOrder, Elements, HexMesh};
 
-/// The half-indices of a block's points, or of a point within an element (0, 1 or 2).
+/// Half-indices of a block's points, or of a point within an element (0, 1 or 2).
 pub(super) type HalfIndex = [usize; 3];
 
-/// The nodes of a block that has been added to a mesh.
+/// Nodes of a block that has been added to a mesh.
 #[derive(Debug)]
 pub(super) struct Block {
-    /// Points in each direction.
+    /// Number of points in each direction.
     points: [usize; 3],
-    /// Node per point, the first index fastest.
+    /// Node of each point, the first index fastest.
     nodes: Vec<Option<usize>>,
 }
 
 impl Block {
-    /// The node at a point, if the element order has one there.
+    /// Node at a point, if the element order has one there.
     pub(super) fn node(&self, half: HalfIndex) -> Option<usize> {
         self.nodes[self.place(half)]
     }
@@ -30,7 +30,7 @@ impl Block {
         i + self.points[0] * (j + self.points[1] * k)
     }
 
-    /// All nodes with their points, the first index fastest.
+    /// Iterates over all nodes with their points, the first index fastest.
     pub(super) fn iter(&self) -> impl Iterator<Item = (HalfIndex, usize)> {
         points(self.points).zip(&self.nodes).filter_map(|(half, node)| node.map(|node| (half, node)))
     }
@@ -45,7 +45,7 @@ impl Block {
     }
 }
 
-/// The points of a block, the first index fastest.
+/// Points of a block, the first index fastest.
 fn points([n_i, n_j, n_k]: [usize; 3]) -> impl Iterator<Item = HalfIndex> {
     (0..n_k).flat_map(move |k| (0..n_j).flat_map(move |j| (0..n_i).map(move |i| [i, j, k])))
 }
@@ -57,7 +57,7 @@ fn local_points() -> impl Iterator<Item = HalfIndex> {
     (0..CORNERS.len()).map(corner).chain(EDGES.into_iter().map(middle))
 }
 
-/// A mesh that grows block by block.
+/// Mesh that grows block by block.
 #[derive(Debug)]
 pub(super) struct BlockMesher {
     order: ElementOrder,
@@ -65,7 +65,7 @@ pub(super) struct BlockMesher {
 }
 
 impl BlockMesher {
-    /// An empty mesh.
+    /// Mesh without blocks.
     pub(super) fn new(order: ElementOrder) -> Self {
         let elements = match order {
             ElementOrder::Linear => Elements::Linear(Vec::new()),
@@ -105,13 +105,13 @@ impl BlockMesher {
         block
     }
 
-    /// The mesh of all blocks.
+    /// Mesh of all blocks.
     pub(super) fn finish(self) -> HexMesh {
         self.mesh
     }
 }
 
-/// Nodes of a block of so many elements, in floats: hostile sizes must not overflow.
+/// Number of nodes of a block of this size in elements, as a float: hostile sizes must not overflow.
 pub(super) fn node_count(order: ElementOrder, [a, b, c]: [f64; 3]) -> f64 {
     let corners = (a + 1.0) * (b + 1.0) * (c + 1.0);
     match order {

@@ -1,4 +1,4 @@
-//! A straight rotating beam or plate, clamped at its root: a single blade on a rigid disk.
+//! Straight rotating beam or plate, clamped at its root: a single blade on a rigid disk.
 
 use serde::{Deserialize, Serialize};
 
@@ -11,7 +11,7 @@ use super::to_package::to_package;
 use crate::package::raw::RawPackage;
 use rubmap_wheel::dynamics::sector::Units;
 
-/// A rectangular block along x from the root (clamped) to the tip, spinning about z.
+/// Rectangular block along x from the root (clamped) to the tip, spinning about z.
 ///
 /// Bending along z is "flap" (out of the plane of rotation), bending along y is "lag".
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -27,13 +27,13 @@ pub struct CantileverParameters {
     pub width: f64,
     /// Depth along z (axial), centred on the x axis.
     pub depth: f64,
-    /// Elements along x, y and z.
+    /// Numbers of elements along x, y and z.
     pub elements: [usize; 3],
-    /// 8-node or 20-node hexahedra.
+    /// Order of the elements: 8-node or 20-node hexahedra.
     pub element_order: ElementOrder,
-    /// Material.
+    /// Material of the beam.
     pub material: Material,
-    /// Ω1 (rad/s).
+    /// Highest speed Ω1 of the stiffness matrices (rad/s).
     pub top_speed_rad_s: f64,
 }
 

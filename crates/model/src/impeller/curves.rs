@@ -1,8 +1,8 @@
-//! The meridional and camber curves of an impeller.
+//! Meridional and camber curves of an impeller.
 
 use super::parameters::ImpellerParameters;
 
-/// A quarter ellipse in the (r, z) plane that leaves (r0, 0) axially and arrives at (r1, z1) radially.
+/// Quarter ellipse in the (r, z) plane that leaves (r0, 0) axially and arrives at (r1, z1) radially.
 #[derive(Debug, Clone)]
 pub(super) struct TurningCurve {
     start_radius: f64,
@@ -12,7 +12,7 @@ pub(super) struct TurningCurve {
 }
 
 impl TurningCurve {
-    /// Intervals of the arc-length table: chords of a quarter ellipse then miss 1e-8 of the arc.
+    /// Number of intervals of the arc-length table: chords of a quarter ellipse then miss 1e-8 of the arc.
     const INTERVALS: usize = 4096;
 
     pub(super) fn new(start_radius: f64, end: [f64; 2]) -> Self {
@@ -32,7 +32,7 @@ impl TurningCurve {
         std::f64::consts::FRAC_PI_2 * index / Self::INTERVALS as f64
     }
 
-    /// r = r1 − (r1 − r0) cos φ, z = z1 sin φ.
+    /// Point r = r1 − (r1 − r0) cos φ, z = z1 sin φ at parameter φ.
     fn at_parameter(&self, phi: f64) -> [f64; 2] {
         [self.end[0] - (self.end[0] - self.start_radius) * phi.cos(), self.end[1] * phi.sin()]
     }
@@ -45,7 +45,7 @@ impl TurningCurve {
         Self::parameter((upper - 1) as f64 + (target - a) / (b - a))
     }
 
-    /// Whole arc length.
+    /// Arc length of the whole curve.
     pub(super) fn length(&self) -> f64 {
         self.lengths[Self::INTERVALS]
     }
@@ -70,7 +70,7 @@ impl TurningCurve {
     }
 }
 
-/// The blade's camber: θ(s) quadratic in the fraction s of the arc length, the same from hub to tip.
+/// Camber of a blade: θ(s) quadratic in the fraction s of the arc length, the same from hub to tip.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Camber {
     wrap: f64,
@@ -78,8 +78,8 @@ pub(super) struct Camber {
 }
 
 impl Camber {
-    /// Wraps by `wrap_deg` and ends at the backsweep angle β: r |dθ/dm| = tan β at the trailing edge, with the
-    /// mean of hub's and shroud's arc lengths for m.
+    /// Camber that wraps by `wrap_deg` and ends at the backsweep angle β: r |dθ/dm| = tan β at the trailing edge, with the mean of the arc
+    /// lengths of hub and shroud for m.
     pub(super) fn new(parameters: &ImpellerParameters, hub: &TurningCurve, shroud: &TurningCurve) -> Self {
         let mean = 0.5 * (hub.length() + shroud.length());
         let backsweep = parameters.backsweep_deg.to_radians().tan();
@@ -89,12 +89,12 @@ impl Camber {
         }
     }
 
-    /// θ at the fraction s: 0 at the leading edge, −wrap at the trailing edge.
+    /// Angle θ at the fraction s: 0 at the leading edge, −wrap at the trailing edge.
     pub(super) fn angle(&self, s: f64) -> f64 {
         -(self.wrap * s + (self.end_slope - self.wrap) * s * (s - 1.0))
     }
 
-    /// dθ/ds.
+    /// Slope dθ/ds.
     pub(super) fn slope(&self, s: f64) -> f64 {
         -(self.wrap + (self.end_slope - self.wrap) * (2.0 * s - 1.0))
     }

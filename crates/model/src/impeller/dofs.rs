@@ -1,14 +1,14 @@
-//! The numbering of a sector's free displacements.
+//! Numbering of a sector's free displacements.
 
 use super::mesh::SectorMesh;
 
-/// Rows: the own DOF node by node (low face and contact nodes among them), then the DOF of the high face in the
+/// Rows of a sector's matrices: the own DOF node by node (low face and contact nodes among them), then the DOF of the high face in the
 /// order of the cyclic pairs. Clamped DOF are absent.
 #[derive(Debug, Clone)]
 pub struct SectorDofs {
-    /// Per node, the row of its r, θ and z displacement; none where clamped.
+    /// Rows of the r, θ and z displacements of each node; none where clamped.
     pub rows: Vec<[Option<usize>; 3]>,
-    /// Per row, node index and component 0, 1, 2.
+    /// Node index and component 0, 1, 2 of each row.
     pub list: Vec<(usize, usize)>,
     /// Number of own DOF: the rows before the high face.
     pub own: usize,
@@ -35,7 +35,7 @@ impl SectorDofs {
         dofs
     }
 
-    /// [`Self::rows`] with the high face tied to the low one (nodal diameter 0): only own rows remain.
+    /// Rows as in [`Self::rows`] with the high face tied to the low one (nodal diameter 0): only own rows remain.
     pub fn tied_rows(&self, sector: &SectorMesh) -> Vec<[Option<usize>; 3]> {
         let mut rows = self.rows.clone();
         for &(low, high) in &sector.cyclic {

@@ -1,4 +1,4 @@
-//! The shape of one impeller sector on the grid of its mesh.
+//! Shape of one impeller sector on the grid of its mesh.
 //!
 //! Points are addressed by half-indices (see [`super::blocks`]): along the flow, across the sector in θ, outwards. The
 //! sector consists of lanes, one per blade: a blade with half a passage on either side. Without a splitter the lane is
@@ -12,23 +12,23 @@ use super::curves::{Camber, TurningCurve};
 use super::error::ImpellerError;
 use super::parameters::ImpellerParameters;
 
-/// The curves of one impeller and the counts of its mesh.
+/// Curves of one impeller and the counts of its mesh.
 pub(super) struct Geometry<'a> {
     pub(super) parameters: &'a ImpellerParameters,
     hub: TurningCurve,
     pub(super) shroud: TurningCurve,
     camber: Camber,
-    /// Main blade, then the splitter if there is one.
+    /// Lanes of the sector: that of the main blade, then that of the splitter if there is one.
     pub(super) lanes: Vec<Lane>,
-    /// Half the angle of a lane.
+    /// Half the angle of a lane, rad.
     half_lane: f64,
-    /// Elements along the flow.
+    /// Number of elements along the flow.
     pub(super) stations: usize,
     /// Station at which the inner curve turns from the bore to the back face.
     pub(super) corner: usize,
 }
 
-/// One blade's share of the sector.
+/// Share of one blade in the sector.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Lane {
     /// Angle of the blade's camber from the middle of the sector.
@@ -38,7 +38,7 @@ pub(super) struct Lane {
 }
 
 impl<'a> Geometry<'a> {
-    /// The geometry of parameters in their ranges.
+    /// Geometry of parameters that are within their ranges.
     pub(super) fn new(p: &'a ImpellerParameters) -> Self {
         let hub = TurningCurve::new(p.inlet_hub_radius, [p.outlet_radius, p.axial_length]);
         let shroud =
@@ -58,7 +58,7 @@ impl<'a> Geometry<'a> {
         geometry
     }
 
-    /// The station whose hub point lies closest to the 45° line from the corner of bore and back face.
+    /// Station whose hub point lies closest to the 45° line from the corner of bore and back face.
     fn corner_station(&self) -> usize {
         let off_diagonal = |station: usize| {
             let [r, z] = self.hub.point(self.fraction(2 * station));
@@ -71,7 +71,7 @@ impl<'a> Geometry<'a> {
         self.parameters.axial_length + self.parameters.rim_thickness
     }
 
-    /// Fraction of the arc lengths of hub and shroud.
+    /// Fraction of the arc lengths of hub and shroud at a half-index along the flow.
     pub(super) fn fraction(&self, along: usize) -> f64 {
         along as f64 / (2 * self.stations) as f64
     }
@@ -93,7 +93,7 @@ impl<'a> Geometry<'a> {
         lerp(self.hub.point(s), self.shroud.point(s), height)
     }
 
-    /// Half the angle a blade covers: t/2 in θ, with t normal to the camber surface, (t/2r) √(1 + tan² β).
+    /// Half the angle that a blade covers: t/2 in θ, with t normal to the camber surface, (t/2r) √(1 + tan² β).
     fn half_blade_angle(&self, s: f64, height: f64) -> f64 {
         let p = self.parameters;
         let thickness = p.root_thickness + height * (p.tip_thickness - p.root_thickness);
@@ -109,7 +109,7 @@ impl<'a> Geometry<'a> {
         up as f64 / (2 * self.parameters.mesh.blade_height) as f64
     }
 
-    /// Every blade must leave room for the passage, at every station and height.
+    /// Checks that every blade leaves room for the passage, at every station and height.
     pub(super) fn check_passage(&self) -> Result<(), ImpellerError> {
         let p = self.parameters;
         for up in 0..=2 * p.mesh.blade_height {
@@ -134,8 +134,8 @@ impl<'a> Geometry<'a> {
         Ok(())
     }
 
-    /// Half the angle of a lane's gathered columns at the hub: the blade's, and before a splitter begins a smooth way
-    /// to it from evenly spread columns at the inlet.
+    /// Half the angle of a lane's gathered columns at the hub: that of the blade, and upstream of a splitter a smooth transition to it from
+    /// evenly spread columns at the inlet.
     fn half_gathered(&self, lane: &Lane, along: usize) -> f64 {
         let start = 2 * lane.start;
         if along >= start {

@@ -1,4 +1,4 @@
-//! The gyroscopic matrix `G_ab = 2 ∫ ρ N_a [e_z×] N_b dV`: Coriolis forces per unit speed.
+//! Gyroscopic matrix `G_ab = 2 ∫ ρ N_a [e_z×] N_b dV`: Coriolis forces per unit speed.
 
 use nalgebra::Matrix3;
 
@@ -11,7 +11,7 @@ use super::mesh::{Elements, SectorMesh};
 use super::pattern::Pattern;
 use crate::package::raw::RawMatrix;
 
-/// 2 [e_z×]: Coriolis force per mass, speed and velocity in x, y, z, on the left side of the equation of motion.
+/// Operator 2 [e_z×]: Coriolis force per mass, speed and velocity in x, y, z, on the left side of the equation of motion.
 const TWICE_CROSS: [[f64; 3]; 3] = [[0.0, -2.0, 0.0], [2.0, 0.0, 0.0], [0.0, 0.0, 0.0]];
 
 /// Assembles G from the consistent mass, in the rows of the sector's other matrices; skew-symmetric, lower triangle.

@@ -1,4 +1,4 @@
-//! Whether a mesh's elements are whole: nowhere turned inside out or collapsed.
+//! Check that no element of a mesh is turned inside out or collapsed.
 
 use super::element::{Hex8, Hex20, Hexahedron};
 use super::error::ImpellerError;

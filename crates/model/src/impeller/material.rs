@@ -1,4 +1,4 @@
-//! An isotropic, linear elastic material.
+//! Isotropic, linear elastic material.
 
 use nalgebra::Matrix3;
 use rubmap_solid::material::{self, FatigueStrength};
@@ -78,7 +78,7 @@ impl Material {
         }
     }
 
-    /// The same for a package.
+    /// Converts the material to that of a package.
     pub fn to_solid(&self) -> material::Material {
         let Self { youngs_modulus, poissons_ratio, density, .. } = *self;
         material::Material {
@@ -91,7 +91,7 @@ impl Material {
         }
     }
 
-    /// λ and μ of Lamé, `σ = λ tr(ε) 1 + 2μ ε`.
+    /// Lamé constants λ and μ, `σ = λ tr(ε) 1 + 2μ ε`.
     pub fn lame_constants(&self) -> (f64, f64) {
         material::lame_constants(self.youngs_modulus, self.poissons_ratio)
     }

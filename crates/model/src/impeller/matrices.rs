@@ -1,4 +1,4 @@
-//! M and `K(Ω) = K_e + K_σ(Ω) − Ω² M_spin` of a sector, on the undeformed geometry.
+//! Matrices M and `K(Ω) = K_e + K_σ(Ω) − Ω² M_spin` of a sector, on the undeformed geometry.
 
 use super::assembly::Assembly;
 use super::dofs::SectorDofs;
@@ -20,14 +20,14 @@ pub struct RestMatrices {
     elastic: Vec<f64>,
 }
 
-/// The matrices a package is made of, before a speed is chosen.
+/// Matrices of a package, before a speed is chosen.
 #[derive(Debug, Clone)]
 pub struct SectorMatrices {
-    /// M and `K_e`.
+    /// Matrices at rest, M and `K_e`.
     pub rest: RestMatrices,
-    /// `K_σ(1) − M_spin`: geometric stiffness and spin softening per unit Ω².
+    /// Stiffness `K_σ(1) − M_spin`: geometric stiffness and spin softening per unit Ω².
     spin: Vec<f64>,
-    /// Stresses and displacements the geometric stiffness comes from.
+    /// Pre-stress: stresses and displacements from which the geometric stiffness follows.
     pub prestress: PreStress,
 }
 
@@ -59,12 +59,12 @@ impl RestMatrices {
         Self { dofs, pattern, mass, elastic }
     }
 
-    /// M.
+    /// Mass matrix M.
     pub fn mass(&self) -> RawMatrix {
         self.pattern.raw_matrix(|position| self.mass[position])
     }
 
-    /// `K_e`, the stiffness at rest, in the pattern of M.
+    /// Stiffness matrix at rest `K_e`, in the pattern of M.
     pub fn stiffness(&self) -> RawMatrix {
         self.pattern.raw_matrix(|position| self.elastic[position])
     }
@@ -109,7 +109,7 @@ impl SectorMatrices {
         Ok(Self { rest, spin, prestress })
     }
 
-    /// K(Ω); linear in Ω².
+    /// Stiffness matrix K(Ω), linear in Ω².
     pub fn stiffness(&self, speed_rad_s: f64) -> RawMatrix {
         let square = speed_rad_s * speed_rad_s;
         self.rest.pattern.raw_matrix(|position| self.rest.elastic[position] + square * self.spin[position])

@@ -1,4 +1,4 @@
-//! What making a package will need, before it is made.
+//! Estimate of the memory for making a package, before it is made.
 
 use super::dofs::SectorDofs;
 use super::mesh::{Elements, SectorMesh};
@@ -6,23 +6,23 @@ use super::mesh::{Elements, SectorMesh};
 /// Rows of the sector whose peaks were measured.
 const MEASURED_ROWS: f64 = 125_499.0;
 
-/// Peak with that many rows of 20-node elements (the preset `paper`), reached with the factor of the pre-stress. Matrices
-/// and package alone take three quarters of it.
+/// Peak with the measured number of rows of 20-node elements (the preset `paper`), reached with the factor of the pre-stress. Matrices and
+/// package alone take three quarters of it.
 const QUADRATIC_BYTES: f64 = 1.9e9;
 
-/// The same with 8-node elements, whose nodes have fewer neighbours.
+/// Peak with the measured number of rows of 8-node elements, whose nodes have fewer neighbours.
 const LINEAR_BYTES: f64 = 1.4e9;
 
-/// Growth of the factor with the number of rows, for three-dimensional meshes under nested dissection.
+/// Exponent of the growth of the factor with the number of rows, for three-dimensional meshes under nested dissection.
 const FACTOR_GROWTH: f64 = 1.4;
 
-/// Meshes of the same size differ in their factors.
+/// Safety factor, since meshes of the same size differ in their factors.
 const MARGIN: f64 = 1.25;
 
-/// Bytes held at once, at most, while the package of `sector` is generated, written and read back.
+/// Peak of the memory, in bytes, while the package of `sector` is generated, written and read back.
 ///
-/// An estimate from measured peaks: proportional to the rows below the measured size, where matrices prevail, growing
-/// like the factor above; with a quarter added.
+/// Estimated from measured peaks: proportional to the rows below the measured size, where matrices prevail, growing like the factor above;
+/// with a quarter added.
 pub fn generation_bytes(sector: &SectorMesh) -> u64 {
     let measured = match sector.mesh.elements {
         Elements::Linear(_) => LINEAR_BYTES,

@@ -1,18 +1,18 @@
-//! A hexahedral mesh of one sector and what ties it to the rest of the wheel.
+//! Hexahedral mesh of one sector and its connection to the rest of the wheel.
 
 use serde::{Deserialize, Serialize};
 
 /// Nodes and hexahedra, in Cartesian coordinates; z is the axis of rotation.
 #[derive(Debug, Clone, Default)]
 pub struct HexMesh {
-    /// Cartesian positions.
+    /// Cartesian positions of the nodes.
     pub nodes: Vec<[f64; 3]>,
     /// Hexahedra of one order.
     pub elements: Elements,
 }
 
-/// Node indices per element. Corners first: the face ζ = −1 counter-clockwise seen from inside, then the face ζ =
-/// +1, as in CalculiX's C3D8 and C3D20.
+/// Node indices of each element. Corners first: the face ζ = −1 counter-clockwise seen from inside, then the face ζ = +1, as in CalculiX's
+/// C3D8 and C3D20.
 #[derive(Debug, Clone)]
 pub enum Elements {
     /// 8-node hexahedra.
@@ -37,12 +37,12 @@ impl Elements {
         }
     }
 
-    /// Whether there are none.
+    /// Whether there are no elements.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// All nodes of an element, corners first: 8 or 20.
+    /// Nodes of an element, corners first: 8 or 20.
     pub fn nodes_of(&self, element: usize) -> &[usize] {
         match self {
             Self::Linear(elements) => &elements[element],
@@ -51,7 +51,7 @@ impl Elements {
     }
 }
 
-/// The displacement functions of a mesh's hexahedra.
+/// Order of the displacement functions of a mesh's hexahedra.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
@@ -64,7 +64,7 @@ pub enum ElementOrder {
 }
 
 impl ElementOrder {
-    /// The half-index in the middle of so many elements; if that is no node, the corner before it.
+    /// Half-index in the middle of `elements` elements; if there is no node, that of the corner before it.
     pub(super) fn middle(self, elements: usize) -> usize {
         match self {
             Self::Linear => elements / 2 * 2,
@@ -82,23 +82,23 @@ impl ElementOrder {
     }
 }
 
-/// A tip node that may touch the casing.
+/// Tip node that may touch the casing.
 #[derive(Debug, Clone, Copy)]
 pub struct TipNode {
-    /// Node index.
+    /// Index of the node.
     pub node: usize,
     /// Outward unit normal in (r, θ, z) components at the node.
     pub normal: [f64; 3],
 }
 
-/// The mesh of one sector with its supports, its cyclic faces and its contact nodes.
+/// Mesh of one sector with its supports, its cyclic faces and its contact nodes.
 #[derive(Debug, Clone)]
 pub struct SectorMesh {
     /// Number N of sectors in the wheel.
     pub sectors: usize,
     /// Nodes and elements.
     pub mesh: HexMesh,
-    /// Per node, which of its (r, θ, z) displacements are clamped.
+    /// Whether the (r, θ, z) displacements of each node are clamped.
     pub clamped: Vec<[bool; 3]>,
     /// Pairs (low node, high node); the high node is the low node turned by +2π/N.
     pub cyclic: Vec<(usize, usize)>,

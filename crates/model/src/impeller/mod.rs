@@ -1,4 +1,4 @@
-//! Our own finite-element models as packages: a parametric centrifugal impeller, and small models for tests.
+//! Own finite-element models as packages: a parametric centrifugal impeller, and small models for tests.
 //!
 //! [`generate`] runs top to bottom: parameters → sector mesh → M, `K_e` → centrifugal pre-stress → `K_σ` and spin
 //! softening → package. Everything after the mesh knows only [`mesh::SectorMesh`], so another geometry is another

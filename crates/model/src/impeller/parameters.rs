@@ -1,4 +1,4 @@
-//! What the generator can be asked for.
+//! Parameters of the impeller generator.
 
 use serde::{Deserialize, Serialize};
 
@@ -7,7 +7,7 @@ use super::mesh::ElementOrder;
 use crate::package::units::factors;
 use rubmap_wheel::dynamics::sector::Units;
 
-/// A parametric centrifugal impeller: per sector one main blade, and a splitter if asked for, on a solid hub.
+/// Parametric centrifugal impeller: per sector one main blade, and a splitter if asked for, on a solid hub.
 ///
 /// Lengths, times and forces are in the consistent units named by `units`; the defaults are in mm-t-s-N. The axis of
 /// rotation is z; the flow enters at z = 0 towards +z and leaves radially at `outlet_radius`. Hub and shroud are quarter
@@ -17,7 +17,8 @@ use rubmap_wheel::dynamics::sector::Units;
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct ImpellerParameters {
-    /// Consistent units of everything below (mm, N, s, t); time in `s`. What is not given comes from the preset, told in these units.
+    /// Consistent units of all parameters (mm, N, s, t); time in `s`. Parameters that are not given come from the preset, converted to
+    /// these units.
     pub units: Units,
     /// Number of sectors (main blades), at least 3.
     #[cfg_attr(feature = "schema", schema(minimum = 3))]
@@ -56,11 +57,11 @@ pub struct ImpellerParameters {
     /// positive.
     #[cfg_attr(feature = "schema", schema(minimum = 0, maximum = 75))]
     pub backsweep_deg: f64,
-    /// A shorter blade between two main blades; `null`: none.
+    /// Splitter, a shorter blade between two main blades; `null`: none.
     pub splitter: Option<Splitter>,
-    /// Material (titanium).
+    /// Material of the impeller (titanium).
     pub material: Material,
-    /// Ω1: the highest of the three speeds of the stiffness matrices, positive (rad/s).
+    /// Highest speed Ω1 of the three stiffness matrices, positive (rad/s).
     #[cfg_attr(feature = "schema", schema(exclusive_minimum = 0))]
     pub top_speed_rad_s: f64,
     /// Whether the package has a gyroscopic matrix, for Coriolis forces.
@@ -68,19 +69,19 @@ pub struct ImpellerParameters {
     /// Number of contact nodes along the main blade's tip, evenly spaced from leading to trailing edge, at least 2.
     #[cfg_attr(feature = "schema", schema(minimum = 2))]
     pub contact_nodes: usize,
-    /// 8-node or 20-node hexahedra.
+    /// Order of the elements: 8-node or 20-node hexahedra.
     pub element_order: ElementOrder,
-    /// Mesh densities.
+    /// Mesh densities, in numbers of elements.
     pub mesh: MeshDensities,
 }
 
-/// A splitter blade: in the middle of the passage, of the main blade's shape from its leading edge on.
+/// Splitter blade in the middle of the passage, with the main blade's shape from its own leading edge on.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct Splitter {
-    /// Where it begins, as a fraction of the meridional length between 0 and 1, both excluded; the mesh rounds it to
-    /// the nearest of its elements along the blade.
+    /// Position of the leading edge, as a fraction of the meridional length between 0 and 1, both excluded; the mesh rounds it to the
+    /// nearest of its elements along the blade.
     #[cfg_attr(feature = "schema", schema(exclusive_minimum = 0, exclusive_maximum = 1))]
     pub leading_edge: f64,
 }
@@ -90,20 +91,20 @@ pub struct Splitter {
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct MeshDensities {
-    /// Elements along the blade between two contact nodes.
+    /// Number of elements along the blade between two contact nodes.
     #[cfg_attr(feature = "schema", schema(minimum = 1))]
     pub between_contact_nodes: usize,
-    /// Elements over the height of a blade, from hub to tip.
+    /// Number of elements over the height of a blade, from hub to tip.
     #[cfg_attr(feature = "schema", schema(minimum = 1))]
     pub blade_height: usize,
-    /// Elements through the thickness of a blade. Contact nodes sit on the tip's mid-line, but on the suction-side edge
-    /// of its middle element where an odd number of 8-node elements has no node there.
+    /// Number of elements through the thickness of a blade. Contact nodes lie on the mid-line of the tip, or on the suction-side edge of
+    /// its middle element where an odd number of 8-node elements has no node on the mid-line.
     #[cfg_attr(feature = "schema", schema(minimum = 1))]
     pub blade_thickness: usize,
-    /// Elements across half a passage: from a blade to the middle between it and the next.
+    /// Number of elements across half a passage: from a blade to the middle between it and the next.
     #[cfg_attr(feature = "schema", schema(minimum = 1))]
     pub half_passage: usize,
-    /// Elements through the disk, from bore or back face to the hub's surface.
+    /// Number of elements through the disk, from bore or back face to the hub's surface.
     #[cfg_attr(feature = "schema", schema(minimum = 1))]
     pub disk: usize,
 }
@@ -148,10 +149,10 @@ impl Default for ImpellerParameters {
 }
 
 impl ImpellerParameters {
-    /// The same impeller in other units of length, force and mass.
+    /// Converts the impeller to other units of length, force and mass.
     ///
     /// # Errors
-    /// The field of a unit whose size is not known.
+    /// Field of a unit whose size is not known.
     pub(super) fn in_units(mut self, units: &Units) -> Result<Self, &'static str> {
         let [length, force, mass] = factors(&self.units, units)?;
         for own in [
@@ -174,23 +175,23 @@ impl ImpellerParameters {
         Ok(self)
     }
 
-    /// Elements along the blade from leading to trailing edge.
+    /// Number of elements along the blade from leading to trailing edge.
     pub fn elements_along_blade(&self) -> usize {
         self.mesh.between_contact_nodes * (self.contact_nodes - 1)
     }
 
-    /// Elements across one blade and half a passage on either side of it.
+    /// Number of elements across one blade and half a passage on either side of it.
     pub(super) fn lane_columns(&self) -> usize {
         self.mesh.blade_thickness + 2 * self.mesh.half_passage
     }
 
-    /// Elements across the sector.
+    /// Number of elements across the sector.
     pub(super) fn columns(&self) -> usize {
         let blades = if self.splitter.is_some() { 2 } else { 1 };
         blades * self.lane_columns()
     }
 
-    /// Elements along the main blade before the splitter begins.
+    /// Number of elements along the main blade before the splitter begins.
     pub(super) fn splitter_start(&self) -> Option<usize> {
         let along = self.elements_along_blade() as f64;
         self.splitter.map(|splitter| (splitter.leading_edge * along).round() as usize)

@@ -1,4 +1,4 @@
-//! Which degrees of freedom are coupled: the sparsity shared by all matrices of one mesh.
+//! Pattern of coupled degrees of freedom: the sparsity shared by all matrices of one mesh.
 
 use faer::sparse::{SparseColMat, SymbolicSparseColMat};
 use rayon::prelude::*;
@@ -8,14 +8,14 @@ use crate::package::raw::RawMatrix;
 /// Lower triangle by columns, rows ascending, with every pair of DOF that share an element.
 #[derive(Debug, Clone)]
 pub(super) struct Pattern {
-    /// Where each column begins in `rows`, and the end of the last.
+    /// Start of each column in `rows`, and the end of the last.
     starts: Vec<usize>,
     /// Row indices, column after column.
     rows: Vec<u32>,
 }
 
 impl Pattern {
-    /// The pattern of `elements` whose nodes have the displacements `numbering`, of `size` rows in all.
+    /// Pattern of `elements` whose nodes have the displacements `numbering`, of `size` rows in all.
     ///
     /// The rows of one node are consecutive; nodes that are tied together share theirs.
     pub(super) fn new<const N: usize>(
@@ -66,13 +66,13 @@ impl Pattern {
         self.rows.len()
     }
 
-    /// A column's row indices, and where they begin.
+    /// Row indices of a column, and the position of the first.
     pub(super) fn column(&self, column: usize) -> (&[u32], usize) {
         let start = self.starts[column];
         (&self.rows[start..self.starts[column + 1]], start)
     }
 
-    /// The matrix with `value(p)` at position p, as a package states it.
+    /// Matrix with `value(p)` at position p, as in a package.
     pub(super) fn raw_matrix(&self, value: impl Fn(usize) -> f64) -> RawMatrix {
         let mut entries = Vec::with_capacity(self.len());
         for column in 0..self.size() {
@@ -83,7 +83,7 @@ impl Pattern {
         RawMatrix { size: self.size(), entries }
     }
 
-    /// The lower triangle with `values` at its positions, for a solver.
+    /// Lower triangle with `values` at its positions, for a solver.
     pub(super) fn into_lower_triangle(self, values: Vec<f64>) -> SparseColMat<usize, f64> {
         let size = self.size();
         let rows = self.rows.into_iter().map(|row| row as usize).collect();

@@ -1,4 +1,4 @@
-//! What generating a model will make and take.
+//! Plan of the generation of a model: its size and memory.
 
 use serde::{Deserialize, Serialize};
 
@@ -8,21 +8,21 @@ use super::memory::generation_bytes;
 use super::parameters::ImpellerParameters;
 use super::sector_mesh::impeller_sector;
 
-/// What generating a model will make and take.
+/// Plan of the generation of a model: its size and memory.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct GenerationPlan {
-    /// Nodes of the sector's mesh.
+    /// Number of nodes of the sector's mesh.
     pub nodes: u64,
-    /// Rows of its matrices, those of the high cyclic face included.
+    /// Number of rows of the sector's matrices, those of the high cyclic face included.
     pub dofs: u64,
-    /// Memory that it holds at most, a quarter of it for safety.
+    /// Peak of the memory for generating the model, in bytes: the estimate with a quarter added for safety.
     pub memory_bytes: u64,
-    /// All parameters, as resolved.
+    /// Parameters of the model, as resolved.
     pub settings: ImpellerParameters,
 }
 
-/// Meshes the sector, and no more.
+/// Plans the generation of a model: meshes the sector, and does nothing more.
 ///
 /// # Errors
 /// [`ImpellerError`] names the parameter or the element at fault.

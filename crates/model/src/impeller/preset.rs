@@ -1,11 +1,11 @@
-//! Impellers by name.
+//! Named parameter sets of impellers.
 
 use serde::{Deserialize, Serialize};
 
 use super::mesh::ElementOrder;
 use super::parameters::{ImpellerParameters, MeshDensities, Splitter};
 
-/// A complete parameter set by name; all are the same titanium wheel of ten sectors with ten contact nodes each.
+/// Named complete parameter set; all are the same titanium wheel of ten sectors with ten contact nodes each.
 ///
 /// At Ω1 the largest von Mises stress is 460 to 750 N/mm², where the bore's clamp ends at the back face, and grows with
 /// the mesh there; Ti-6Al-4V yields at some 830.
@@ -24,7 +24,7 @@ pub enum Preset {
 }
 
 impl Preset {
-    /// The preset's parameters.
+    /// Parameters of the preset.
     pub fn parameters(self) -> ImpellerParameters {
         let quadratic = |mesh| ImpellerParameters {
             splitter: Some(Splitter::default()),
@@ -52,8 +52,8 @@ impl Preset {
     }
 }
 
-/// The paper's casing about an impeller: there (Methodology) given as fractions of the blade's height at the trailing
-/// edge, here as lengths.
+/// Casing of the paper about an impeller: there (Methodology) given as fractions of the blade's height at the trailing edge, here as
+/// lengths.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PaperCasing {
     /// Clearance at the leading edge: 3 %.
@@ -65,7 +65,7 @@ pub struct PaperCasing {
 }
 
 impl PaperCasing {
-    /// The casing for an impeller, in its unit of length.
+    /// Casing for an impeller, in its unit of length.
     pub fn of(parameters: &ImpellerParameters) -> Self {
         let percent = |share: f64| parameters.outlet_blade_height * share / 100.0;
         Self { leading_clearance: percent(3.0), trailing_clearance: percent(2.2), restriction: percent(4.25) }

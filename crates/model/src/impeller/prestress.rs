@@ -1,4 +1,4 @@
-//! Centrifugal pre-stress of the wheel: a linear solve on the cyclic sector for nodal diameter 0.
+//! Centrifugal pre-stress of the wheel: a linear solution on the cyclic sector for nodal diameter 0.
 
 use faer::MatMut;
 use nalgebra::Vector3;
@@ -13,12 +13,12 @@ use super::mesh::SectorMesh;
 use super::pattern::Pattern;
 use rubmap_numerics::sparse_cholesky::{NotPositiveDefinite, SparseCholesky, SymbolicFactor};
 
-/// Linear answer of the wheel to its own centrifugal load at Ω = 1; everything scales with Ω².
+/// Linear response of the wheel to its own centrifugal load at Ω = 1; everything scales with Ω².
 #[derive(Debug, Clone)]
 pub struct PreStress {
     /// Nodal displacements in (r, θ, z) components, per unit Ω².
     pub displacements: Vec<[f64; 3]>,
-    /// Stresses per element at its Gauss points, in x, y, z, per unit Ω².
+    /// Stresses of each element at its Gauss points, in x, y, z, per unit Ω².
     pub stresses: Vec<Vec<Stress>>,
 }
 
@@ -56,7 +56,7 @@ pub(super) fn solve<E: Hexahedron<N>, const N: usize>(
     Ok(PreStress { displacements, stresses })
 }
 
-/// `f_a = Σ m_ab (x_b, y_b, 0)`, which is `∫ ρ N_a r e_r dV` at Ω = 1 exactly, since position is interpolated like
+/// Centrifugal load `f_a = Σ m_ab (x_b, y_b, 0)`, which is `∫ ρ N_a r e_r dV` at Ω = 1 exactly, since position is interpolated like
 /// displacement.
 fn centrifugal_load<E: Hexahedron<N>, const N: usize>(element: &E, density: f64) -> [Vector3<f64>; N] {
     let mass = element.mass(density);

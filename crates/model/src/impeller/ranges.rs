@@ -1,4 +1,4 @@
-//! Refusals of values out of range, whatever they belong to.
+//! Checks of ranges, for parameters of any set.
 
 use super::error::ImpellerError;
 

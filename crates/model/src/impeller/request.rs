@@ -1,4 +1,4 @@
-//! A parameter set as users write it: a preset's name and what differs from it.
+//! Parameter set as users write it: a preset's name and the fields that differ from it.
 
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
@@ -9,24 +9,24 @@ use super::preset::Preset;
 use crate::package::quote::{bounded_message, quoted};
 use rubmap_wheel::dynamics::sector::Units;
 
-/// As `{"preset": "paper", "sectors": 13, "mesh": {"disk": 6}}`: fields of [`ImpellerParameters`] beside the name of the
+/// Request such as `{"preset": "paper", "sectors": 13, "mesh": {"disk": 6}}`: fields of [`ImpellerParameters`] beside the name of the
 /// preset that gives all others. Without a name: `small`.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct ImpellerRequest {
-    /// Where everything comes from that is not given.
+    /// Preset from which all parameters come that are not given.
     #[serde(default)]
     pub preset: Preset,
-    /// What is given, objects in objects field by field, but `units` as a whole, in which the preset is told then.
+    /// Fields that are given: objects in objects field by field, but `units` as a whole, to which the preset is then converted.
     #[serde(flatten)]
     pub overrides: Map<String, Value>,
 }
 
 impl ImpellerRequest {
-    /// The preset's parameters with the given ones in their place, all in their ranges.
+    /// Parameters of the preset with the given ones in their place, all in their ranges.
     ///
     /// # Errors
-    /// [`ImpellerError::Field`] for a field that is unknown, lacking or of the wrong type, [`ImpellerError::Parameter`] for
-    /// one out of range.
+    /// [`ImpellerError::Field`] for a field that is unknown, missing or of the wrong type, [`ImpellerError::Parameter`] for one out of
+    /// range.
     pub fn resolve(&self) -> Result<ImpellerParameters, ImpellerError> {
         let refuse = |field: String, message: String| {
             let problem = FieldProblem::Syntax { message: bounded_message(&message) };
@@ -62,7 +62,7 @@ impl ImpellerRequest {
     }
 }
 
-/// Puts `given` in the place of `value`; an object takes the place of another field by field.
+/// Replaces `value` by `given`; an object replaces another one field by field.
 fn merge(value: &mut Value, given: &Value, path: &str) -> Result<(), ImpellerError> {
     match (value, given) {
         (Value::Object(fields), Value::Object(given)) => given.iter().try_for_each(|(key, given)| {

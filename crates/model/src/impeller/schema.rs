@@ -1,4 +1,4 @@
-//! The schema of a request: that of the parameters, and the name of the preset.
+//! Schema of an impeller request: that of the parameters, and the name of the preset.
 
 use utoipa::openapi::{RefOr, Schema};
 use utoipa::{PartialSchema, ToSchema};
@@ -15,7 +15,7 @@ impl ToSchema for ImpellerRequest {
 }
 
 impl PartialSchema for ImpellerRequest {
-    /// The schema of [`ImpellerParameters`] with the preset's name.
+    /// Schema of [`ImpellerParameters`] with the preset's name.
     fn schema() -> RefOr<Schema> {
         let mut schema = ImpellerParameters::schema();
         if let RefOr::T(Schema::Object(object)) = &mut schema {

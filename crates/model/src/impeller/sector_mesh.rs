@@ -1,4 +1,4 @@
-//! The structured, conforming mesh of one impeller sector.
+//! Structured, conforming mesh of one impeller sector.
 //!
 //! Three directions: columns in θ, stations along the flow (equal arc lengths of hub and shroud, so contact nodes are
 //! evenly spaced), and layers outwards. The disk's layers run straight from the inner curve (up the bore, then out

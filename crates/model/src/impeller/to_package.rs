@@ -1,4 +1,4 @@
-//! A sector mesh into the content of a model package (docs/package.md).
+//! Conversion of a sector mesh into the content of a model package (docs/package.md).
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -15,7 +15,7 @@ use crate::package::raw::{
 };
 use rubmap_wheel::dynamics::sector::Units;
 
-/// Name of the one element set.
+/// Name of the only element set.
 const SET: &str = "WHEEL";
 
 /// Assembles the sector and packs it: cylindrical frame, unassembled high face, K at rest, Ω1/2 and Ω1.
@@ -70,7 +70,7 @@ pub fn to_package(
     })
 }
 
-/// The element table: numbers count from 1.
+/// Element table; numbers count from 1.
 fn elements(elements: &Elements) -> Vec<RawElement> {
     let set: Arc<str> = SET.into();
     let kind = match elements {

@@ -1,4 +1,4 @@
-//! The ranges of the generator's parameters.
+//! Ranges of the generator's parameters.
 
 use super::blocks::node_count;
 use super::error::ImpellerError;
@@ -78,7 +78,7 @@ impl ImpellerParameters {
         Ok(())
     }
 
-    /// Degrees of freedom with the clamped ones, nodes shared by disk and blades counted twice.
+    /// Number of degrees of freedom with the clamped ones, nodes shared by disk and blades counted twice.
     fn estimated_dof(&self) -> f64 {
         let m = &self.mesh;
         let [between, height, thickness, passage, disk] =

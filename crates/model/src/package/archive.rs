@@ -1,4 +1,4 @@
-//! The zip archive as an untrusted container: what is inside is counted while it inflates, never believed.
+//! Zip archive as an untrusted container: its content is counted while it inflates, never believed.
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -16,22 +16,22 @@ use super::limits::Limits;
 use super::quote::quoted;
 use super::raw::LONGEST_NAME;
 
-/// Bytes that even a small archive may expand to.
+/// Bytes to which even a small archive may expand.
 const ALWAYS_EXPANDED: u64 = 64 << 20;
 
-/// A zip archive whose directory has been checked: no two files of one name, none outside the package.
+/// Zip archive whose directory has been checked: no two files of one name, none outside the package.
 #[derive(Debug)]
 pub(super) struct Archive {
     path: PathBuf,
     /// Entry index of each file, by its name without `./`.
     files: BTreeMap<String, usize>,
-    /// Bytes that may leave decompressors.
+    /// Limit of the bytes that may leave decompressors.
     limit_bytes: u64,
     /// Bytes that have left a decompressor so far, over all files and threads.
     expanded: AtomicU64,
 }
 
-/// What was read of a file, and the SHA-256 of its decompressed bytes.
+/// Content read from a file, and the SHA-256 of its decompressed bytes.
 pub(super) struct Hashed<T> {
     pub(super) value: T,
     pub(super) sha256: [u8; 32],
@@ -125,12 +125,12 @@ impl Archive {
         }
     }
 
-    /// `source`, counted against the expansion limit of the whole archive.
+    /// Counts `source` against the expansion limit of the whole archive.
     pub(super) fn counted<R: Read>(&self, source: R) -> Counted<'_, R> {
         Counted { source, expanded: &self.expanded, limit_bytes: self.limit_bytes }
     }
 
-    /// What `read` makes of `source`, and the SHA-256 of `source` to its end.
+    /// Applies `read` to `source`; returns its result with the SHA-256 of `source` to its end.
     pub(super) fn hash<T>(
         &self,
         name: &str,
@@ -144,7 +144,7 @@ impl Archive {
         Ok(Hashed { value, sha256: source.sha256.finalize().into() })
     }
 
-    /// What an I/O error while reading `name` means.
+    /// Package error for an I/O error while reading `name`.
     pub(super) fn fault(&self, name: &str, error: io::Error) -> PackageError {
         if error.raw_os_error().is_some() {
             return error.into();
@@ -169,7 +169,7 @@ fn not_a_zip(error: &ZipError) -> PackageError {
     PackageError::archive(None, ArchiveProblem::NotAZip { reason: error.to_string() })
 }
 
-/// A problem that shows when an entry is opened.
+/// Package error for a problem with opening an entry.
 pub(super) fn storage(name: &str, error: ZipError) -> PackageError {
     let problem = match error {
         ZipError::Io(error) if error.raw_os_error().is_some() => return error.into(),
@@ -185,7 +185,7 @@ pub(super) fn storage(name: &str, error: ZipError) -> PackageError {
     PackageError::archive(name.to_owned(), problem)
 }
 
-/// The path relative to the archive's root, without `.`; `None` if it leaves the archive on any system.
+/// Path relative to the archive's root, without `.`; `None` if it leaves the archive on any system.
 pub(super) fn inside(name: &str) -> Option<String> {
     let drive = name.as_bytes().get(1) == Some(&b':');
     if name.starts_with(['/', '\\'])
@@ -198,7 +198,7 @@ pub(super) fn inside(name: &str) -> Option<String> {
     Some(name.split('/').filter(|part| !part.is_empty() && *part != ".").collect::<Vec<_>>().join("/"))
 }
 
-/// The first name that occurs twice in the central directory (the zip reader keeps only one of them).
+/// First name that occurs twice in the central directory (the zip reader keeps only one of them).
 fn repeated_name(path: &Path, central_directory_start: u64) -> Option<String> {
     use std::io::{Seek, SeekFrom};
     let mut file = BufReader::new(File::open(path).ok()?);
@@ -221,12 +221,12 @@ fn repeated_name(path: &Path, central_directory_start: u64) -> Option<String> {
     }
 }
 
-/// Marks the error of a reader that went past the expansion limit.
+/// Marker of the error of a reader that exceeded the expansion limit.
 #[derive(Debug, thiserror::Error)]
 #[error("the archive expands beyond the limit")]
 struct OverLimit;
 
-/// Counts what is read against the limit of the whole archive.
+/// Reader that counts its bytes against the limit of the whole archive.
 pub(super) struct Counted<'a, R> {
     source: R,
     expanded: &'a AtomicU64,
@@ -244,7 +244,7 @@ impl<R: Read> Read for Counted<'_, R> {
     }
 }
 
-/// Hashes what is read.
+/// Reader that hashes its bytes.
 struct Hashing<R> {
     source: R,
     sha256: Sha256,

@@ -1,17 +1,17 @@
-//! Finding the node at a place.
+//! Search for the node at a position.
 
 use std::collections::HashMap;
 
 use rubmap_solid::frame::distance;
 
-/// A copy of a node may be this far from where the turn puts it, relative to the diagonal of the mesh's bounding box:
-/// the tolerance of the package's own check.
+/// Largest distance of a copy of a node from where the turn puts it, relative to the diagonal of the mesh's bounding box: the tolerance of
+/// the package's own check.
 const TOLERANCE: f64 = 1e-5;
 
-/// Nodes within the tolerance of a place that are compared.
+/// Largest number of nodes within the tolerance of a position that are compared.
 const MOST_NEAR: usize = 100;
 
-/// Width of a cell over the tolerance: so wide that most places have all that is near them in one cell.
+/// Width of a cell over the tolerance: so wide that most positions have all nodes near them in one cell.
 const CELL: f64 = 8.0;
 
 /// Nodes by the cell of a grid that they lie in.
@@ -21,7 +21,7 @@ pub(super) struct Places {
     pub(super) tolerance: f64,
 }
 
-/// What is nearest to a place without a node.
+/// Nearest node to a position where there is no node.
 pub(super) struct Nearest {
     pub(super) node: u64,
     pub(super) distance: f64,
@@ -36,11 +36,11 @@ impl Places {
         Self { cells, nodes, tolerance }
     }
 
-    /// The node nearest to `position` within the tolerance.
+    /// Node nearest to `position` within the tolerance.
     pub(super) fn near(&self, position: [f64; 3]) -> Option<u64> {
         let corner = |sign: f64| cell(position.map(|x| x + sign * self.tolerance), CELL * self.tolerance);
         let (from, to) = (corner(-1.0), corner(1.0));
-        // Of a mesh that is finer than the tolerance no more than a few are looked at.
+        // In a mesh that is finer than the tolerance only a few nodes are compared.
         let around = (from[0]..=to[0])
             .flat_map(|i| (from[1]..=to[1]).flat_map(move |j| (from[2]..=to[2]).map(move |k| [i, j, k])));
         let close = around.filter_map(|cell| self.cells.get(&cell)).flatten().copied().take(MOST_NEAR);
@@ -48,7 +48,7 @@ impl Places {
         Some(found.node)
     }
 
-    /// [`Self::near`], or what is nearest if it is farther off.
+    /// Node as by [`Self::near`], or the nearest one as an error if it is farther off.
     pub(super) fn at(&self, position: [f64; 3]) -> Result<u64, Nearest> {
         if let Some(node) = self.near(position) {
             return Ok(node);
@@ -56,7 +56,7 @@ impl Places {
         Err(self.nearest_of_all(position))
     }
 
-    /// The node nearest to `position`, in time that grows with the number of nodes.
+    /// Node nearest to `position`, in time that grows with the number of nodes.
     pub(super) fn nearest_of_all(&self, position: [f64; 3]) -> Nearest {
         self.nearest(0..self.nodes.len(), position).unwrap_or(Nearest { node: 0, distance: f64::INFINITY })
     }
@@ -68,7 +68,7 @@ impl Places {
     }
 }
 
-/// The tolerance for a mesh of these positions.
+/// Tolerance for a mesh of these positions.
 pub(super) fn tolerance(positions: impl Iterator<Item = [f64; 3]>) -> f64 {
     let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
     for position in positions {

@@ -1,8 +1,8 @@
-//! What an importer of any format hands to the checks.
+//! Content that an importer of any format passes to the checks.
 
 use super::raw::RawPackage;
 
-/// A package as its files state it, where its table rows stand, and its content address.
+/// Content of a package as its files state it, the lines of its table rows, and its content address.
 #[derive(Debug)]
 pub(super) struct Content {
     pub(super) package: RawPackage,
@@ -10,8 +10,8 @@ pub(super) struct Content {
     pub(super) digest: String,
 }
 
-/// Lines on which the rows of the tables stand. Empty for a package that never was a file: row k is then called
-/// line k + 1, where [`write`](super::write()) would put it.
+/// Lines on which the rows of the tables stand. Empty for a package that never was a file: row k then counts as line k + 1, where
+/// [`write`](super::write()) would put it.
 #[derive(Debug, Default)]
 pub(super) struct SourceLines {
     pub(super) nodes: Vec<u64>,

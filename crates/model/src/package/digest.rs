@@ -1,10 +1,10 @@
-//! The content address of a package.
+//! Content address of a package.
 //!
-//! What counts: the *values* `sector.json` states, and the decompressed bytes of every other file under its name.
-//! What does not: how the archive is made (order, compression, times, folders' entries), whether a file is stored as
-//! `m.mtx` or `m.mtx.gz` (`.gz` is dropped from names, inside `sector.json` too), and the layout of `sector.json`
-//! (white space, order of fields). Of a `.npz` matrix its arrays count, not how they are zipped (numpy writes the time of
-//! day there, and compresses or not). Two texts of the same numbers (`1.0` and `1e0` in a matrix) are two contents.
+//! It depends on the *values* `sector.json` states, and on the decompressed bytes of every other file under its name. It does not depend on
+//! how the archive is made (order, compression, times, folders' entries), on whether a file is stored as `m.mtx` or `m.mtx.gz` (`.gz` is
+//! dropped from names, inside `sector.json` too), or on the layout of `sector.json` (white space, order of fields). For a `.npz` matrix its
+//! arrays count, not how they are zipped (numpy writes the time of day there, and compresses or not). Two texts of the same numbers (`1.0`
+//! and `1e0` in a matrix) are two contents.
 
 use std::fmt::{self, Write};
 
@@ -12,7 +12,7 @@ use sha2::{Digest, Sha256};
 
 use super::raw::Manifest;
 
-/// Changes whenever the rules above change, so that no old address can name a new content.
+/// Version of the rules above, changed with them, so that no old address can name a new content.
 const RULES: &str = "rubmap package 1";
 
 /// Lowercase hexadecimal SHA-256 of a package, from the manifest and the `(name, sha256)` of the other files.
@@ -47,8 +47,8 @@ pub(super) fn digest<'a>(manifest: &Manifest, files: impl Iterator<Item = (&'a s
     })
 }
 
-/// Prints every field of a manifest by name and every number shortest-round-trip; optional entries only where they are
-/// given, so that older packages keep their address.
+/// Manifest as it is hashed: prints every field by name and every number shortest-round-trip; optional entries only where they are given,
+/// so that older packages keep their address.
 struct Stated<'a>(&'a Manifest);
 
 impl fmt::Debug for Stated<'_> {
@@ -84,7 +84,7 @@ impl fmt::Debug for Stated<'_> {
     }
 }
 
-/// The name of a file without `.gz`.
+/// Name of a file without `.gz`.
 fn plain(name: &str) -> &str {
     name.strip_suffix(".gz").unwrap_or(name)
 }
@@ -93,7 +93,7 @@ fn plain(name: &str) -> &str {
 mod tests {
     use super::*;
 
-    /// Older packages were addressed by all that `Debug` printed, when there was no gyroscopic entry.
+    /// Manifest without optional entries: older packages were addressed by all that `Debug` printed, when there was no gyroscopic entry.
     #[test]
     fn a_package_without_optional_entries_is_stated_as_ever() {
         let text = r#"{"name": "w", "sectors": 3, "units": {"length": "mm", "force": "N", "time": "s", "mass": "t"},

@@ -1,20 +1,20 @@
-//! How much of a stranger's file is read.
+//! Limits on reading an untrusted file.
 
-/// What an upload may cost before anything is known about it.
+/// Limits of an upload, before anything is known about it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Limits {
-    /// Bytes that may leave decompressors, zip and gzip alike, over all files (default 16 GiB).
+    /// Largest number of bytes that may leave decompressors, zip and gzip alike, over all files (default 16 GiB).
     pub expanded_bytes: u64,
-    /// Bytes that may leave decompressors for each byte of the upload, beyond the first 64 MiB (default 100; matrices as
-    /// text deflate to a third, tables to a tenth): what an upload costs is in proportion to its size.
+    /// Largest number of bytes that may leave decompressors for each byte of the upload, beyond the first 64 MiB (default 100; matrices as
+    /// text deflate to a third, tables to a tenth): the cost of an upload is in proportion to its size.
     pub expansion: u64,
-    /// Entries of the archive, folders included (default 100; a package needs at most 9 files).
+    /// Largest number of entries of the archive, folders included (default 100; a package needs at most 9 files).
     pub entries: usize,
-    /// Bytes of `sector.json`, which is held as text (default 64 MiB).
+    /// Largest number of bytes of `sector.json`, which is held as text (default 64 MiB).
     pub manifest_bytes: u64,
-    /// Lines of the node table, and of the DOF table (default 10 million).
+    /// Largest number of lines of the node table, and of the DOF table (default 10 million).
     pub table_rows: usize,
-    /// Entries of one matrix, at about 16 bytes of memory each while reading (default 200 million).
+    /// Largest number of entries of one matrix, at about 16 bytes of memory each while reading (default 200 million).
     pub matrix_entries: usize,
 }
 

@@ -5,10 +5,10 @@ use std::io::{self, Read};
 /// Longest line accepted. Matrix Market allows 1024 characters; tables and comments may be more generous.
 pub(super) const LONGEST_LINE: usize = 64 * 1024;
 
-/// Read this much at a time.
+/// Number of bytes read at a time.
 const BUFFER: usize = 4 * LONGEST_LINE;
 
-/// Why a file could not be read to its end: its storage, or line `line`, where `problem` is found.
+/// Reason why a file could not be read to its end: its storage, or a `problem` found on line `line`.
 #[derive(Debug)]
 pub(super) enum Fault<P> {
     Io(io::Error),
@@ -21,11 +21,12 @@ impl<P> From<io::Error> for Fault<P> {
     }
 }
 
-/// Splits a byte stream at `\n`, dropping `\r` before it; never holds more than a buffer.
+/// Reader that splits a byte stream at `
+/// `, dropping `\r` before it; never holds more than a buffer.
 pub(super) struct Lines<R> {
     source: R,
     buffer: Vec<u8>,
-    /// Unread bytes of the buffer.
+    /// Start of the unread bytes of the buffer; `end` is their end.
     start: usize,
     end: usize,
     at_end: bool,
@@ -42,11 +43,11 @@ impl<R: Read> Lines<R> {
         self.number
     }
 
-    /// The next line without its end; `None` at the end of the file.
+    /// Next line without its end; `None` at the end of the file.
     ///
     /// # Errors
     ///
-    /// Those of the source, and `too_long` for a line of more than [`LONGEST_LINE`] bytes.
+    /// Errors of the source, and `too_long` for a line of more than [`LONGEST_LINE`] bytes.
     pub(super) fn next<P>(&mut self, too_long: fn(usize) -> P) -> Result<Option<&[u8]>, Fault<P>> {
         let mut searched = 0;
         let (length, consumed) = loop {

@@ -1,4 +1,4 @@
-//! Reading `sector.json`, with the field of every error as a JSON pointer.
+//! Reader of `sector.json`, with the field of every error as a JSON pointer.
 
 use super::error::{ManifestProblem, PackageError};
 use super::quote::{bounded_message, quoted};
@@ -38,14 +38,14 @@ fn syntax(field: String, error: &serde_json::Error) -> PackageError {
     )
 }
 
-/// serde names a missing field only in its message; its path is the object that lacks it.
+/// Path of a missing field, which serde names only in its message; the path it reports is the object that lacks the field.
 fn missing_field(error: &serde_json::Error) -> Option<String> {
     let text = error.to_string();
     let (name, _) = text.strip_prefix("missing field `")?.split_once('`')?;
     Some(name.to_owned())
 }
 
-/// RFC 6901.
+/// JSON pointer of a path (RFC 6901).
 fn pointer(path: &serde_path_to_error::Path) -> String {
     use serde_path_to_error::Segment;
     let mut pointer = String::new();

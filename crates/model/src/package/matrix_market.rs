@@ -1,4 +1,4 @@
-//! A streaming reader of Matrix Market coordinate files, `symmetric` (`skew-symmetric`) and `general`, real or integer.
+//! Streaming reader of Matrix Market coordinate files, `symmetric` (`skew-symmetric`) and `general`, real or integer.
 //!
 //! Written for files of tens of millions of lines: one pass, no text held, about 16 bytes of memory per entry.
 
@@ -13,7 +13,7 @@ use super::symmetric::{self, Entry, Mirror};
 
 type MatrixFault = Fault<MatrixProblem>;
 
-/// Reserve room for at most this many entries on the header's word; more room is made as they really come.
+/// Largest number of entries for which room is reserved on the header's word; more room is made as entries really come.
 const TRUSTED_ENTRIES: u64 = 1 << 22;
 
 /// Reads a matrix of `dofs` rows; `open` starts the file anew, a second time only to find the lines of a problem.
@@ -30,14 +30,14 @@ pub(super) fn read<S: Read>(
     })
 }
 
-/// Where an entry stands.
+/// Line of an entry.
 pub(super) struct Place {
     pub(super) line: u64,
     /// Whether it is the mirror image of the position asked for.
     pub(super) mirrored: bool,
 }
 
-/// The first two entries at (`row`, `column`), or at either mirror image; positions count from 1.
+/// First two entries at (`row`, `column`), or at either mirror image; positions count from 1.
 pub(super) fn places_of<S: Read>(
     source: S,
     mirror: Mirror,
@@ -60,7 +60,7 @@ pub(super) fn places_of<S: Read>(
     Ok(found)
 }
 
-/// What a file holds of its matrix.
+/// Triangles of the matrix that a file holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Triangles {
     One,
@@ -74,7 +74,7 @@ struct Header {
     columns: u64,
 }
 
-/// Entries folded into the lower triangle: of one triangle all of them in the first list; of both (`general`) the
+/// Entries folded into the lower triangle: from a file of one triangle all of them in the first list; from one of both (`general`) the
 /// lower triangle with the diagonal in the first, the strict upper triangle in the second.
 fn read_entries<S: Read>(
     source: S,
@@ -201,7 +201,7 @@ fn parse_banner(line: &[u8], mirror: Mirror) -> Result<Triangles, MatrixProblem>
     Ok(if symmetry == "general" { Triangles::Both } else { Triangles::One })
 }
 
-/// `row column value`; `None` if the line is anything else.
+/// Entry of a line `row column value`; `None` if the line is anything else.
 pub(super) fn parse_entry(line: &[u8]) -> Option<(u64, u64, f64)> {
     let mut words = words(line);
     let row = parse_integer(words.next()?)?;
@@ -210,7 +210,7 @@ pub(super) fn parse_entry(line: &[u8]) -> Option<(u64, u64, f64)> {
     words.next().is_none().then_some((row, column, value))
 }
 
-/// Words between blanks.
+/// Words of a line, between blanks.
 fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> {
     line.split(|byte| matches!(byte, b' ' | b'\t')).filter(|word| !word.is_empty())
 }
@@ -223,7 +223,7 @@ fn parse_integer(word: &[u8]) -> Option<u64> {
     word.iter().try_fold(0, |value, byte| byte.is_ascii_digit().then(|| value * 10 + u64::from(byte - b'0')))
 }
 
-/// A real number; Fortran's `1.5D+03` is understood too.
+/// Parses a real number; Fortran's `1.5D+03` is understood too.
 fn parse_real(word: &[u8]) -> Option<f64> {
     let text = std::str::from_utf8(word).ok()?;
     text.parse().ok().or_else(|| {

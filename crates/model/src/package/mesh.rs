@@ -1,4 +1,4 @@
-//! The elements of a package that was checked before; its matrices stay unread.
+//! Reader of the elements of a package that was checked before; its matrices stay unread.
 
 use std::path::Path;
 
@@ -10,11 +10,11 @@ use super::error::PackageError;
 use super::limits::Limits;
 use super::zip_package::{self, Stated};
 
-/// The mesh of the package at `path`, its nodes in the order of the node table, which is that of
+/// Reads the mesh of the package at `path`, with its nodes in the order of the node table, which is that of
 /// [`read_nodes`](super::read_nodes()); none if the package has no mesh. [`read`](super::read()) has accepted it before.
 ///
 /// # Errors
-/// Those of [`read`](super::read()) that `sector.json` and the tables can cause.
+/// Errors of [`read`](super::read()) that `sector.json` and the tables can cause.
 pub fn read_mesh(path: &Path, limits: &Limits) -> Result<Option<SectorMesh>, PackageError> {
     let Stated { manifest, nodes, dofs, elements, lines } = zip_package::load_tables(path, limits)?;
     let (Some(stated), Some(elements)) = (&manifest.mesh, elements) else { return Ok(None) };

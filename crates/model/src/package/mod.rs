@@ -1,4 +1,4 @@
-//! The model package of docs/package.md: read, check, rotate to cylindrical components; and write.
+//! Model package of docs/package.md: read, check, rotate to cylindrical components; and write.
 //!
 //! ```text
 //! file ── importer ──▶ Content ── check ──▶ Layout ── frame, partition ──▶ SectorModel
@@ -51,10 +51,10 @@ use rubmap_solid::mesh::SectorMesh;
 use rubmap_wheel::dynamics::findings::Findings;
 use rubmap_wheel::dynamics::sector::{SectorModel, SectorParts};
 
-/// A package that passed every check.
+/// Package that passed every check.
 #[derive(Debug, Clone)]
 pub struct Imported {
-    /// The sector, in cylindrical components, high face eliminated.
+    /// Sector in cylindrical components, high face eliminated.
     pub sector: SectorModel,
     /// Content address: 64 lowercase hexadecimal digits.
     ///
@@ -62,9 +62,9 @@ pub struct Imported {
     /// again, in other order or compression, with matrices gzipped or not, have the same address. The same matrices
     /// as Matrix Market and as `.npz` are different bytes, and have different ones.
     pub digest: String,
-    /// The elements, if the package has them.
+    /// Elements, if the package has them.
     pub mesh: Option<SectorMesh>,
-    /// Size of the model, and what in it looks wrong.
+    /// Findings: the size of the model, and what looks wrong in it.
     pub findings: Findings,
 }
 
@@ -88,18 +88,18 @@ pub struct Imported {
 ///
 /// # Errors
 ///
-/// The first problem found, in the order: archive, `sector.json`, tables, matrices, what they say together.
+/// The first problem found, in the order: archive, `sector.json`, tables, matrices, contradictions between them.
 pub fn read(path: &Path, limits: &Limits) -> Result<Imported, PackageError> {
     let Content { package, lines, digest } = zip_package::load(path, limits)?;
     let (sector, mesh, findings) = convert(package, &lines)?;
     Ok(Imported { sector, digest, mesh, findings })
 }
 
-/// [`Imported::digest`] of the package at `path`, without its matrices in memory where they are text.
+/// Digest of the package at `path`, as in [`Imported::digest`], without its matrices in memory where they are text.
 ///
 /// # Errors
 ///
-/// Those of the archive, `sector.json` and the tables: what the matrices say is not looked at.
+/// Errors of the archive, `sector.json` and the tables; the content of the matrices is not checked.
 pub fn read_digest(path: &Path, limits: &Limits) -> Result<String, PackageError> {
     zip_package::load_digest(path, limits)
 }
@@ -109,7 +109,7 @@ pub fn read_digest(path: &Path, limits: &Limits) -> Result<String, PackageError>
 ///
 /// # Errors
 ///
-/// Those of [`read`], except what only a look at the whole finds: cyclic symmetry, contact, mass, units.
+/// Errors of [`read`], except those found only on the package as a whole: cyclic symmetry, contact, mass, units.
 pub fn read_raw(path: &Path, limits: &Limits) -> Result<RawPackage, PackageError> {
     zip_package::load(path, limits).map(|content| content.package)
 }
@@ -123,11 +123,11 @@ pub fn to_sector(package: RawPackage) -> Result<SectorModel, PackageError> {
     convert(package, &SourceLines::default()).map(|(sector, ..)| sector)
 }
 
-/// Checks a package that was made in memory, by the same rules as [`read`], and tells what it is like.
+/// Checks a package that was made in memory, by the same rules as [`read`], and returns the findings about it.
 ///
 /// # Errors
 ///
-/// Those of [`to_sector`].
+/// Errors of [`to_sector`].
 pub fn look_at(package: RawPackage) -> Result<Findings, PackageError> {
     convert(package, &SourceLines::default()).map(|(.., findings)| findings)
 }
@@ -153,7 +153,7 @@ fn convert(
     Ok((sound(parts), mesh, findings))
 }
 
-/// A sector of parts that were checked.
+/// Makes a sector of parts that were checked.
 fn sound(parts: SectorParts) -> SectorModel {
     SectorModel::new(parts).unwrap_or_else(|unsound| unreachable!("the package was checked: {unsound}"))
 }

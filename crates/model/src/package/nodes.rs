@@ -1,4 +1,4 @@
-//! The nodes of a package that was checked before, with what their displacement is made of; its matrices stay unread.
+//! Reader of the nodes of a package that was checked before, with the DOF that their displacement depends on; its matrices stay unread.
 
 use std::collections::HashMap;
 use std::path::Path;
@@ -11,10 +11,10 @@ use super::raw::Frame;
 use super::zip_package::{self, Stated};
 use rubmap_wheel::dynamics::nodes::{NodeDof, SectorNode};
 
-/// Every node of the package at `path`, in the order of its node table; [`read`](super::read) has accepted it before.
+/// Reads every node of the package at `path`, in the order of its node table; [`read`](super::read) has accepted it before.
 ///
 /// # Errors
-/// Those of [`read`](super::read) that `sector.json` and the tables can cause.
+/// Errors of [`read`](super::read) that `sector.json` and the tables can cause.
 pub fn read_nodes(path: &Path, limits: &Limits) -> Result<Vec<SectorNode>, PackageError> {
     let Stated { manifest, nodes, dofs, lines, .. } = zip_package::load_tables(path, limits)?;
     let frame = statement::check(&manifest)?;
@@ -30,7 +30,7 @@ pub fn read_nodes(path: &Path, limits: &Limits) -> Result<Vec<SectorNode>, Packa
         let coordinates = frame.coordinates(nodes[place].position);
         let [_, theta, _] = frame.coordinates(nodes[reference].position);
         let basis = frame.cylindrical(theta);
-        // What a Cartesian package clamps in part keeps its Cartesian components (partition.rs).
+        // A node that a Cartesian package clamps in part keeps its Cartesian components (partition.rs).
         let cartesian = manifest.frame == Frame::Cartesian && rows.contains(&NONE);
         let dof = |k: usize| {
             let components = std::array::from_fn(|component| match cartesian {
@@ -60,7 +60,7 @@ mod tests {
     use crate::impeller::{CantileverParameters, cantilever};
     use crate::package::write;
 
-    /// What a Cartesian package clamps in part keeps x, y, z, and says what of them is radial, tangential and axial.
+    /// Node that a Cartesian package clamps in part: it keeps x, y, z, with their radial, tangential and axial parts.
     #[test]
     fn a_node_clamped_in_part_moves_along_its_cartesian_components() {
         let mut package =

@@ -1,24 +1,24 @@
-//! One array in numpy's npy format, streamed.
+//! Reader of one array in numpy's npy format, streamed.
 //!
 //! The header is a Python literal. Only the form numpy itself writes is understood, in one pass over at most
 //! [`LONGEST_HEADER`] bytes: general literal parsers (npyz 0.9) need exponential time on nested brackets.
 //!
-//! Behind a check of those npyz could take over two steps, what stands behind a key and bytes to numbers. The check
-//! would need all the rest (mark, version, length of the header), the errors their own words, and the number of
-//! elements and what comes after them would still be ours to hold against the header.
+//! With a check of the header before it, npyz could do two of the steps: find the value of a key, and turn bytes into numbers. The check
+//! would need all the rest (mark, version, length of the header), errors their own messages, and the number of elements and the bytes after
+//! them would still have to be compared with the header here.
 
 use std::io::{self, Read};
 
 use super::error::{ExpectedShape, NpzProblem};
 use super::quote::quoted;
 
-/// numpy's own limit for headers it does not trust.
+/// Longest header, numpy's own limit for headers it does not trust.
 const LONGEST_HEADER: usize = 10_000;
 
-/// Elements read at a time.
+/// Number of elements read at a time.
 const CHUNK: usize = 8192;
 
-/// Why an array could not be read: its storage, or what it says.
+/// Reason why an array could not be read: its storage, or its content.
 #[derive(Debug)]
 pub(super) enum NpyFault {
     Io(io::Error),
@@ -37,17 +37,17 @@ impl From<NpzProblem> for NpyFault {
     }
 }
 
-/// An array whose header has been read and whose elements come next.
+/// Array whose header has been read and whose elements come next.
 pub(super) struct Npy<'a> {
     name: &'static str,
     source: &'a mut dyn Read,
-    /// numpy's name of the element type, such as `<f8`.
+    /// Name of the element type in numpy, such as `<f8`.
     descr: String,
     shape: Vec<u64>,
 }
 
 impl<'a> Npy<'a> {
-    /// Reads the header; `name` is what errors call the array.
+    /// Reads the header; `name` is the name of the array in errors.
     pub(super) fn open(name: &'static str, source: &'a mut dyn Read) -> Result<Self, NpyFault> {
         let wrong = |reason| NpyFault::Problem(NpzProblem::NotNpy { array: name, reason });
         let mut magic = [0; 8];
@@ -83,12 +83,12 @@ impl<'a> Npy<'a> {
         }
     }
 
-    /// What is wrong with a shape other than `expected`.
+    /// Problem of a shape other than `expected`.
     pub(super) fn shape_problem(&self, expected: ExpectedShape) -> NpzProblem {
         NpzProblem::Shape { array: self.name, found: self.shape.clone(), expected }
     }
 
-    /// Hands every integer to `take`, with its position.
+    /// Passes every integer to `take`, with its position.
     pub(super) fn integers(
         self,
         mut take: impl FnMut(u64, i64) -> Result<(), NpzProblem>,
@@ -102,7 +102,7 @@ impl<'a> Npy<'a> {
         }
     }
 
-    /// Hands every real number to `take`, with its position.
+    /// Passes every real number to `take`, with its position.
     pub(super) fn reals(
         self,
         mut take: impl FnMut(u64, f64) -> Result<(), NpzProblem>,
@@ -116,7 +116,7 @@ impl<'a> Npy<'a> {
         }
     }
 
-    /// The text of a zero-dimensional array of bytes or, as of old versions, of unicode characters.
+    /// Text of a zero-dimensional array of bytes or, from old versions, of unicode characters.
     pub(super) fn text(self) -> Result<String, NpyFault> {
         let expected = "a short text";
         let width =
@@ -171,19 +171,19 @@ impl<'a> Npy<'a> {
 fn fill(source: &mut dyn Read, buffer: &mut [u8]) -> io::Result<bool> {
     match source.read_exact(buffer) {
         Ok(()) => Ok(true),
-        // What the decompressor calls damaged carries its own words; only a plain end has none.
+        // An error of the decompressor carries a message of its own; only a plain end of the file has none.
         Err(error) if error.kind() == io::ErrorKind::UnexpectedEof && error.get_ref().is_none() => Ok(false),
         Err(error) => Err(error),
     }
 }
 
-/// What follows `'key':` in a header.
+/// Text after `'key':` in a header.
 fn value<'h>(header: &'h str, key: &str) -> Option<&'h str> {
     let (_, after) = header.split_once(&format!("'{key}'"))?;
     Some(after.trim_start().strip_prefix(':')?.trim_start())
 }
 
-/// The numbers of `(3, 4)`, `(3,)` or `()` at the start of `text`.
+/// Numbers of `(3, 4)`, `(3,)` or `()` at the start of `text`.
 fn tuple(text: &str) -> Option<Vec<u64>> {
     let (inside, _) = text.strip_prefix('(')?.split_once(')')?;
     let numbers = inside.split(',').map(str::trim).filter(|number| !number.is_empty());

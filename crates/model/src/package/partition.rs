@@ -1,5 +1,5 @@
-//! From a checked package to the sector model: cylindrical components, high face eliminated (docs/method.md, Conventions and
-//! From a sector to harmonic matrices).
+//! Conversion of a checked package to the sector model: cylindrical components, high face eliminated (docs/method.md, Conventions and From
+//! a sector to harmonic matrices).
 //!
 //! A sector matrix A couples own rows (o) and rows of the high face (c). The high face of sector s is the low face of
 //! sector s + 1, whose displacement has the same *cylindrical* components there, so with P the map from high rows to
@@ -60,7 +60,7 @@ pub(super) fn build(package: RawPackage, layout: &Layout) -> SectorParts {
     }
 }
 
-/// Nodes numbered by their first own row.
+/// Node of each own DOF, nodes numbered by their first own row.
 fn node_of_dof(layout: &Layout) -> Vec<usize> {
     let mut numbers = HashMap::new();
     let node_of = |&row: &u32| {
@@ -85,15 +85,15 @@ fn contact_nodes(package: &RawPackage, layout: &Layout, bases: Option<&[Basis]>)
         .collect()
 }
 
-/// The local basis of each node of a Cartesian package, with zero rows and columns for clamped components.
+/// Local basis of each node of a Cartesian package, with zero rows and columns for clamped components.
 ///
 /// A node with all three DOF takes (r, θ, z); a high node those of its low node turned by α, rather than of its own
 /// position, so that the cyclic condition holds to round-off however roughly coordinates were printed.
 ///
-/// A node clamped in part cannot be rotated in general, and need not be: the matrices of internal DOF are equally
-/// good in any local basis, nothing asks for their (r, θ, z), and contact nodes are complete. So it keeps its Cartesian
-/// components, and a high node takes those of its low node turned by α. What must hold is only that the turn
-/// maps the free directions of the low node onto those of the high node, which the check of the faces has seen to.
+/// A node clamped in part cannot be rotated in general, and need not be: the matrices of internal DOF are equally good in any local basis,
+/// nothing asks for their (r, θ, z), and contact nodes are complete. So it keeps its Cartesian components, and a high node takes those of
+/// its low node turned by α. The only condition is that the turn maps the free directions of the low node onto those of the high node,
+/// which the check of the faces has verified.
 fn local_bases(package: &RawPackage, layout: &Layout) -> Vec<Basis> {
     let alpha = TAU / package.manifest.sectors as f64;
     let basis = |node: usize| -> Basis {
@@ -112,7 +112,7 @@ fn local_bases(package: &RawPackage, layout: &Layout) -> Vec<Basis> {
     (0..package.nodes.len()).map(basis).collect()
 }
 
-/// What every matrix of a package is folded by.
+/// Data with which every matrix of a package is folded.
 struct Folding<'a> {
     layout: &'a Layout,
     /// Component 0, 1 or 2 of each row.
@@ -165,7 +165,7 @@ impl Folding<'_> {
         CyclicMatrix { own: own.finish(), next: next.finish() }
     }
 
-    /// The columns of `node` as 3 × 3 blocks, one for each node of their rows that is wanted.
+    /// Gathers the columns of `node` as 3 × 3 blocks, one for each wanted node of their rows.
     fn gather(&self, full: &Columns, node: u32, wanted: impl Fn(u32) -> bool, blocks: &mut NodeBlocks) {
         for (k, &column) in
             self.layout.rows_of_node[node as usize].iter().enumerate().filter(|(_, c)| **c != NONE)
@@ -179,8 +179,8 @@ impl Folding<'_> {
         }
     }
 
-    /// B_row · block · B_columnᵀ, computed from the transposed block if asked to: mirrored blocks then have mirrored
-    /// bits, and Y0 is exactly (skew-)symmetric.
+    /// Product B_row · block · B_columnᵀ, computed from the transposed block if asked to: mirrored blocks then have mirrored bits, and Y0
+    /// is exactly (skew-)symmetric.
     fn rotated(&self, block: Block, (row_node, column_node): (u32, u32), by_transpose: bool) -> Block {
         let Some(bases) = self.bases else { return block };
         let (row, column) = (&bases[row_node as usize], &bases[column_node as usize]);
@@ -212,7 +212,7 @@ impl Folding<'_> {
     }
 }
 
-/// A diagonal block is (skew-)symmetric but for the rounding of its rotation.
+/// Makes a diagonal block exactly (skew-)symmetric, which it is but for the rounding of its rotation.
 fn make_exact(mirror: Mirror, block: &mut Block) {
     for (i, j) in [(1, 0), (2, 0), (2, 1)] {
         block[(j, i)] = mirror.image(block[(i, j)]);
@@ -222,7 +222,7 @@ fn make_exact(mirror: Mirror, block: &mut Block) {
     }
 }
 
-/// A matrix with both triangles in compressed columns; 12 bytes per stored entry.
+/// Matrix with both triangles in compressed columns; 12 bytes per stored entry.
 struct Columns {
     starts: Vec<usize>,
     rows: Vec<u32>,
@@ -264,7 +264,7 @@ impl Columns {
     }
 }
 
-/// The blocks of one node's columns, found by the node of their rows.
+/// Blocks of one node's columns, found by the node of their rows.
 struct NodeBlocks {
     nodes: Vec<u32>,
     blocks: Vec<Block>,
@@ -302,12 +302,12 @@ impl NodeBlocks {
     }
 }
 
-/// A square sparse matrix written column by column, in any order of columns.
+/// Square sparse matrix written column by column, in any order of columns.
 struct Builder {
     size: usize,
     rows: Vec<usize>,
     values: Vec<f64>,
-    /// `(column, first entry)` in the order written.
+    /// Columns in the order written, as `(column, first entry)`.
     written: Vec<(usize, usize)>,
     column: Vec<(usize, f64)>,
 }

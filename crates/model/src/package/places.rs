@@ -1,4 +1,4 @@
-//! Where the nodes of a package are, without its matrices.
+//! Positions of the nodes of a package, without its matrices.
 
 use std::collections::{HashMap, HashSet};
 use std::path::Path;
@@ -11,37 +11,36 @@ use super::raw::{Frame, Manifest, RawDof, RawNode};
 use super::zip_package::{self, Stated};
 use rubmap_solid::frame::AxisFrame;
 
-/// Nodes of a sector.
+/// Nodes of a sector, with its axis.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Places {
-    /// The axis of rotation: a point on it, and its direction, of any length.
+    /// Axis of rotation: a point on it, and its direction, of any length.
     pub axis: ([f64; 3], [f64; 3]),
-    /// All nodes, in the order of the node table.
+    /// Nodes in the order of the node table.
     pub nodes: Vec<Place>,
-    /// Contact nodes from the leading to the trailing edge: their place in `nodes`, and the outward unit normal, (r, θ, z)
-    /// components.
+    /// Contact nodes from the leading to the trailing edge: their position in `nodes`, and the outward unit normal, (r, θ, z) components.
     pub contact: Vec<(usize, [f64; 3])>,
 }
 
-/// A node of a sector.
+/// Node of a sector.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Place {
     /// Id in the user's model.
     pub id: u64,
-    /// `[r, θ, z]` about the axis, θ in rad.
+    /// Position `[r, θ, z]` about the axis, θ in rad.
     pub position: [f64; 3],
-    /// Which cyclic face it is on.
+    /// Cyclic face on which the node lies.
     pub face: Option<Face>,
-    /// Whether it has no unknowns.
+    /// Whether the node has no unknowns.
     pub held: bool,
 }
 
-/// A cyclic face.
+/// Cyclic face.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Face {
-    /// Where the sector begins.
+    /// Face where the sector begins.
     Low,
-    /// Where the next one begins.
+    /// Face where the next sector begins.
     High,
 }
 
@@ -61,7 +60,7 @@ fn places(manifest: &Manifest, nodes: &[RawNode], dofs: &[RawDof]) -> Places {
         faces.insert(*low, Face::Low);
         faces.insert(*high, Face::High);
     }
-    // Its axis has a direction, or it would not have passed.
+    // The axis has a direction, or the package would not have passed the checks.
     let frame = AxisFrame::new(manifest.axis.origin, manifest.axis.direction);
     let place = |node: &RawNode| Place {
         id: node.id,
@@ -90,7 +89,7 @@ mod tests {
     use crate::impeller::{CantileverParameters, cantilever};
     use crate::package::{read, write};
 
-    /// As the reader of the whole package places them.
+    /// Contact nodes compared with those of the reader of the whole package.
     #[test]
     fn contact_nodes_are_where_the_model_has_them() {
         let beam =

@@ -1,13 +1,14 @@
-//! How much of the user's own text an error repeats.
+//! Quotation of the user's own text in errors, shortened.
 
 /// Most characters of a name or value that an error repeats.
 const LONGEST: usize = 60;
 
-/// Characters kept of a long message: its beginning, which says what is wrong, and its end, which says what is expected.
+/// Number of characters kept from the beginning of a long message, which says what is wrong; its end, which says what is expected, is kept
+/// too.
 const BEGINNING: usize = 80;
 const END: usize = 300;
 
-/// `text` or, where it is long, its beginning with an ellipsis.
+/// Quotes `text` or, where it is long, its beginning with an ellipsis.
 pub(crate) fn quoted(text: &str) -> String {
     match text.char_indices().nth(LONGEST) {
         None => text.to_owned(),
@@ -15,7 +16,7 @@ pub(crate) fn quoted(text: &str) -> String {
     }
 }
 
-/// The message of a JSON reader, which repeats a wrong value whole, without the middle of a long one.
+/// Shortens the message of a JSON reader, which repeats a wrong value in full, by leaving out the middle of a long one.
 pub(crate) fn bounded_message(message: &str) -> String {
     if message.chars().nth(BEGINNING + END).is_none() {
         return message.to_owned();

@@ -1,4 +1,4 @@
-//! A package's content as its files state it, before any check: what readers produce and writers consume.
+//! Content of a package as its files state it, before any check: what readers produce and writers consume.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -15,15 +15,15 @@ use rubmap_wheel::dynamics::sector::Units;
 /// Most characters of the model's name, and of a file's.
 pub(super) const LONGEST_NAME: usize = 200;
 
-/// `sector.json`.
+/// Content of `sector.json`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Manifest {
-    /// Free text of at most 200 characters.
+    /// Name of the model, free text of at most 200 characters.
     pub name: String,
     /// Number of identical sectors N ≥ 1.
     pub sectors: usize,
-    /// Consistent units.
+    /// Consistent units of length, force, time and mass.
     pub units: Units,
     /// Axis of rotation.
     pub axis: Axis,
@@ -46,12 +46,12 @@ pub struct Manifest {
     pub cyclic: Vec<[u64; 2]>,
     /// Contact nodes from leading to trailing edge.
     pub contact: Vec<ManifestContact>,
-    /// The elements, if the package has them: without them there is no stress.
+    /// Elements, if the package has them: without them there is no stress.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mesh: Option<ManifestMesh>,
 }
 
-/// The elements that the matrices were made of, and their materials.
+/// Elements that the matrices were made of, and their materials.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ManifestMesh {
@@ -62,7 +62,7 @@ pub struct ManifestMesh {
     pub sets: BTreeMap<String, Material>,
 }
 
-/// A map whose keys differ: of two materials of one set, which one holds is not ours to guess.
+/// Reads a map and refuses repeated keys: it must not be guessed which of two materials of one set holds.
 fn each_set_once<'de, D: serde::Deserializer<'de>>(from: D) -> Result<BTreeMap<String, Material>, D::Error> {
     struct Sets;
     impl<'de> Visitor<'de> for Sets {
@@ -97,7 +97,7 @@ impl Manifest {
     }
 }
 
-/// How a matrix is stored; the extension of its file says which.
+/// Format in which a matrix is stored; the extension of its file decides it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum MatrixFormat {
@@ -108,7 +108,7 @@ pub enum MatrixFormat {
 }
 
 impl MatrixFormat {
-    /// The format of a file of this name: `.npz` or `.npz.gz`, otherwise Matrix Market.
+    /// Format of a file of this name: `.npz` or `.npz.gz`, otherwise Matrix Market.
     pub(super) fn of(name: &str) -> Self {
         let plain = name.strip_suffix(".gz").unwrap_or(name);
         if plain.ends_with(Self::Npz.extension()) { Self::Npz } else { Self::Mtx }
@@ -126,9 +126,9 @@ impl MatrixFormat {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Axis {
-    /// A point on the axis.
+    /// Point on the axis.
     pub origin: [f64; 3],
-    /// Its direction, of any length.
+    /// Direction of the axis, of any length.
     pub direction: [f64; 3],
 }
 
@@ -136,14 +136,14 @@ pub struct Axis {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Frame {
-    /// Global x, y, z.
+    /// Global Cartesian frame x, y, z.
     Cartesian,
-    /// r, θ, z of each node about the axis.
+    /// Local cylindrical frame r, θ, z of each node about the axis.
     Cylindrical,
 }
 
 impl Frame {
-    /// Name in `sector.json`.
+    /// Name of the frame in `sector.json`.
     pub(super) fn name(self) -> &'static str {
         match self {
             Self::Cartesian => "cartesian",
@@ -152,44 +152,44 @@ impl Frame {
     }
 }
 
-/// One contact node of `sector.json`.
+/// Contact node of `sector.json`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ManifestContact {
-    /// Node id.
+    /// Id of the node.
     pub node: u64,
     /// Outward unit normal in the package's frame.
     pub normal: [f64; 3],
 }
 
-/// One line of the node table.
+/// Line of the node table.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RawNode {
-    /// Node id.
+    /// Id of the node.
     pub id: u64,
     /// Cartesian position.
     pub position: [f64; 3],
 }
 
-/// One line of the DOF table: the unknown of one matrix row.
+/// Line of the DOF table: the unknown of one matrix row.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct RawDof {
-    /// Node id.
+    /// Id of the node.
     pub node: u64,
     /// Component 1, 2 or 3 in the package's frame.
     pub component: u8,
 }
 
-/// One line of the element table.
+/// Line of the element table.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct RawElement {
-    /// Element number.
+    /// Number of the element.
     pub id: u64,
-    /// What it is.
+    /// Type of the element.
     pub kind: ElementKind,
-    /// Name of its set.
+    /// Name of the element's set.
     pub set: Arc<str>,
-    /// Ids of its nodes, in CalculiX's order.
+    /// Ids of the element's nodes, in CalculiX's order.
     pub nodes: Box<[u64]>,
 }
 
@@ -197,16 +197,16 @@ pub struct RawElement {
 /// which is zero), 0-based, each position once.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RawMatrix {
-    /// Rows (= columns).
+    /// Number of rows (= columns).
     pub size: usize,
-    /// `(row, column, value)` with row ≥ column.
+    /// Entries `(row, column, value)` with row ≥ column.
     pub entries: Vec<(u32, u32, f64)>,
 }
 
-/// Everything a package holds.
+/// Content of a package, with all its files.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RawPackage {
-    /// `sector.json`.
+    /// Content of `sector.json`.
     pub manifest: Manifest,
     /// Node table.
     pub nodes: Vec<RawNode>,

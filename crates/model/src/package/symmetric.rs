@@ -1,32 +1,31 @@
-//! From a list of entries to a symmetric or skew-symmetric matrix: sorted, each position once, the triangles mirror
-//! images.
+//! Conversion of a list of entries to a symmetric or skew-symmetric matrix: sorted, each position once, the triangles mirror images.
 
 use rayon::slice::ParallelSliceMut;
 
 use super::error::MatrixProblem;
 use super::raw::RawMatrix;
 
-/// `(row, column, value)`, 0-based, row ≥ column.
+/// Entry `(row, column, value)`, 0-based, row ≥ column.
 pub(super) type Entry = (u32, u32, f64);
 
-/// Two mirrored entries may differ by this much of the larger: exports are rounded to seven digits at worst.
+/// Largest difference of two mirrored entries, relative to the larger one: exports are rounded to seven digits at worst.
 const MIRROR_TOLERANCE: f64 = 1e-6;
 
-/// … or by this much of the geometric mean of their diagonals, of the largest entry where the diagonal is zero: entries
-/// that cancel to nearly zero in assembly.
+/// Largest difference of two mirrored entries, relative to the geometric mean of their diagonals, or to the largest entry where the
+/// diagonal is zero: for entries that cancel to nearly zero in assembly.
 const CANCELLATION_TOLERANCE: f64 = 1e-12;
 
-/// How the triangles of a matrix mirror each other.
+/// Relation between the two triangles of a matrix.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Mirror {
-    /// Aᵀ = A.
+    /// Symmetric matrix, Aᵀ = A.
     Symmetric,
-    /// Aᵀ = −A.
+    /// Skew-symmetric matrix, Aᵀ = −A.
     Skew,
 }
 
 impl Mirror {
-    /// What stands at (column, row) where `value` stands at (row, column).
+    /// Value at (column, row) for `value` at (row, column).
     pub(super) fn image(self, value: f64) -> f64 {
         match self {
             Self::Symmetric => value,
@@ -35,13 +34,13 @@ impl Mirror {
         }
     }
 
-    /// An entry of any triangle as the one of the lower triangle that says the same.
+    /// Folds an entry of any triangle into the lower triangle.
     pub(super) fn folded(self, row: u32, column: u32, value: f64) -> Entry {
         if row >= column { (row, column, value) } else { (column, row, self.image(value)) }
     }
 }
 
-/// A matrix from entries of which each position appears once, folded into the lower triangle.
+/// Makes a matrix from entries of which each position appears once, folded into the lower triangle.
 pub(super) fn from_triangle(
     mirror: Mirror,
     size: usize,
@@ -56,7 +55,7 @@ pub(super) fn from_triangle(
     Ok(RawMatrix { size, entries })
 }
 
-/// A matrix from its lower triangle with the diagonal, and its strict upper triangle folded into the lower.
+/// Makes a matrix from its lower triangle with the diagonal, and its strict upper triangle folded into the lower.
 ///
 /// A pair within tolerance becomes its mean; equal values keep their bits.
 pub(super) fn from_both_triangles(
@@ -69,7 +68,7 @@ pub(super) fn from_both_triangles(
     sort(&mut upper);
     check_unique(&lower, false)?;
     check_unique(&upper, false).map_err(other_triangle)?;
-    // What entries that cancel are small against, per row: its product is a geometric mean.
+    // Scale per row against which cancelled entries are small: the product of two is a geometric mean.
     let scale: Vec<f64> = match mirror {
         Mirror::Symmetric => {
             let mut diagonal = vec![0.0; size];
@@ -128,7 +127,7 @@ pub(super) fn from_both_triangles(
     Ok(RawMatrix { size, entries })
 }
 
-/// A matrix from stored entries of unstated symmetry, positions repeated or not: repeated ones are summed.
+/// Makes a matrix from stored entries of unstated symmetry, positions repeated or not: repeated ones are summed.
 ///
 /// `lower` has the lower triangle with the diagonal, `upper` the strict upper one folded into it. If only one of
 /// the two has an entry that is not zero, the matrix is that triangle and its mirror image; if both have, they must
@@ -155,7 +154,7 @@ pub(super) fn from_any(
     from_triangle(mirror, size, lower)
 }
 
-/// Entries sorted, those of equal positions summed in the order given.
+/// Sorts entries and sums those of equal positions in the order given.
 fn summed(mut entries: Vec<Entry>) -> Vec<Entry> {
     sort(&mut entries);
     entries.dedup_by(|next, first| {
@@ -168,7 +167,7 @@ fn summed(mut entries: Vec<Entry>) -> Vec<Entry> {
     entries
 }
 
-/// The diagonal of a skew-symmetric matrix is zero; zeros and what is left of cancellation need not be kept.
+/// Drops the diagonal of a skew-symmetric matrix, which must be zero: zeros and the rest of cancellation need not be kept.
 fn drop_diagonal(entries: &mut Vec<Entry>) -> Result<(), MatrixProblem> {
     let tolerance = CANCELLATION_TOLERANCE * largest(entries);
     match entries.iter().find(|entry| entry.0 == entry.1 && entry.2.abs() > tolerance) {
@@ -184,7 +183,7 @@ fn largest(entries: &[Entry]) -> f64 {
     entries.iter().fold(0.0, |largest, entry| f64::max(largest, entry.2.abs()))
 }
 
-/// By column, then row: the order of compressed columns, and of most files.
+/// Sorts by column, then row: the order of compressed columns, and of most files.
 fn sort(entries: &mut [Entry]) {
     if !entries.is_sorted_by_key(|&(row, column, _)| key(row, column)) {
         // Stable, so that the first of two equal positions stays first.

@@ -1,8 +1,8 @@
-//! `nodes.csv`, `dofs.csv` and `elements.csv`: comma-separated, header optional, white space, blank lines and CRLF tolerated.
+//! Tables `nodes.csv`, `dofs.csv` and `elements.csv`: comma-separated, header optional, white space, blank lines and CRLF tolerated.
 //!
-//! No field has a comma or a line end in it, so a line is a row. To the crate `csv` (1.4) a quote that nobody closes makes
-//! the rest of the file one field, which it holds; it counts a row behind blank lines from the first of them, and leaves
-//! quotes behind a space where they are.
+//! No field has a comma or a line end in it, so a line is a row. The crate `csv` (1.4) is not used: it takes an unclosed quote to make the
+//! rest of the file one field, which it holds in memory; it counts a row behind blank lines from the first of them, and leaves quotes
+//! behind a space where they are.
 
 use std::collections::HashMap;
 use std::io::Read;
@@ -17,7 +17,7 @@ use super::raw::{ManifestMesh, RawDof, RawElement, RawNode};
 
 type TableFault = Fault<TableProblem>;
 
-/// The rows of a table and the line each of them stands on.
+/// Rows of a table and the line of each.
 #[derive(Debug)]
 pub(super) struct Table<T> {
     pub(super) rows: Vec<T>,
@@ -47,7 +47,7 @@ pub(super) fn read_dofs(source: impl Read, limit: usize) -> Result<Table<RawDof>
     })
 }
 
-/// Elements, whose sets must be among those of `mesh`.
+/// Reads elements, whose sets must be among those of `mesh`.
 pub(super) fn read_elements(
     source: impl Read,
     limit: usize,
@@ -130,13 +130,13 @@ fn fields<'a, const C: usize>(text: &'a str, columns: &'static str) -> Result<[&
     if found == C { Ok(all) } else { Err(TableProblem::FieldCount { found, expected: C, columns }) }
 }
 
-/// A header names its first column; a row starts with a number.
+/// Whether a line is a header, which names its first column; a row starts with a number.
 fn is_header(text: &str) -> bool {
     let first = unquoted(text.split(',').next().unwrap_or_default());
     first.starts_with(|c: char| c.is_alphabetic() || c == '#' || c == '_') && first.parse::<f64>().is_err()
 }
 
-/// A header may use any names, but not ours in another order: the columns would be read wrongly.
+/// Checks a header: it may use any names, but not ours in another order, as the columns would be read wrongly.
 fn check_header(text: &str, columns: &'static str) -> Result<(), TableProblem> {
     let misplaced = text.split(',').zip(columns.split(',')).any(|(name, expected)| {
         let name = unquoted(name).trim_start_matches('#').trim().to_ascii_lowercase();

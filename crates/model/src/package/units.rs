@@ -1,13 +1,13 @@
-//! Names of units, their sizes, and whether four of them are consistent.
+//! Units: their names, their sizes, and whether four of them are consistent.
 
 use rubmap_wheel::dynamics::sector::{SectorParts, Units};
 
 use super::error::ManifestProblem;
 
-/// Two factors of the same unit system may differ by this much: pounds and slugs are quoted with few digits.
+/// Largest relative difference of two factors of the same unit system: pounds and slugs are quoted with few digits.
 const TOLERANCE: f64 = 1e-3;
 
-/// Most characters of a unit's name.
+/// Largest number of characters of a unit's name.
 const LONGEST_NAME: usize = 40;
 
 const INCH: f64 = 0.0254;
@@ -73,8 +73,8 @@ type Names = &'static [(&'static [&'static str], f64)];
 
 const QUANTITIES: [(&str, Names); 4] = [("length", LENGTH), ("force", FORCE), ("time", TIME), ("mass", MASS)];
 
-/// Brings a sector whose matrices count time in another unit than seconds to seconds, in which speeds are given:
-/// mass and the gyroscopic matrix, which is measured in mass, become force·s²/length; stiffness stays.
+/// Converts a sector whose matrices count time in another unit than seconds to seconds, in which speeds are given: mass and the gyroscopic
+/// matrix, which is measured in mass, become force·s²/length; stiffness stays.
 pub(super) fn count_time_in_seconds(sector: &mut SectorParts) {
     let seconds = seconds(&sector.units);
     if seconds == 1.0 {
@@ -90,13 +90,13 @@ pub(super) fn count_time_in_seconds(sector: &mut SectorParts) {
     sector.units.time = "s".to_owned();
 }
 
-/// Seconds that the unit of time has.
+/// Length of the unit of time, s.
 pub(super) fn seconds(units: &Units) -> f64 {
     size(TIME, &units.time).unwrap_or(1.0)
 }
 
-/// Sizes of the units of length, force and mass in m, N and kg, the mass as force, time and length make it; none where a name is not
-/// known.
+/// Sizes of the units of length, force and mass in m, N and kg, the mass as it follows from force, time and length; none where a name is
+/// not known.
 pub(super) fn si_sizes(units: &Units) -> Option<[f64; 3]> {
     let (length, force) = (size(LENGTH, &units.length)?, size(FORCE, &units.force)?);
     let seconds = size(TIME, &units.time)?;
@@ -111,8 +111,8 @@ pub(super) fn material_in_si(youngs_modulus: f64, density: f64, units: &Units) -
 
 /// Checks that force = mass·length/time² among the names this module knows.
 ///
-/// A name it does not know is accepted: a package may use any consistent system, and only what is known to be
-/// wrong is refused, which includes known names of another quantity. On failure: the field and the problem.
+/// A name it does not know is accepted: a package may use any consistent system, and only what is known to be wrong is refused, which
+/// includes known names of another quantity. On failure: the field and the problem.
 pub(crate) fn check(units: &Units) -> Result<(), (&'static str, ManifestProblem)> {
     let given = [&units.length, &units.force, &units.time, &units.mass];
     let fields = ["/units/length", "/units/force", "/units/time", "/units/mass"];
@@ -155,10 +155,10 @@ pub(crate) fn check(units: &Units) -> Result<(), (&'static str, ManifestProblem)
     Err(("/units", problem))
 }
 
-/// How many of the units `to` make up one of `from`, for length, force and mass.
+/// Factors from units `from` to units `to`, for length, force and mass.
 ///
 /// # Errors
-/// The field of `to` whose unit this module does not know, or that of `from`.
+/// Field of `to` whose unit this module does not know, or that of `from`.
 pub(crate) fn factors(from: &Units, to: &Units) -> Result<[f64; 3], &'static str> {
     let of = |field, names, from: &str, to: &str| {
         Ok(size(names, from).ok_or(field)? / size(names, to).ok_or(field)?)

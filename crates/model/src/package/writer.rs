@@ -1,4 +1,4 @@
-//! Writing a package: the zip of docs/package.md, numbers in shortest round-trip form or, in `.npz` matrices, as they are.
+//! Writer of packages: the zip of docs/package.md, numbers in shortest round-trip form or, in `.npz` matrices, as they are.
 
 use std::io::{self, BufWriter, Seek, Write};
 
@@ -12,12 +12,13 @@ use super::symmetric::Mirror;
 
 /// Writes `package` as a deflated zip; reading it back gives the same bits.
 ///
-/// The same package always gives the same bytes: entries carry no time. Files have the names of the manifest, and
-/// one named for several speeds is written once; a matrix whose name ends in `.npz` is stored in that format. Nothing is checked: a wrong package is refused on reading.
+/// The same package always gives the same bytes: entries carry no time. Files have the names of the manifest, and one named for several
+/// speeds is written once; a matrix whose name ends in `.npz` is stored in that format. Nothing is checked: a wrong package is refused on
+/// reading.
 ///
 /// # Errors
 ///
-/// Those of `out`, and names that a zip file cannot hold.
+/// Errors of `out`, and names that a zip file cannot hold.
 pub fn write(package: &RawPackage, out: impl Write + Seek) -> Result<(), PackageError> {
     let mut zip = ZipWriter::new(out);
     let manifest = serde_json::to_vec_pretty(&package.manifest).map_err(io::Error::from)?;

@@ -1,4 +1,4 @@
-//! The package format itself: a zip of `sector.json`, two tables and the matrices, to a [`Content`].
+//! Reader of the package format itself: from a zip of `sector.json`, two tables and the matrices to a [`Content`].
 
 use std::io::Read;
 use std::path::Path;
@@ -68,7 +68,7 @@ pub(super) fn load(path: &Path, limits: &Limits) -> Result<Content, PackageError
     })
 }
 
-/// The digest of the archive at `path`. Matrix Market is only hashed, never held.
+/// Digest of the archive at `path`. Matrix Market files are only hashed, never held.
 pub(super) fn load_digest(path: &Path, limits: &Limits) -> Result<String, PackageError> {
     let archive = Archive::open(path, limits)?;
     let Tables { manifest, files, nodes, dofs, elements } = read_tables(&archive, limits)?;
@@ -84,7 +84,7 @@ pub(super) fn load_digest(path: &Path, limits: &Limits) -> Result<String, Packag
     Ok(digest::digest(&manifest, hashes.into_iter()))
 }
 
-/// What a package says besides its matrices.
+/// Content of a package without its matrices.
 pub(super) struct Stated {
     pub(super) manifest: Manifest,
     pub(super) nodes: Vec<RawNode>,
@@ -93,7 +93,7 @@ pub(super) struct Stated {
     pub(super) lines: SourceLines,
 }
 
-/// `sector.json` and the tables of the archive at `path`, with the lines of the tables' rows.
+/// Reads `sector.json` and the tables of the archive at `path`, with the lines of the tables' rows.
 pub(super) fn load_tables(path: &Path, limits: &Limits) -> Result<Stated, PackageError> {
     let Tables { manifest, nodes, dofs, elements, .. } = read_tables(&Archive::open(path, limits)?, limits)?;
     let (elements, of_elements) = match elements {
@@ -104,7 +104,7 @@ pub(super) fn load_tables(path: &Path, limits: &Limits) -> Result<Stated, Packag
     Ok(Stated { manifest, nodes: nodes.value.rows, dofs: dofs.value.rows, elements, lines })
 }
 
-/// What is read before the matrices.
+/// Part of a package that is read before the matrices.
 struct Tables {
     manifest: Manifest,
     files: Files,
@@ -140,7 +140,7 @@ struct Files {
 }
 
 impl Files {
-    /// Mass, stiffness matrices, gyroscopic matrix.
+    /// Files of the mass, stiffness and gyroscopic matrices, in this order, with their symmetry.
     fn matrices(&self) -> Vec<(&String, Mirror)> {
         std::iter::once(&self.mass)
             .chain(&self.stiffness)
@@ -170,7 +170,7 @@ impl Files {
         };
         let files = Self {
             mass: resolve("/mass".to_owned(), &manifest.mass, "the mass matrix")?,
-            // The same stiffness at several speeds is a valid way to say that there is no stiffening.
+            // Naming one stiffness matrix at several speeds is a valid way to say that there is no stiffening.
             stiffness: (manifest.stiffness.iter().enumerate())
                 .map(|(k, name)| resolve(format!("/stiffness/{k}"), name, "a stiffness matrix"))
                 .collect::<Result<_, _>>()?,
@@ -253,7 +253,7 @@ fn read_matrix(
     })
 }
 
-/// Reads the file once more, as far as needed, to say on which lines the entries stand that do not go together.
+/// Reads the file once more, as far as needed, to add to the error the lines of the entries that contradict each other.
 fn located(
     path: &Path,
     file: &str,

@@ -10,7 +10,7 @@ use super::{ComplementarityError, ContactOperator, any_below};
 /// Work counters over the life of a solver.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct PivotStatistics {
-    /// Problems that had a violated index to begin with.
+    /// Problems that began with a violated index.
     pub problems: u64,
     /// Candidate active sets examined.
     pub candidates: u64,
@@ -100,12 +100,12 @@ impl<F: Factor> ActiveSetSolver<F> {
         &self.active
     }
 
-    /// λ of the active indices, in their order.
+    /// Forces λ of the active indices, in their order.
     pub fn lambda(&self) -> &[f64] {
         &self.lambda
     }
 
-    /// g = q + Wλ of every index that the forces could have brought near zero, q of the others.
+    /// Gaps g = q + Wλ of every index that the forces could have brought near zero, q of the others.
     pub fn gap(&self) -> &[f64] {
         &self.gap
     }
@@ -123,7 +123,7 @@ impl<F: Factor> ActiveSetSolver<F> {
         self.lambda.clear();
     }
 
-    /// λ with g = 0 on the active set, and g everywhere.
+    /// Solves for λ with g = 0 on the active set, and for g everywhere.
     #[inline(always)]
     fn solve_active<W: ContactOperator>(&mut self, w: &W, q: &[f64]) -> Result<(), ComplementarityError> {
         if self.factored != self.active {

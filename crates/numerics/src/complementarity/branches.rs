@@ -30,9 +30,9 @@ pub struct BranchSolver<F: Factor = Cholesky> {
     gap: Vec<f64>,
     /// Index, its side of the branch it is on, and the branch that a block move takes it to.
     violated: Vec<(usize, Side, Branch)>,
-    /// Index and dx/dλ.
+    /// Index and dx/dλ of every active index that `factor` was made for.
     factored: Vec<(usize, f64)>,
-    /// dx/dλ of every index.
+    /// Compliance dx/dλ of every index.
     compliance: Vec<f64>,
     factor: F,
     statistics: PivotStatistics,
@@ -41,7 +41,7 @@ pub struct BranchSolver<F: Factor = Cholesky> {
 /// Block moves without progress before single moves begin.
 const GRACE: usize = 3;
 
-/// Gaps looked at together.
+/// Gaps checked together.
 const CHUNK: usize = 8;
 
 impl<F: Factor> BranchSolver<F> {
@@ -62,8 +62,8 @@ impl<F: Factor> BranchSolver<F> {
         }
     }
 
-    /// Solves for `q` (entries of +∞ never touch), `law(i)` being that of index i. Branches end `tolerance` further than they
-    /// do; forces are never negative.
+    /// Solves for `q` (entries of +∞ never touch), `law(i)` being that of index i. Branches are extended by `tolerance` at their ends;
+    /// forces are never negative.
     #[inline(always)]
     pub fn solve<W: ContactOperator>(
         &mut self,
@@ -107,12 +107,12 @@ impl<F: Factor> BranchSolver<F> {
         &self.active
     }
 
-    /// λ of the active indices, in their order.
+    /// Forces λ of the active indices, in their order.
     pub fn lambda(&self) -> &[f64] {
         &self.lambda
     }
 
-    /// −x = q + Wλ of every index that the forces could have brought near zero, q of the others.
+    /// Gaps −x = q + Wλ of every index that the forces could have brought near zero, q of the others.
     pub fn gap(&self) -> &[f64] {
         &self.gap
     }
@@ -130,7 +130,7 @@ impl<F: Factor> BranchSolver<F> {
         self.lambda.clear();
     }
 
-    /// λ with every active index on the line of its branch, and gaps everywhere.
+    /// Solves for λ with every active index on the line of its branch, and for the gaps everywhere.
     #[inline(always)]
     fn solve_branches<W: ContactOperator>(
         &mut self,

@@ -4,7 +4,7 @@ use super::ComplementarityError;
 
 /// Solves with W restricted to an active set.
 pub trait Factor: Default {
-    /// Factorises W on the `active` indices from its entries W(i, j). After an error the factor is of no use.
+    /// Factorises W on the `active` indices from its entries W(i, j). After an error the factor is invalid.
     fn factorise(
         &mut self,
         entry: impl Fn(usize, usize) -> f64,
@@ -24,10 +24,10 @@ const RESERVED: usize = 256;
 /// Round-off of a sum relative to the magnitude of its terms.
 const ROUND_OFF: f64 = 4.0 * f64::EPSILON;
 
-/// W = LLᵀ, for symmetric positive definite W.
+/// Cholesky factor W = LLᵀ, for symmetric positive definite W.
 #[derive(Debug, Clone)]
 pub struct Cholesky {
-    /// L, packed row by row.
+    /// Factor L, packed row by row.
     lower: Vec<f64>,
 }
 
@@ -83,17 +83,17 @@ impl Factor for Cholesky {
         }
     }
 
-    /// |W(i, j)|² < W(i, i) W(j, j): the diagonal bounds every term.
+    /// Bound by |W(i, j)|² < W(i, i) W(j, j): the diagonal bounds every term.
     fn round_off(entry: impl Fn(usize, usize) -> f64, active: &[usize], lambda: &[f64]) -> f64 {
         let terms = active.iter().zip(lambda).map(|(&i, lambda)| entry(i, i) * lambda.abs());
         ROUND_OFF * terms.sum::<f64>()
     }
 }
 
-/// PW = LU with partial pivoting, for any W.
+/// Factor PW = LU with partial pivoting, for any W.
 #[derive(Debug, Clone)]
 pub struct Lu {
-    /// L below the diagonal (its own is 1) and U, row-major.
+    /// Factors L below the diagonal (its own is 1) and U, row-major.
     factor: Vec<f64>,
     /// Row that was exchanged with row k at step k.
     exchanged: Vec<usize>,

@@ -31,7 +31,7 @@ pub(super) enum Branch {
     Stopped,
 }
 
-/// Where a point on the line of a branch, extended, lies.
+/// Position of a point on the extended line of a branch, relative to the branch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Side {
     Below,
@@ -40,7 +40,7 @@ pub(super) enum Side {
 }
 
 impl BilinearLaw {
-    /// λ(x) for x ≤ `stop`, the smallest one at the stop itself.
+    /// Force λ(x) for x ≤ `stop`, the smallest one at the stop itself.
     pub fn force(&self, x: f64) -> f64 {
         if x <= self.start {
             0.0
@@ -51,7 +51,7 @@ impl BilinearLaw {
         }
     }
 
-    /// (x at λ = 0, dx/dλ) of the line of a branch with a force.
+    /// Line of a branch with a force: (x at λ = 0, dx/dλ).
     pub(super) fn line(&self, branch: Branch) -> (f64, f64) {
         match branch {
             Branch::Open | Branch::First => (self.start, 1.0 / self.slopes[0]),
@@ -60,7 +60,7 @@ impl BilinearLaw {
         }
     }
 
-    /// Where the point (x, λ) on the line of `branch` lies; ends of a branch reach `tolerance` further, but a force is never
+    /// Position of the point (x, λ) on the line of `branch`, relative to the branch, whose ends reach `tolerance` further; a force is never
     /// negative.
     pub(super) fn side(&self, branch: Branch, x: f64, lambda: f64, tolerance: f64) -> Side {
         let (below, above) = match branch {
@@ -78,7 +78,7 @@ impl BilinearLaw {
         }
     }
 
-    /// The branch to try after `branch`, whose point (x, λ) lies outside: that of the same x, or of the same λ at the stop.
+    /// Branch to try after `branch`, whose point (x, λ) lies outside: the one at the same x, or from the stop the one at the same λ.
     pub(super) fn jump(&self, branch: Branch, x: f64, lambda: f64) -> Branch {
         let reached = |start: bool, knee: bool| match (start, knee) {
             (_, true) => Branch::Second,
@@ -94,7 +94,7 @@ impl BilinearLaw {
 }
 
 impl Branch {
-    /// The next one on a side.
+    /// Neighbouring branch on `side`.
     pub(super) fn neighbour(self, side: Side) -> Self {
         match (side, self) {
             (Side::Below, Self::Open | Self::First) => Self::Open,

@@ -1,11 +1,11 @@
 //! The linear complementarity problem 0 ≤ λ ⊥ g = q + Wλ ≥ 0, solved exactly.
 //!
-//! W is a P-matrix: every principal minor is positive, so that the solution exists and is unique for every q (Cottle, Pang
-//! and Stone, The Linear Complementarity Problem, 1992, theorem 3.3.7). Symmetric positive definite matrices are; so is W of
-//! frictional contact as long as the coefficient is small.
+//! W is a P-matrix: every principal minor is positive, so that the solution exists and is unique for every q (Cottle, Pang and Stone, The
+//! Linear Complementarity Problem, 1992, theorem 3.3.7). Symmetric positive definite matrices are P-matrices; W of frictional contact is
+//! one as long as the coefficient is small.
 //!
 //! - [`active_set`]: block principal pivoting, the solver for rigid obstacles;
-//! - [`branches`]: its relative for obstacles that give way by a [`law`];
+//! - [`branches`]: block pivoting for obstacles that give way by a [`law`];
 //! - [`disc`]: contact with Coulomb friction in the contact plane;
 //! - [`factor`]: how W on an active set is factorised, Cholesky for symmetric W and LU for others.
 
@@ -17,16 +17,16 @@ pub mod law;
 #[cfg(test)]
 mod tests;
 
-/// A P-matrix given by its entries.
+/// P-matrix given by its entries.
 pub trait ContactOperator {
-    /// Rows (= columns).
+    /// Number of rows (= columns).
     fn size(&self) -> usize;
 
-    /// W(i, j).
+    /// Entry W(i, j).
     fn entry(&self, i: usize, j: usize) -> f64;
 
-    /// `gap` = q + Wλ, λ given at the `active` indices and zero elsewhere. Entries that are positive whatever the signs of
-    /// W's entries may keep the value of q instead: the solver needs to know no more of them.
+    /// Writes `gap` = q + Wλ, λ given at the `active` indices and zero elsewhere. Entries that are positive whatever the signs of W's
+    /// entries may keep the value of q instead: the solver needs to know no more of them.
     fn gaps(&self, active: &[usize], lambda: &[f64], q: &[f64], gap: &mut [f64]);
 }
 

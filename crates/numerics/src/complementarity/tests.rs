@@ -25,7 +25,7 @@ impl ContactOperator for Dense {
     }
 }
 
-/// Literal truth: tries every subset of up to 10 indices.
+/// Reference solution: tries every subset of up to 10 indices.
 fn enumerate(w: &Dense, q: &[f64]) -> Vec<f64> {
     let n = q.len();
     for set in 0..1usize << n {
@@ -46,7 +46,7 @@ fn enumerate(w: &Dense, q: &[f64]) -> Vec<f64> {
     unreachable!("a P-matrix has a solution for every q")
 }
 
-/// AᵀA + ridge·I from the leading `n × n` part of a 7 × 7 matrix A.
+/// Matrix AᵀA + ridge·I from the leading `n × n` part of a 7 × 7 matrix A.
 fn definite(n: usize, a: &[f64], ridge: f64) -> Dense {
     let dot = |i: usize, j: usize| (0..n).map(|k| a[7 * k + i] * a[7 * k + j]).sum::<f64>();
     Dense((0..n).map(|i| (0..n).map(|j| dot(i, j) + if i == j { ridge } else { 0.0 }).collect()).collect())
@@ -62,7 +62,7 @@ fn skewed(mut w: Dense, s: &[f64]) -> Dense {
     w
 }
 
-/// λ of every index.
+/// Forces λ of every index.
 fn spread(active: &[usize], forces: &[f64], n: usize) -> Vec<f64> {
     let mut lambda = vec![0.0; n];
     for (&i, &l) in active.iter().zip(forces) {
@@ -71,7 +71,7 @@ fn spread(active: &[usize], forces: &[f64], n: usize) -> Vec<f64> {
     lambda
 }
 
-/// A sequence of problems shares one solver, so warm starts from unrelated sets are tried too.
+/// Solves a sequence of problems with one solver, so that warm starts from unrelated sets are tried too.
 fn check<F: Factor>(w: &Dense, qs: &[f64], tolerance: f64) -> Result<(), TestCaseError> {
     let n = w.size();
     let mut solver = ActiveSetSolver::<F>::new(n);
@@ -95,7 +95,7 @@ fn check<F: Factor>(w: &Dense, qs: &[f64], tolerance: f64) -> Result<(), TestCas
 proptest! {
     #![proptest_config(fixed(256))]
 
-    /// From well conditioned to nearly singular, q of both signs.
+    /// Matrices from well conditioned to nearly singular, q of both signs.
     #[test]
     fn symmetric_problems_agree_with_enumeration(
         n in 1usize..7,
@@ -106,7 +106,7 @@ proptest! {
         check::<Cholesky>(&definite(n, &a, ridge), &qs, 1e-7 / ridge)?;
     }
 
-    /// A skew part of any size leaves a matrix with a positive definite symmetric part a P-matrix.
+    /// Matrices with a skew part of any size: with a positive definite symmetric part they stay P-matrices.
     #[test]
     fn non_symmetric_problems_agree_with_enumeration(
         n in 1usize..7,
@@ -118,7 +118,7 @@ proptest! {
         check::<Lu>(&skewed(definite(n, &a, ridge), &skew), &qs, 1e-7 / ridge)?;
     }
 
-    /// Without a skew part both factors give the same answer in the same pivoting steps.
+    /// Factors of both kinds give the same answer without a skew part, in the same pivoting steps.
     #[test]
     fn factors_agree_on_symmetric_problems(
         n in 1usize..7,
@@ -151,7 +151,7 @@ fn keeps_a_lasting_contact_factored() {
     assert_eq!(solver.statistics().factorisations, 1);
 }
 
-/// A minor that is zero or negative has no place in a P-matrix, symmetric or not.
+/// Matrices with a minor that is zero or negative are refused, symmetric or not.
 #[test]
 fn refuses_what_is_no_p_matrix() {
     for coupling in [2.0, 3.0] {
@@ -164,7 +164,7 @@ fn refuses_what_is_no_p_matrix() {
     }
 }
 
-/// Literal truth: tries every combination of branches (0: no force, 1 and 2: the slopes, 3: the stop).
+/// Reference solution: tries every combination of branches (0: no force, 1 and 2: the slopes, 3: the stop).
 fn enumerate_branches(w: &Dense, laws: &[BilinearLaw], q: &[f64]) -> Vec<f64> {
     let n = q.len();
     let branch = |combination: usize, i: usize| combination >> (2 * i) & 3;

@@ -1,4 +1,4 @@
-//! Structure of the factor: which rows each front eliminates, and what it passes to which.
+//! Structure of the factor: the rows that each front eliminates, and the fronts to which it passes its update.
 
 use std::ops::Range;
 
@@ -13,11 +13,11 @@ use faer::sparse::linalg::cholesky::{
 /// The elimination tree of fronts for one sparsity pattern and order.
 #[derive(Debug, Default)]
 pub struct Analysis {
-    /// Rows of the matrix.
+    /// Number of rows of the matrix.
     pub(super) size: usize,
-    /// Rows that are eliminated; the boundary follows.
+    /// Number of rows that are eliminated; the boundary follows.
     pub(super) eliminated: usize,
-    /// In elimination order: children before parents.
+    /// Fronts in elimination order: children before parents.
     pub(super) fronts: Vec<Front>,
     /// Fronts whose updates reach the boundary.
     pub(super) roots: Vec<usize>,
@@ -32,11 +32,11 @@ pub struct Analysis {
 pub(super) struct Front {
     /// First row eliminated.
     pub(super) start: usize,
-    /// Rows eliminated.
+    /// Number of rows eliminated.
     pub(super) pivots: usize,
-    /// Rows below them that they reach, ascending.
+    /// Rows below the pivots that the pivots reach, ascending.
     pub(super) rows: Vec<usize>,
-    /// Fronts whose updates are added here.
+    /// Fronts whose updates are added to this one.
     pub(super) children: Vec<usize>,
 }
 
@@ -46,28 +46,28 @@ impl Front {
         if i < self.pivots { self.start + i } else { self.rows[i - self.pivots] }
     }
 
-    /// Numbers of L and L_F.
+    /// Number of entries of L and L_F in this front.
     fn entries(&self) -> usize {
         self.pivots * (self.pivots + self.rows.len())
     }
 
-    /// What a solve takes, in numbers of L: with every row it reads and writes, too.
+    /// Cost of a solve, in numbers of L, including every row that is read and written.
     fn solve_cost(&self) -> usize {
         self.entries() - self.pivots * self.pivots / 2 + ROW_COST * (self.pivots + self.rows.len())
     }
 
-    /// Multiplications of its elimination.
+    /// Multiplications to eliminate the front.
     fn work(&self) -> f64 {
         let (p, r) = (self.pivots as f64, self.rows.len() as f64);
         p * p * p / 3.0 + p * p * r + p * r * r
     }
 }
 
-/// Numbers of L in the time of which a solve reads and writes a row.
+/// Cost of reading and writing a row in a solve, in numbers of L.
 const ROW_COST: usize = 16;
 
-/// Subtrees with less than this share of the whole work are not split further: enough pieces for a few threads, and
-/// never so many that their updates fill the memory.
+/// Share of the whole work below which subtrees are not split further: enough pieces for a few threads, and never so many that their
+/// updates fill the memory.
 const SUBTREE_SHARE: f64 = 1.0 / 24.0;
 
 impl Analysis {
@@ -118,7 +118,7 @@ impl Analysis {
         self.fronts.iter().map(Front::work).sum()
     }
 
-    /// Numbers in L and L_F.
+    /// Number of entries in L and L_F.
     pub fn factor_entries(&self) -> usize {
         self.fronts.iter().map(Front::entries).sum()
     }
@@ -139,7 +139,7 @@ impl Analysis {
     }
 }
 
-/// Takes a front together with all below it wherever a solve is then cheaper: zeros are multiplied, but fewer rows are moved.
+/// Merges a front with all below it wherever a solve is then cheaper: zeros are multiplied, but fewer rows are moved.
 fn merged(fronts: Vec<Front>) -> Vec<Front> {
     let mut kept: Vec<Front> = Vec::with_capacity(fronts.len());
     // Where each front has gone.

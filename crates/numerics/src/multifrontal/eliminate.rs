@@ -1,4 +1,4 @@
-//! One front: assemble, eliminate its pivots, pass the update on.
+//! Elimination of one front: assembles it, eliminates its pivots, passes the update on.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::ldlt::factor::{cholesky_in_place, cholesky_in_place_scratch};
@@ -81,7 +81,7 @@ pub(super) fn eliminate(
     Ok(Eliminated { lower, pivots, update })
 }
 
-/// The Schur complement of the boundary: the sum of what reaches it.
+/// Schur complement of the boundary: the sum of the updates that reach it.
 pub(super) fn boundary(analysis: &Analysis, mut update: impl FnMut(usize) -> Option<Mat<f64>>) -> Mat<f64> {
     let size = analysis.size - analysis.eliminated;
     let mut schur = Mat::zeros(size, size);
@@ -97,7 +97,7 @@ pub(super) fn boundary(analysis: &Analysis, mut update: impl FnMut(usize) -> Opt
     schur
 }
 
-/// L D Lᵀ of the leading square of `lower` in place, the rows below it carried along. Returns D.
+/// Factorises the leading square of `lower` to L D Lᵀ in place, the rows below it carried along. Returns D.
 fn factor(mut lower: MatMut<'_, f64>, first_row: usize) -> Result<Vec<f64>, Breakdown> {
     let (m, p) = (lower.nrows(), lower.ncols());
     let mut pivots = Vec::with_capacity(p);
@@ -131,8 +131,8 @@ fn factor(mut lower: MatMut<'_, f64>, first_row: usize) -> Result<Vec<f64>, Brea
     Ok(pivots)
 }
 
-/// A ← A − B Cᵀ on and below the diagonal of A, which may have more rows than columns; B has A's rows, C at least as
-/// many rows as A has columns. Runs over panels of columns in parallel.
+/// Computes A ← A − B Cᵀ on and below the diagonal of A, which may have more rows than columns; B has A's rows, C at least as many rows as
+/// A has columns. Runs over panels of columns in parallel.
 fn subtract_product(a: MatMut<'_, f64>, b: MatRef<'_, f64>, c: MatRef<'_, f64>) {
     if b.ncols() == 0 {
         return;

@@ -1,8 +1,8 @@
-//! What eliminating a front leaves.
+//! Result of eliminating a front.
 
 use faer::Mat;
 
-/// A pivot is exactly zero, or a number is not finite.
+/// Error: a pivot is exactly zero, or a number is not finite.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("the factorisation broke down at row {row} of the elimination order")]
 pub struct Breakdown {
@@ -10,12 +10,12 @@ pub struct Breakdown {
     pub row: usize,
 }
 
-/// The answer of one front.
+/// Result of eliminating one front.
 pub(super) struct Eliminated {
-    /// Its columns of L, pivot rows first; the strict upper triangle of the pivot rows means nothing.
+    /// Columns of L of the front, pivot rows first; the strict upper triangle of the pivot rows means nothing.
     pub(super) lower: Mat<f64>,
-    /// Its part of D.
+    /// Entries of D of the front.
     pub(super) pivots: Vec<f64>,
-    /// What it passes up, lower triangle.
+    /// Update that the front passes up, lower triangle.
     pub(super) update: Mat<f64>,
 }

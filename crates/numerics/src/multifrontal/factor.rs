@@ -9,22 +9,22 @@ use super::eliminate;
 use super::eliminated::{Breakdown, Eliminated};
 use super::slab::Slab;
 
-/// L, D and S of one matrix.
+/// Factors L and D and Schur complement S of one matrix.
 #[derive(Debug)]
 pub struct PartialFactor<'a> {
     pub(super) analysis: &'a Analysis,
-    /// L and L_F, per front.
+    /// Entries of L and L_F, per front.
     pub(super) slabs: Vec<Vec<Slab>>,
     pivots: Vec<f64>,
     schur: Mat<f64>,
 }
 
-/// What elimination tells without L.
+/// Inertia of a matrix and its Schur complement, found by elimination without storing L.
 #[derive(Debug)]
 pub struct Inertia {
     /// Negative eigenvalues of A_II (Sylvester).
     pub negative: usize,
-    /// S = −A_FI A_II⁻¹ A_IF, lower triangle.
+    /// Schur complement S = −A_FI A_II⁻¹ A_IF, lower triangle.
     pub schur: Mat<f64>,
     /// Largest Σ_j L_ij² |D_j| over the rows i of L and L_F: the size of the numbers that were subtracted from each
     /// other. Divided by the largest entry of A it bounds the loss of accuracy without pivoting; 1 where A is positive
@@ -47,19 +47,19 @@ impl<'a> PartialFactor<'a> {
         Ok(Self { analysis, slabs: kept, pivots, schur })
     }
 
-    /// D, in elimination order.
+    /// Diagonal D, in elimination order.
     pub fn pivots(&self) -> &[f64] {
         &self.pivots
     }
 
-    /// S = −A_FI A_II⁻¹ A_IF, lower triangle.
+    /// Schur complement S = −A_FI A_II⁻¹ A_IF, lower triangle.
     pub fn schur(&self) -> &Mat<f64> {
         &self.schur
     }
 }
 
 impl Inertia {
-    /// Of Σ factor · matrix over `terms`, as [`PartialFactor::new`] would eliminate it.
+    /// Eliminates Σ factor · matrix over `terms` as [`PartialFactor::new`] does, without storing L.
     pub fn new(analysis: &Analysis, terms: &[(f64, &SparseColMat<usize, f64>)]) -> Result<Self, Breakdown> {
         let row_sums = |_: &Front, lower: MatRef<'_, f64>, pivots: &[f64]| {
             let mut sums = vec![0.0; lower.nrows()];
@@ -87,7 +87,7 @@ impl Inertia {
 struct Elimination<T> {
     pivots: Vec<f64>,
     schur: Mat<f64>,
-    /// What was kept of each front's columns of L.
+    /// Result of `keep` for each front's columns of L.
     kept: Vec<T>,
 }
 

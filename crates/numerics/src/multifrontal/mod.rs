@@ -1,8 +1,7 @@
 //! Partial factorisation of a sparse symmetric matrix by the multifrontal method (Duff and Reid, ACM TOMS 9, 1983).
 //!
-//! The leading rows are eliminated, the last ones (a boundary) are not: what is left of them is a dense Schur
-//! complement: one real factor then serves every nodal diameter. faer factors whole matrices; feral offers the same and takes
-//! five to eight times as long on our sectors.
+//! The leading rows are eliminated, the last ones (a boundary) are not; they are left with a dense Schur complement, so that one real factor serves
+//! every nodal diameter. faer factors whole matrices; feral offers the same and takes five to eight times as long on our sectors.
 //!
 //! ```text
 //! A = [ A_II  A_IF ]     A_II = L D Lᵀ     A_FI = L_F D Lᵀ     S = −A_FI A_II⁻¹ A_IF = −L_F D L_Fᵀ

@@ -2,7 +2,7 @@
 
 use faer::MatRef;
 
-/// Columns of a slab at most: their unknowns stay close to the first level of cache.
+/// Largest number of columns in a slab: their unknowns stay close to the first level of cache.
 const COLUMNS: usize = 128;
 /// Rows of L that are read together: sums of four rows over six registers are held at once, so that reading L takes no longer
 /// than what is done with it.
@@ -17,20 +17,20 @@ pub(super) const ROWS: usize = 4;
 pub(super) struct Slab {
     /// First column, in elimination order.
     pub(super) start: usize,
-    /// Columns.
+    /// Number of columns.
     pub(super) width: usize,
     values: Vec<f64>,
 }
 
 /// A panel of a slab's own rows.
 pub(super) struct OwnRows<'a> {
-    /// First of them, in elimination order.
+    /// First of the rows, in elimination order.
     pub(super) first: usize,
-    /// Rows.
+    /// Number of rows.
     pub(super) count: usize,
     /// Columns of the slab before these rows.
     pub(super) before: &'a [[f64; ROWS]],
-    /// Columns of these rows.
+    /// Columns of the rows themselves.
     pub(super) triangle: &'a [[f64; ROWS]],
 }
 
@@ -67,7 +67,7 @@ impl Slab {
         (0..columns).step_by(COLUMNS).map(pack).collect()
     }
 
-    /// Panel `panel` of its own rows.
+    /// Panel `panel` of the slab's own rows.
     pub(super) fn own(&self, panel: usize) -> OwnRows<'_> {
         let before = ROWS * panel;
         let columns = &self.columns()[ROWS * panel * (panel + 1) / 2..][..before + ROWS];
@@ -79,12 +79,12 @@ impl Slab {
         }
     }
 
-    /// Panels of its own rows.
+    /// Number of panels of the slab's own rows.
     pub(super) fn panels(&self) -> usize {
         self.width.div_ceil(ROWS)
     }
 
-    /// Panels of the rows after its own, each with all its columns.
+    /// Panels of the rows after the slab's own, each with all its columns.
     pub(super) fn below(&self) -> impl Iterator<Item = &[[f64; ROWS]]> {
         let panels = self.panels();
         self.columns()[ROWS * panels * (panels + 1) / 2..].chunks_exact(self.width)

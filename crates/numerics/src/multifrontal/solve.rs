@@ -7,17 +7,17 @@ use super::slab::{OwnRows, ROWS, Slab};
 use crate::panel::{Panel, add, sums};
 
 impl PartialFactor<'_> {
-    /// x_I ← L⁻¹ x_I, x_F ← x_F − L_F L⁻¹ x_I for every vector of `x`.
+    /// Computes x_I ← L⁻¹ x_I, x_F ← x_F − L_F L⁻¹ x_I for every vector of `x`.
     pub fn forward(&self, x: &mut Panel) {
         Arch::new().dispatch(Forward { factor: self, x });
     }
 
-    /// x_I ← L⁻ᵀ (x_I − L_Fᵀ x_F) for every vector of `x`; x_F stays.
+    /// Computes x_I ← L⁻ᵀ (x_I − L_Fᵀ x_F) for every vector of `x`; x_F stays.
     pub fn backward(&self, x: &mut Panel) {
         Arch::new().dispatch(Backward { factor: self, x });
     }
 
-    /// Every slab, and the rows after its own.
+    /// Slabs, each with the rows after its own.
     fn slabs(&self) -> impl DoubleEndedIterator<Item = (&Slab, impl Fn(usize) -> Option<usize>)> {
         self.analysis.fronts.iter().zip(&self.slabs).flat_map(|(front, slabs)| {
             slabs.iter().map(move |slab| {

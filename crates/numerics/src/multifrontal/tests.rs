@@ -28,7 +28,7 @@ fn grid(size: usize, shift: f64) -> SparseColMat<usize, f64> {
     SparseColMat::try_new_from_triplets(3 * n, 3 * n, &triplets).unwrap()
 }
 
-/// `a` with its leading rows in a postordered nested-dissection order.
+/// Matrix `a` with its leading rows in a postordered nested-dissection order.
 fn ordered(a: &SparseColMat<usize, f64>, eliminated: usize) -> SparseColMat<usize, f64> {
     let n = a.nrows();
     let permute = |a: &SparseColMat<usize, f64>, order: &[usize]| {
@@ -111,7 +111,7 @@ fn leaves_the_schur_complement_and_solves() {
     }
 }
 
-/// All rows are one front, wider than the columns that are packed together.
+/// Solves where all rows are one front, wider than the columns that are packed together.
 #[test]
 fn solves_with_a_wide_front() {
     let (n, e) = (330, 301);

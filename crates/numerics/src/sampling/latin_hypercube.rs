@@ -3,8 +3,8 @@
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
 
-/// A Latin hypercube of so many points: of the `points` equal intervals of every axis each has exactly one, anywhere within it (McKay,
-/// Beckman and Conover, 1979). Axes are permuted by Fisher and Yates with numbers of SplitMix64.
+/// Latin hypercube of `points` points: of as many equal intervals of every axis each has exactly one, anywhere within it (McKay, Beckman
+/// and Conover, 1979). Axes are permuted by Fisher and Yates with numbers of SplitMix64.
 pub fn latin_hypercube(points: usize, dimensions: usize, seed: u64) -> Vec<Vec<f64>> {
     let mut generator = SplitMix64::seed_from_u64(seed);
     let mut cube = vec![vec![0.0; dimensions]; points];
@@ -20,12 +20,12 @@ pub fn latin_hypercube(points: usize, dimensions: usize, seed: u64) -> Vec<Vec<f
     cube
 }
 
-/// One of the whole numbers below `bound`: the high half of a product with 64 bits, which prefers none by more than bound/2⁶⁴.
+/// Random whole number below `bound`: the high half of a product with 64 bits, which prefers none by more than bound/2⁶⁴.
 fn below(generator: &mut SplitMix64, bound: usize) -> usize {
     ((u128::from(generator.next_u64()) * bound as u128) >> 64) as usize
 }
 
-/// A number within (0, 1), from 52 bits.
+/// Random number within (0, 1), from 52 bits.
 fn open_unit(generator: &mut SplitMix64) -> f64 {
     ((generator.next_u64() >> 12) as f64 + 0.5) / (1u64 << 52) as f64
 }
@@ -49,7 +49,7 @@ mod tests {
         assert_ne!(latin_hypercube(8, 2, 1), latin_hypercube(8, 2, 2));
     }
 
-    /// Every order of three strata comes as often as any other.
+    /// Orders of three strata come all equally often.
     #[test]
     fn orders_are_equally_likely() {
         let mut seen = std::collections::BTreeMap::new();

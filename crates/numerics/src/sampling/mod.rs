@@ -1,4 +1,4 @@
-//! Points of the unit cube and where they lie in a distribution: designs of numerical experiments.
+//! Designs of numerical experiments: points of the unit cube, and the quantile functions that carry them to a distribution.
 //!
 //! Every coordinate lies within (0, 1), never at an end, so that every quantile function may be asked for it. The same arguments give
 //! the same points in every version.

@@ -1,25 +1,25 @@
 //! Quantile functions: the number below which a share u of a distribution lies, for u in (0, 1).
 //!
-//! Parameters are taken as they come: the caller has checked that they make sense (`from < to`, deviations above 0, no NaN).
+//! Parameters are not checked: the caller has made sure that they make sense (`from < to`, deviations above 0, no NaN).
 
 use statrs::distribution::{ContinuousCDF, Normal};
 
-/// Of the standard normal distribution: Φ⁻¹(u).
+/// Quantile of the standard normal distribution: Φ⁻¹(u).
 pub fn standard_normal(u: f64) -> f64 {
     Normal::standard().inverse_cdf(u)
 }
 
-/// Uniform in `[from, to]`.
+/// Quantile of the uniform distribution in `[from, to]`.
 pub fn uniform(u: f64, (from, to): (f64, f64)) -> f64 {
     from + u * (to - from)
 }
 
-/// With a logarithm that is uniform; 0 < `from`.
+/// Quantile of the distribution in `[from, to]` whose logarithm is uniform; 0 < `from`.
 pub fn log_uniform(u: f64, (from, to): (f64, f64)) -> f64 {
     uniform(u, (from.ln(), to.ln())).exp().clamp(from, to)
 }
 
-/// Triangular in `[from, to]` with its peak at `mode`, which may be an end.
+/// Quantile of the triangular distribution in `[from, to]` with its peak at `mode`, which may be an end.
 pub fn triangular(u: f64, (from, to): (f64, f64), mode: f64) -> f64 {
     let width = to - from;
     if u * width < mode - from {
@@ -29,7 +29,7 @@ pub fn triangular(u: f64, (from, to): (f64, f64), mode: f64) -> f64 {
     }
 }
 
-/// Normal, cut off at `from` and `to` (either may be infinite) and scaled to a probability of 1.
+/// Quantile of the normal distribution, cut off at `from` and `to` (either may be infinite) and scaled to a probability of 1.
 pub fn truncated_normal(u: f64, mean: f64, standard_deviation: f64, (from, to): (f64, f64)) -> f64 {
     let standard = Normal::standard();
     let (low, high) = ((from - mean) / standard_deviation, (to - mean) / standard_deviation);
@@ -76,7 +76,7 @@ mod tests {
         assert_moments(|u| truncated_normal(u, 3.0, 0.5, everywhere), 3.0, 0.25);
     }
 
-    /// Of a normal distribution cut to (α, β) in deviations: mean μ + σ(φ(α) − φ(β))/Z, variance σ²(1 + (αφ(α) − βφ(β))/Z − (…)²).
+    /// Moments of a normal distribution cut to (α, β) in deviations: mean μ + σ(φ(α) − φ(β))/Z, variance σ²(1 + (αφ(α) − βφ(β))/Z − (…)²).
     #[test]
     fn cut_normals_have_the_moments_of_the_closed_form() {
         use statrs::distribution::Continuous;

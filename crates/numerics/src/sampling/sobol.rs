@@ -1,17 +1,17 @@
 //! Sobol points.
 
-/// Dimensions for which there are direction numbers.
+/// Largest number of dimensions: those for which there are direction numbers.
 pub const MOST_DIMENSIONS: usize = sobol_burley::NUM_DIMENSIONS as usize;
 
-/// Points of one sequence.
+/// Largest number of points of one sequence.
 pub const MOST_POINTS: usize = 1 << 16;
 
 /// Half of the grid of 2⁻²³ on which the generator rounds down.
 const HALF_A_CELL: f64 = 1.0 / (1u64 << 24) as f64;
 
-/// Point `index` of Sobol's sequence in so many dimensions (direction numbers of Joe and Kuo, 2008), with Owen's nested uniform
-/// scrambling by `seed` (Burley, Practical Hash-based Owen Scrambling, 2020). The first 2ᵐ points of any seed have one in every of
-/// 2ᵐ equal intervals of every axis.
+/// Point `index` of Sobol's sequence in `dimensions` dimensions (direction numbers of Joe and Kuo, 2008), with Owen's nested uniform
+/// scrambling by `seed` (Burley, Practical Hash-based Owen Scrambling, 2020). The first 2ᵐ points of any seed have one in every of 2ᵐ equal
+/// intervals of every axis.
 ///
 /// # Panics
 /// Beyond [`MOST_POINTS`] or [`MOST_DIMENSIONS`].
@@ -28,7 +28,7 @@ mod tests {
     use rand_xoshiro::SplitMix64;
     use rand_xoshiro::rand_core::{Rng, SeedableRng};
 
-    /// Warnock's formula for the squared L₂ star discrepancy.
+    /// Squared L₂ star discrepancy, by Warnock's formula.
     fn discrepancy(points: &[Vec<f64>]) -> f64 {
         let (n, dimensions) = (points.len() as f64, points[0].len() as i32);
         let single = |x: &Vec<f64>| x.iter().map(|x| (1.0 - x * x) / 2.0).product::<f64>();
@@ -68,7 +68,7 @@ mod tests {
         assert!(hypercube < 0.8 * random, "{hypercube:e} {random:e}");
     }
 
-    /// What was computed once stays what it was: another version of the generator may not change it unseen.
+    /// Points computed once stay the same: another version of the generator may not change them unseen.
     #[test]
     fn seeds_mean_what_they_meant() {
         let cells = |index, seed| -> Vec<u32> {

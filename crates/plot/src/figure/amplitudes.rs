@@ -1,4 +1,4 @@
-//! The amplitudes of an interaction map as cells.
+//! Amplitudes of an interaction map as cells.
 
 use super::cells::{cells, together};
 use super::document::Cells;
@@ -9,21 +9,21 @@ use crate::map_view::{VerticalAxis, View};
 use crate::spectrum::Frame;
 use rubmap_analysis::result::InteractionMap;
 
-/// Least height of a spectral line, of the height of the map: a bin alone would be a pixel high, below the line of its engine order.
+/// Least height of a spectral line relative to the height of the map: a bin alone would be a pixel high, below the line of its engine
+/// order.
 const LINE_HEIGHT: f64 = 0.012;
 
-/// Speeds and engine orders or frequencies that are one cell, and which speed a column tells of.
+/// Amplitude cells of a map: its trace, and the speed that each column reports.
 pub(super) struct Amplitudes {
     pub(super) trace: Box<Cells>,
     /// Index of the loudest speed of every column.
     pub(super) indices: Vec<usize>,
-    /// What was left out, in words.
+    /// Message about merged speeds and rows, if there are any.
     pub(super) thinned: Option<String>,
 }
 
-/// The part of a map that a view shows, from the quietest to the loudest amplitude of the colours. Where there are more speeds or rows
-/// than `most`, neighbours are one cell with the loudest of them; spectral lines have a
-/// least height.
+/// Amplitudes of the part of a map that a view shows, from the quietest to the loudest amplitude of the colours. Where there are more
+/// speeds or rows than `most`, neighbours are merged into one cell with the loudest of them; spectral lines have a least height.
 pub(super) fn amplitudes(
     map: &InteractionMap,
     all: &[Cell],
@@ -92,15 +92,15 @@ pub(super) fn amplitudes(
     }
 }
 
-/// The middle of a row, and its band.
+/// Row of cells: its middle and its band.
 type Row = (f64, (f64, f64));
 
-/// Rows from the lowest on: the middle and the band of each, in units of the vertical axis, and how many bins are one.
+/// Rows from the lowest up: the middle and the band of each, in units of the vertical axis, and the number of bins merged into one row.
 fn rows(map: &InteractionMap, view: &View, most: usize) -> (Vec<Row>, usize) {
     let (low, high) = view.diagram.y.values;
     match view.axis {
         VerticalAxis::EngineOrder => {
-            // The mean is no vibration.
+            // Engine order 0 is the mean, which is no vibration.
             let shown = |order: &&f64| **order > 0.0 && (low..=high).contains(*order);
             let orders: Vec<f64> = map.engine_orders.iter().filter(shown).copied().collect();
             let bins = together(orders.len(), most);

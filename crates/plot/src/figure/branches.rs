@@ -13,8 +13,8 @@ use crate::branches::{self as drawing, Curve, Mark, NONE, View};
 use rubmap_analysis::request::BranchParameter;
 use rubmap_analysis::result::{BifurcationKind, Branches, Point};
 
-/// The amplitude of a sensor along branches, a line for what is stable of each and one for what is not, with bifurcations and maxima;
-/// `marched`: speeds of a sweep, as dots.
+/// Amplitude of a sensor along branches, a line for the stable stretches of each and one for the unstable ones, with bifurcations and
+/// maxima; `marched`: speeds of a sweep, as dots.
 pub fn branches(branches: &Branches, sensor: usize, marched: &[Point]) -> Figure {
     let view = View::new(branches, sensor, marched, 0.0);
     let (title, told) = (drawing::title(branches, sensor), drawing::words(branches));
@@ -39,7 +39,7 @@ pub fn branches(branches: &Branches, sensor: usize, marched: &[Point]) -> Figure
         .meta("sensor", view.sensor)
 }
 
-/// A branch: of each kind of line all together.
+/// Traces of a branch, one for each stability.
 fn curves(view: &View<'_>, curve: &Curve<'_>) -> Vec<PointTrace> {
     let group = format!("branch {}", curve.branch.track.branch + 1);
     let of = |fate: Fate| {

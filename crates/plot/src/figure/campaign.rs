@@ -1,4 +1,4 @@
-//! A campaign: severity over speed and a parameter, and what its variance comes from.
+//! Campaign: severity over speed and a parameter, and the sensitivities of its variance to the parameters.
 
 use plotly::common::{DashType, ErrorData, ErrorType, MarkerSymbol};
 use serde_json::json;
@@ -14,9 +14,8 @@ use crate::campaign_difference as difference;
 use crate::cells::{Cell, cells, extent};
 use rubmap_analysis::result::Campaign;
 
-/// The severity of designs over speed and a parameter (by its index), with the value at which the limit is met if that is the parameter
-/// asked about, and below it, if there are any, the differences of the model that is compared, and the sensitivities. What has no result
-/// is a gap.
+/// Severity of designs over speed and a parameter (by its index), with the value at which the limit is met if that is the parameter asked
+/// about, and below it, if there are any, the differences of the compared model, and the sensitivities. Missing results are gaps.
 pub fn campaign(campaign: &Campaign, parameter: usize) -> Figure {
     let (rows, cells) = (drawing::rows(campaign, parameter), cells(&campaign.speeds_rad_s));
     let (wide, high) = (together(cells.len(), MOST.0), together(rows.len(), MOST.1));
@@ -107,7 +106,7 @@ pub fn campaign(campaign: &Campaign, parameter: usize) -> Figure {
     )
 }
 
-/// Where the parts of the figure stand, one below the other: shares of its height, upwards.
+/// Vertical extents of the parts of the figure, one below the other, as shares of its height from the bottom up.
 struct Places {
     /// Height of the figure in pixels.
     high: usize,
@@ -118,7 +117,7 @@ struct Places {
 }
 
 impl Places {
-    /// In pixels: of the figure with the map alone, of a part below it, and of a part with the words of its axis.
+    /// Height in pixels of the figure with the map alone; `PART`: of a part below it; `WITH_WORDS`: of a part with the words of its axis.
     const MAP: usize = 560;
     const PART: usize = 170;
     const WITH_WORDS: usize = 260;

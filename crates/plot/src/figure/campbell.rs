@@ -33,7 +33,7 @@ pub fn campbell(campbell: &Campbell) -> Figure {
         .meta("speeds_rpm", campbell.speeds_rad_s.iter().map(|speed| rpm(*speed)).collect::<Vec<f64>>())
 }
 
-/// Curves of the modes: dashes say the family, forward waves are thin.
+/// Traces of the modes: dashes show the family, forward waves are thin.
 fn curves(harmonics: usize, curves: Vec<Curve>) -> Vec<PointTrace> {
     let mut named = vec![false; harmonics];
     let curve = |curve: Curve| {
@@ -54,7 +54,7 @@ fn curves(harmonics: usize, curves: Vec<Curve>) -> Vec<PointTrace> {
     curves.into_iter().map(curve).collect()
 }
 
-/// Engine orders, those of the lobes with their numbers.
+/// Traces of the engine orders; those that the lobes excite have their numbers.
 fn rays(campbell: &Campbell, rays: Vec<Ray>) -> Vec<PointTrace> {
     let (excited, others): (Vec<Ray>, Vec<Ray>) = rays.into_iter().partition(|ray| ray.excited);
     let mut traces = Vec::new();

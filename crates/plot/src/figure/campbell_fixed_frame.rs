@@ -1,4 +1,4 @@
-//! The Campbell diagram as it is seen from beside the wheel.
+//! Campbell diagram as seen from beside the wheel.
 
 use plotly::common::{DashType, MarkerSymbol};
 
@@ -12,7 +12,7 @@ use crate::marks::linear_words;
 use rubmap_analysis::result::Campbell;
 
 /// Frequencies at which waves of the wheel are seen from beside it, over speed; those of a nodal diameter are under one name. Where a line
-/// comes down to zero the wave stands still before the casing.
+/// falls to zero the wave stands still before the casing.
 pub fn campbell_fixed_frame(campbell: &Campbell) -> Figure {
     let curves = drawing::curves(campbell);
     let diagram = drawing::diagram(campbell, &curves, 0.0);
@@ -32,7 +32,7 @@ pub fn campbell_fixed_frame(campbell: &Campbell) -> Figure {
         .meta("speeds_rpm", campbell.speeds_rad_s.iter().map(|speed| rpm(*speed)).collect::<Vec<f64>>())
 }
 
-/// How lines of each kind are drawn.
+/// Line style for each kind of wave.
 fn pen(seen: Seen) -> (DashType, f64, &'static str) {
     match seen {
         Seen::Backward => (DashType::Solid, 1.8, "drawn through"),
@@ -42,7 +42,7 @@ fn pen(seen: Seen) -> (DashType, f64, &'static str) {
     }
 }
 
-/// What the lines are, a paragraph each.
+/// Words for the kinds of waves that have lines, a paragraph each.
 fn kinds(curves: &[Curve]) -> Vec<String> {
     let mut kinds: Vec<Seen> = Vec::new();
     for curve in curves {

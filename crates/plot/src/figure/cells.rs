@@ -1,4 +1,4 @@
-//! Colours over cells, no more than a screen shows, and the bar that says what they mean.
+//! Heat map cells, no more than a screen shows, and their colour bar.
 
 use plotly::HeatMap;
 use plotly::common::{ColorScale, ColorScalePalette, Title};
@@ -12,12 +12,12 @@ use crate::axis::logarithmic_ticks;
 /// Columns and rows of a figure: about what a screen shows.
 pub(super) const MOST: (usize, usize) = (500, 200);
 
-/// Of what is in columns or rows of so many parts, the parts that are one where there are too many.
+/// Number of neighbouring columns or rows merged into one, so that of `parts` at most `most` are left.
 pub(super) fn together(parts: usize, most: usize) -> usize {
     parts.div_ceil(most).max(1)
 }
 
-/// A grid of cells in the colours of the axis `coloraxis`; rows from the lowest on, a gap where a value is not a number.
+/// Grid of cells in the colours of the axis `coloraxis`; rows from the lowest up, a gap where a value is not a number.
 pub(super) fn cells(
     (x, y): (Vec<f64>, Vec<f64>),
     (values, told): (Vec<Vec<f32>>, Vec<Vec<Vec<f32>>>),
@@ -29,10 +29,10 @@ pub(super) fn cells(
     Box::new(Cells { map, coloraxis, customdata: told })
 }
 
-/// Where a bar of colours stands: from the lowest to the highest part of the figure.
+/// Lower and upper end of a colour bar, as shares of the height of the figure.
 type Place = (f64, f64);
 
-/// An axis of colours for logarithms of amplitudes, labelled with the amplitudes.
+/// Colour axis for logarithms of amplitudes, labelled with the amplitudes.
 pub(super) fn logarithmic((low, high): (f64, f64), title: &str, place: Place) -> Value {
     let ticks = logarithmic_ticks((low, high));
     let (values, texts): (Vec<f64>, Vec<&str>) =
@@ -44,7 +44,7 @@ pub(super) fn logarithmic((low, high): (f64, f64), title: &str, place: Place) ->
     axis
 }
 
-/// An axis of colours.
+/// Linear colour axis.
 pub(super) fn linear((low, high): (f64, f64), title: &str, (bottom, top): Place) -> Value {
     json!({
         "colorscale": ColorScale::Palette(ColorScalePalette::Viridis), "cmin": low, "cmax": high,

@@ -1,4 +1,4 @@
-//! Critical speeds beside what a linear calculation says.
+//! Critical speeds beside the linear prediction.
 
 use plotly::common::{DashType, ErrorData, ErrorType, MarkerSymbol};
 use plotly::layout::RangeMode;
@@ -13,8 +13,8 @@ use crate::marks::known_to;
 use crate::{map_view, validity};
 use rubmap_analysis::result::{CriticalSpeed, CriticalSpeeds};
 
-/// The peaks of the response over speed with how far off they may be, and below them the crossings of the linear calculation, a row for
-/// each superharmonic; each peak is tied to the crossing nearest to it. `customdata` of a peak is the index of its speed.
+/// Peaks of the response over speed with their errors, and below them the crossings of the linear prediction, a row for each superharmonic;
+/// each peak is tied to the crossing nearest to it. `customdata` of a peak is the index of its speed.
 pub fn critical_speeds(critical: &CriticalSpeeds) -> Figure {
     let rows = drawing::rows(critical);
     let unit = critical.sensor.unit(&critical.units);
@@ -55,7 +55,8 @@ pub fn critical_speeds(critical: &CriticalSpeeds) -> Figure {
     }
 }
 
-/// Peaks, open where the speeds of the sweep do not resolve them, with bars to the neighbouring speeds and of the level's error.
+/// Trace of the peaks, open where the speeds of the sweep do not resolve them, with bars to the neighbouring speeds and of the level's
+/// error.
 fn peaks(critical: &CriticalSpeeds, resolved: bool) -> Option<PointTrace> {
     let of: Vec<&CriticalSpeed> =
         critical.critical_speeds.iter().filter(|peak| peak.resolved == resolved).collect();
@@ -78,7 +79,7 @@ fn peaks(critical: &CriticalSpeeds, resolved: bool) -> Option<PointTrace> {
     Some(trace.custom_data(of.iter().map(|peak| peak.index).collect::<Vec<u32>>()))
 }
 
-/// From each peak down to its axis, and from there to the crossing nearest to it.
+/// Traces of the ties: from each peak down to its axis, and from there to the nearest crossing.
 fn ties(critical: &CriticalSpeeds, rows: &[Row]) -> Vec<PointTrace> {
     let tied = critical.critical_speeds.iter().filter_map(|peak| {
         let nearest = peak.nearest_crossing.as_ref()?;
@@ -100,7 +101,7 @@ fn ties(critical: &CriticalSpeeds, rows: &[Row]) -> Vec<PointTrace> {
     vec![across.legend_group(name), down.legend_group(name)]
 }
 
-/// Crossings in their rows.
+/// Traces of the crossings in their rows.
 fn crossings(rows: &[Row]) -> Vec<PointTrace> {
     let of = |kind: Kind| {
         let here = rows.iter().enumerate().filter(move |(_, row)| row.kind == kind);

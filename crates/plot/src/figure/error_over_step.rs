@@ -12,8 +12,8 @@ use crate::study_runs::{error_axis, extent, reason};
 use rubmap_analysis::result::Quantity;
 use rubmap_analysis::run::WorkPrecision;
 
-/// The errors of one quantity over the time step at the speed of index `speed`, both on logarithmic axes: a line for each scheme and size of
-/// the model, and beside them what an error does that falls with the step or with its square.
+/// Errors of one quantity over the time step at the speed of index `speed`, both on logarithmic axes: a line for each scheme and size of
+/// the model, and beside them the slopes of first and second order.
 pub fn error_over_step(study: &WorkPrecision, speed: usize, quantity: Quantity) -> Figure {
     let title = drawing::title(study, quantity);
     let Some(at) = study.speeds.get(speed) else { return no_speed("error_over_step", &title, speed) };

@@ -14,8 +14,8 @@ use crate::cells::{Cell, cells, extent};
 use crate::force_map::{self as drawing, ForceQuantity, NODES, REACHES, largest, told};
 use rubmap_analysis::result::{ForceMap, ForceRow};
 
-/// Contact over speed and contact node, above it the worst node, the whole wheel, and what a linear calculation says where there are such
-/// numbers. Speeds without a result are gaps. `customdata` of a cell is the speed in rad/s.
+/// Contact over speed and contact node, above it the worst node, the whole wheel, and the linear prediction where there are such numbers.
+/// Speeds without a result are gaps. `customdata` of a cell is the speed in rad/s.
 pub fn force_map(map: &ForceMap, quantity: ForceQuantity) -> Figure {
     let cells = cells(&map.speeds_rad_s);
     let rows = |cell: &Cell| map.rows.get(cell.index).and_then(Option::as_ref);
@@ -64,12 +64,12 @@ pub fn force_map(map: &ForceMap, quantity: ForceQuantity) -> Figure {
         .meta("speed_indices", cells.iter().map(|cell| cell.index).collect::<Vec<usize>>())
 }
 
-/// What a row has of a node.
+/// Value of a contact node at one speed, if it is known.
 fn of_node(row: &ForceRow, quantity: ForceQuantity, node: usize) -> Option<f64> {
     quantity.of(row).get(node).copied().filter(|value| value.is_finite())
 }
 
-/// The wheel over speed.
+/// Traces of the wheel over speed.
 fn curves(map: &ForceMap, cells: &[Cell], quantity: ForceQuantity) -> Vec<PointTrace> {
     let all = drawing::curves(map, quantity);
     let count = all.len();
@@ -80,7 +80,7 @@ fn curves(map: &ForceMap, cells: &[Cell], quantity: ForceQuantity) -> Vec<PointT
         let colour = if count == 1 { CURVE.to_owned() } else { colour(index, count) };
         let trace =
             words(line(name, places, (&colour, dash(index), 1.6)), cells.iter().map(words_of).collect());
-        // A speed between two without results has no line.
+        // A speed between two without results has no line, so marks are needed.
         trace.mode(plotly::common::Mode::LinesMarkers).y_axis("y2")
     };
     let mut traces: Vec<_> = all.into_iter().enumerate().map(trace).collect();

@@ -1,4 +1,4 @@
-//! Haigh diagram: alternating over mean stress, and what the materials bear.
+//! Haigh diagram: alternating over mean stress, and the limits of the materials.
 
 use plotly::common::{ColorBar, ColorScale, ColorScalePalette, DashType, Marker, Side, Title};
 use serde_json::json;
@@ -11,7 +11,7 @@ use super::text::escaped;
 use crate::haigh::{self as drawing, Cycle, HaighColour, LINES, MOST, NO_STRESS};
 use rubmap_analysis::result::SweepStress;
 
-/// The cycles of all speeds in the plane of mean and alternating stress, those of a material under one name, with Goodman's lines of equal
+/// Cycles of all speeds in the plane of mean and alternating stress, those of a material under one name, with Goodman's lines of equal
 /// utilisation and the yield line of every material whose strengths are known. `customdata` of a cycle is the index of its speed.
 pub fn haigh(stress: &SweepStress, by: HaighColour) -> Figure {
     let (stress, unit) = &drawing::drawn(stress);
@@ -36,7 +36,7 @@ pub fn haigh(stress: &SweepStress, by: HaighColour) -> Figure {
         .axis("yaxis", axis(&drawing::alternating_axis(unit)).range(ends(diagram.y.values)))
 }
 
-/// Goodman's lines and the yield lines.
+/// Traces of Goodman's lines and the yield lines.
 fn limits(stress: &SweepStress, left: f64) -> Vec<PointTrace> {
     let mut traces = Vec::new();
     for (index, set) in stress.strengths.iter().enumerate() {
@@ -59,7 +59,7 @@ fn limits(stress: &SweepStress, left: f64) -> Vec<PointTrace> {
     traces
 }
 
-/// The cycles of every material; those whose colour is not known are grey.
+/// Traces of the cycles of every material; cycles without a known colour value are grey.
 fn dots(
     cycles: &[Cycle],
     by: HaighColour,
@@ -76,7 +76,7 @@ fn dots(
     for (index, set) in sets.into_iter().enumerate() {
         for known in [true, false] {
             let of = |cycle: &&Cycle| cycle.1.set == set && drawing::value(cycle, by).is_some() == known;
-            // The most utilised over the others.
+            // The most utilised cycles lie over the others.
             let here: Vec<&Cycle> = cycles.iter().rev().filter(of).collect();
             let told =
                 here.iter().map(|cycle| ((cycle.1.mean, cycle.1.alternating), drawing::told(cycle, unit)));

@@ -11,7 +11,8 @@ use crate::cells::rpm;
 use crate::histories as drawing;
 use rubmap_analysis::run::Histories;
 
-/// Displacements of the sensor of index `sensor` over revolutions, one line per size; the reference is thin and grey over the others.
+/// Displacements of the sensor of index `sensor` over revolutions, one line per size of the model; the reference is thin and grey over the
+/// others.
 pub fn histories(histories: &Histories, sensor: usize) -> Figure {
     let curves = drawing::curves(histories, sensor);
     let step = 1.0 / f64::from(histories.samples_per_revolution.max(1));

@@ -1,4 +1,4 @@
-//! The interaction map: level and amplitudes over speed, engine orders, critical speeds, linear prediction.
+//! Interaction map: level and amplitudes over speed, engine orders, critical speeds, linear prediction.
 
 use plotly::common::{DashType, MarkerSymbol, Mode, Position};
 use plotly::layout::Axis;
@@ -19,20 +19,21 @@ use crate::window::Window;
 use crate::{heat, interaction_map as drawing, validity};
 use rubmap_analysis::result::{Campbell, CriticalSpeed, CriticalSpeeds, InteractionMap, StiffeningVerdict};
 
-/// Colour of the linear criterion's crossings, which is seen on all amplitudes.
+/// Colour of the linear criterion's crossings, visible on all amplitudes.
 const LINEAR: &str = "#ff77cc";
 
-/// Pixels of height.
+/// Height of the figure in pixels.
 const HEIGHT: usize = 760;
 
-/// From where to where the map and the level reach, of the height between the axes.
+/// Vertical extent of the map, as shares of the height between the axes; `LEVEL`: of the level above it.
 const MAP: [f64; 2] = [0.0, 0.7];
 const LEVEL: [f64; 2] = [0.76, 1.0];
 
-/// An interaction map or a window of it, with its critical speeds and the linear prediction where they are given.
+/// Interaction map or a window of it, with its critical speeds and the linear prediction where they are given.
 ///
-/// The colours of the map are the logarithms of amplitudes to the base of 10; `customdata` has of every cell the amplitude itself, its
-/// frequency in Hz (upwards frequencies: its engine order), and the speed in rad/s. `layout.meta.amplitude` says how to show it linearly.
+/// The colours of the map are the logarithms of amplitudes to the base of 10; `customdata` holds for every cell the amplitude itself, its
+/// frequency in Hz (with frequencies on the vertical axis: its engine order), and the speed in rad/s. `layout.meta.amplitude` says how to
+/// show it linearly.
 pub fn interaction_map(
     map: &InteractionMap,
     critical: Option<&CriticalSpeeds>,
@@ -44,7 +45,7 @@ pub fn interaction_map(
     seen_in((axis_upwards, Frame::Rotating), map, critical, campbell, window, level_colour)
 }
 
-/// A map in the fixed frame, as [`fixed_frame_map`](crate::fixed_frame_map) draws it, with the cells of [`interaction_map`].
+/// Interaction map in the fixed frame, as [`fixed_frame_map`](crate::fixed_frame_map) draws it, with the cells of [`interaction_map`].
 pub fn fixed_frame_map(
     map: &InteractionMap,
     critical: Option<&CriticalSpeeds>,
@@ -112,17 +113,17 @@ fn y_unit(view: &View) -> &'static str {
     }
 }
 
-/// The vertical axis of a view.
+/// Vertical axis of a view.
 pub(super) fn upwards(view: &View) -> Axis {
     axis(view.axis_words()).range(ends(view.diagram.y.values))
 }
 
-/// The two ends of an axis.
+/// Ends of an axis as a list.
 pub(super) fn ends((low, high): (f64, f64)) -> Vec<f64> {
     vec![low, high]
 }
 
-/// Lines of engine orders, of those that the lobes excite with their numbers where they rise.
+/// Traces of the engine orders; those that the lobes excite have their numbers in a map of frequencies.
 pub(super) fn engine_orders(map: &InteractionMap, view: &View) -> Vec<PointTrace> {
     let (excited, others): (Vec<OrderLine>, Vec<OrderLine>) =
         view.order_lines(map).into_iter().partition(|line| line.excited && lobes(map) > 1);
@@ -148,7 +149,7 @@ pub(super) fn engine_orders(map: &InteractionMap, view: &View) -> Vec<PointTrace
     traces
 }
 
-/// Natural frequencies in the rotating frame, those of a nodal diameter under one name.
+/// Traces of the natural frequencies in the rotating frame, those of a nodal diameter under one name.
 fn natural(campbell: &Campbell, view: &View) -> Vec<PointTrace> {
     let harmonics = campbell.frequencies_hz.first().map_or(0, Vec::len);
     let lines = view.natural(campbell);
@@ -162,7 +163,7 @@ fn natural(campbell: &Campbell, view: &View) -> Vec<PointTrace> {
     (0..harmonics).map(of).collect()
 }
 
-/// Where the linear criterion and the lobes' engine orders meet natural frequencies.
+/// Traces of the crossings of natural frequencies with the linear criterion and with the lobes' engine orders.
 fn crossings(critical: &CriticalSpeeds, view: &View) -> Vec<PointTrace> {
     let place = |speed_rad_s: f64, order: u32| view.seen(rpm(speed_rad_s), f64::from(order));
     let linear = critical.linear_crossings.iter().filter_map(|crossing| {
@@ -177,7 +178,7 @@ fn crossings(critical: &CriticalSpeeds, view: &View) -> Vec<PointTrace> {
     rings.into_iter().chain(diamonds).collect()
 }
 
-/// Lines at critical speeds through both panels, and a mark at the level of each.
+/// Traces of the critical speeds: lines through both panels, and a mark at the level of each.
 fn critical_speeds(critical: &CriticalSpeeds, view: &View, by: LevelColour) -> Vec<PointTrace> {
     let said = by == LevelColour::Utilisation;
     let mut traces = Vec::new();

@@ -1,4 +1,4 @@
-//! The level over speed, above a map, with what is known of its error, of settling and of linear theory.
+//! Level over speed, above a map, with its error, how well it has settled, and the validity of linear theory.
 
 use plotly::Scatter;
 use plotly::common::{ErrorData, ErrorType, Fill, HoverInfo, Line, MarkerSymbol, Mode};
@@ -12,7 +12,7 @@ use crate::settling_strip::Standing;
 use crate::{map_view, margin, validity};
 use rubmap_analysis::result::{InteractionMap, ValidityVerdict, Verdict};
 
-/// The level of some speeds in the panel of these axes.
+/// Traces of the level over speed, in the panel of these axes.
 pub(super) fn traces(map: &InteractionMap, cells: &[Cell], by: LevelColour, y_axis: &str) -> Vec<PointTrace> {
     let below = |cell: &Cell| Some((0.0, rms(map, cell.index)?));
     let mut traces = if by == LevelColour::Utilisation { utilisation(map, cells, below) } else { Vec::new() };
@@ -22,7 +22,7 @@ pub(super) fn traces(map: &InteractionMap, cells: &[Cell], by: LevelColour, y_ax
     traces.into_iter().map(|trace| trace.y_axis(y_axis)).collect()
 }
 
-/// The curve, with error bars where errors were estimated.
+/// Trace of the level, with error bars where errors were estimated.
 fn curve(map: &InteractionMap, cells: &[Cell]) -> PointTrace {
     let (x, y) = columns(cells.iter().map(|cell| Some((cell.rpm, rms(map, cell.index)?))));
     let pen = Line::new().color(CURVE).width(1.6);
@@ -33,7 +33,7 @@ fn curve(map: &InteractionMap, cells: &[Cell]) -> PointTrace {
     curve.error_y(ErrorData::new(ErrorType::Data).array(bars).color(CURVE).thickness(1.0).width(2))
 }
 
-/// The speeds of a standing: at their level, or on the axis if they have none.
+/// Marks of the speeds of one standing: at their level, or on the axis if they have none.
 fn standings(map: &InteractionMap, cells: &[Cell], standing: Standing) -> Option<PointTrace> {
     let style = match standing {
         Standing::Settled(Verdict::Periodic) => (MarkerSymbol::Circle, 4, CURVE),
@@ -41,7 +41,7 @@ fn standings(map: &InteractionMap, cells: &[Cell], standing: Standing) -> Option
         Standing::Settled(Verdict::Aperiodic) => (MarkerSymbol::Diamond, 7, "#cc79a7"),
         Standing::Settled(Verdict::NotSettled) => (MarkerSymbol::TriangleUp, 8, "#e69f00"),
         Standing::Missing => (MarkerSymbol::X, 7, NEUTRAL),
-        // Gaps say so.
+        // Gaps show pending speeds.
         Standing::Pending => return None,
     };
     let of = cells.iter().filter(|cell| Standing::of(map, cell.index) == standing);
@@ -57,7 +57,7 @@ fn standings(map: &InteractionMap, cells: &[Cell], standing: Standing) -> Option
     Some(trace.custom_data(of.iter().map(|(cell, _)| cell.index).collect::<Vec<usize>>()))
 }
 
-/// Rings about the speeds at which linear theory is doubtful or left.
+/// Rings about the speeds at which linear theory has this verdict.
 fn verdicts(map: &InteractionMap, cells: &[Cell], verdict: ValidityVerdict) -> Option<PointTrace> {
     let (symbol, size) = match verdict {
         ValidityVerdict::Beyond => (MarkerSymbol::CircleXOpen, 12),

@@ -1,4 +1,4 @@
-//! A sheet of maps, one per nodal diameter.
+//! Sheet of interaction maps, one per nodal diameter.
 
 use serde_json::{Value, json};
 
@@ -17,8 +17,8 @@ use crate::spectrum::Frame;
 use crate::window::Window;
 use rubmap_analysis::result::InteractionMap;
 
-/// The same window of several maps, a panel each with a common scale of colours and axes that move together: maps of one sensor, restricted
-/// to nodal diameters. With the colours of utilisation there is a strip of them at the top of each map.
+/// Sheet of maps of one sensor restricted to nodal diameters: the same window of each, a panel each with a common colour scale and axes
+/// that move together. With the colours of utilisation there is a strip of them at the top of each map.
 pub fn map_sheet(maps: &[InteractionMap], window: Window, level_colour: LevelColour) -> Figure {
     let figure = Figure::new("map_sheet", &drawing::title(maps), &[drawing::words(maps)]);
     let Some(first) = maps.first() else { return figure.empty(NO_MAP) };
@@ -91,19 +91,19 @@ pub fn map_sheet(maps: &[InteractionMap], window: Window, level_colour: LevelCol
         .meta("amplitude", json!({"z": "log10", "linear": "customdata[row][column][0]", "range": scale}))
 }
 
-/// Speeds and rows of each of so many maps in so many columns: of many maps all together have the cells of two large ones.
+/// Numbers of speeds and rows of each map, for so many maps in so many columns: all maps together have the cells of two large ones.
 fn share(maps: usize, columns: usize) -> (usize, usize) {
     let cells = 2 * MOST.0 * MOST.1 / maps.max(1);
     let rows = (cells * columns / MOST.0).clamp(40, 150);
     ((cells / rows).clamp(60, MOST.0 / columns), rows)
 }
 
-/// The name by which traces call an axis.
+/// Name of an axis in traces, such as `x2`.
 fn name(letter: &str, index: usize) -> String {
     if index == 0 { letter.to_owned() } else { format!("{letter}{}", index + 1) }
 }
 
-/// The name by which the layout does.
+/// Name of an axis in the layout, such as `xaxis2`.
 fn long(letter: &str, index: usize) -> String {
     if index == 0 { format!("{letter}axis") } else { format!("{letter}axis{}", index + 1) }
 }

@@ -6,7 +6,7 @@ use super::marks::{PointTrace, marks};
 use super::palette::NEUTRAL;
 use crate::marched::{Dot, KINDS};
 
-/// A trace of those that have settled, and one of those that have not.
+/// Traces of the speeds of a sweep: one of those that have settled, one of those that have not.
 pub(super) fn dots(dots: &[Dot]) -> Vec<PointTrace> {
     let of = |(settled, name): (bool, &str)| {
         let symbol = if settled { MarkerSymbol::Circle } else { MarkerSymbol::CircleOpen };

@@ -1,21 +1,21 @@
-//! Lines and marks with their words.
+//! Traces of lines and marks with their words.
 
 use plotly::Scatter;
 use plotly::common::{DashType, HoverInfo, Line, Marker, MarkerSymbol, Mode};
 
 use super::text::escaped;
 
-/// A trace of points, boxed as the crate makes them.
+/// Trace of points, boxed as the crate makes it.
 pub(super) type PointTrace = Box<Scatter<f64, f64>>;
 
 type Places = (Vec<f64>, Vec<f64>);
 
-/// Places as columns; a gap where there is none.
+/// Splits points into columns of x and y; a gap where a point is missing.
 pub(super) fn columns(places: impl IntoIterator<Item = Option<(f64, f64)>>) -> Places {
     places.into_iter().map(|place| place.unwrap_or((f64::NAN, f64::NAN))).unzip()
 }
 
-/// A line of this name through places, with gaps where there are none.
+/// Line of this name through points, with gaps where points are missing.
 pub(super) fn line(
     name: &str,
     places: impl IntoIterator<Item = Option<(f64, f64)>>,
@@ -26,7 +26,7 @@ pub(super) fn line(
     Scatter::new(x, y).name(escaped(name)).mode(Mode::Lines).line(pen)
 }
 
-/// A line without words under the pointer.
+/// Line without words under the pointer.
 pub(super) fn silent(
     name: &str,
     places: impl IntoIterator<Item = Option<(f64, f64)>>,
@@ -35,13 +35,13 @@ pub(super) fn silent(
     line(name, places, pen).hover_info(HoverInfo::Skip)
 }
 
-/// What the pointer shows at each point.
+/// Sets the words that the pointer shows at each point.
 pub(super) fn words(trace: PointTrace, words: Vec<String>) -> PointTrace {
     let words = words.iter().map(|words| escaped(words)).collect();
     trace.hover_text_array(words).hover_info(HoverInfo::Text)
 }
 
-/// Marks of this name with their words; none where there are no places.
+/// Marks of this name with their words; nothing where there are no marks.
 pub(super) fn marks(
     name: &str,
     places: impl IntoIterator<Item = ((f64, f64), String)>,
@@ -54,12 +54,12 @@ pub(super) fn marks(
     (!told.is_empty()).then(|| words(trace, told))
 }
 
-/// A template of the words under the pointer, without the name beside it.
+/// Template of the words under the pointer, without the name of the trace beside them.
 pub(super) fn template(words: &str) -> String {
     format!("{words}<extra></extra>")
 }
 
-/// Several lines as one, with gaps between them.
+/// Joins several lines into one trace, with gaps between them.
 pub(super) fn strokes<const N: usize>(
     lines: impl IntoIterator<Item = [(f64, f64); N]>,
 ) -> impl Iterator<Item = Option<(f64, f64)>> {

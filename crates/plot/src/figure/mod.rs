@@ -1,7 +1,7 @@
 //! Results as figures for Plotly, which a page shows and a reader zooms: pure functions from [`rubmap_analysis::result`] to [`Figure`].
 //!
-//! What is shown, its words and its verdicts are those of the drawings beside this folder. A figure has no more lines, samples and cells
-//! than a screen shows; of cells and samples that are one then, the largest is kept, and the figure says so.
+//! Content, words and verdicts of a figure are those of the drawings beside this folder. A figure has no more lines, samples and cells than
+//! a screen shows; of merged cells and samples the largest is drawn, and the figure says so.
 
 mod amplitudes;
 mod branches;

@@ -1,33 +1,33 @@
-//! Colours, dashes and symbols that are told apart on light and on dark, and by the colour-blind.
+//! Colours, dashes and symbols that can be distinguished on light and on dark, and by the colour-blind.
 
 use plotly::common::{DashType, MarkerSymbol};
 
 use crate::colour::{self, DISTINCT};
 
-/// What is neither this nor that: as far from white as from black.
+/// Neutral grey, as far from white as from black.
 pub(super) const NEUTRAL: &str = "#808080";
 
-/// What warns.
+/// Colour of warnings.
 pub(super) const WARNING: &str = DISTINCT[1];
 
-/// The one curve of a diagram.
+/// Colour of the only curve of a diagram.
 pub(super) const CURVE: &str = DISTINCT[0];
 
 /// Colour of one of `count` things in a natural order.
 pub(super) fn colour(index: usize, count: usize) -> String {
     match DISTINCT.get(index).filter(|_| count <= DISTINCT.len()) {
         Some(colour) => (*colour).to_owned(),
-        // Neither the darkest nor the brightest, which a background may have.
+        // The darkest and the brightest colours are left out: a background may have them.
         None => colour::hex(colour::level(0.2 + 0.7 * index as f64 / count.saturating_sub(1).max(1) as f64)),
     }
 }
 
-/// Dashes to be taken in turn.
+/// Dashes of the line with this index; they repeat.
 pub(super) fn dash(index: usize) -> DashType {
     [DashType::Solid, DashType::Dash, DashType::Dot, DashType::DashDot][index % 4].clone()
 }
 
-/// Symbols to be taken in turn, filled or open.
+/// Symbol of the mark with this index, filled or open; symbols repeat.
 pub(super) fn symbol(index: usize, filled: bool) -> MarkerSymbol {
     use MarkerSymbol::{
         Circle, CircleOpen, Diamond, DiamondOpen, Hexagon, HexagonOpen, Square, SquareOpen, TriangleDown,

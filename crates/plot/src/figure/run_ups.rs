@@ -1,4 +1,4 @@
-//! Run-ups: how far a sensor swings over the speed, at every rate.
+//! Run-ups: amplitude of a sensor over the speed, at every rate.
 
 use plotly::common::{DashType, Marker, MarkerSymbol, Mode};
 use serde_json::json;
@@ -40,18 +40,18 @@ pub fn run_ups(run_ups: &RunUps, sensor: usize, swept: &[Point]) -> Figure {
         .meta("rates_rad_s2", view.lines.iter().map(|line| line.rate_rad_s2).collect::<Vec<_>>())
 }
 
-/// The line of a run.
+/// Trace of a run.
 fn line_of(view: &View<'_>, of: &Line, is_listed: bool) -> PointTrace {
     let told = of.steps.iter().map(|step| format!("{}: {}", of.title, step.words(view.unit))).collect();
     let places = of.steps.iter().map(|step| Some(step.over_speed()));
     let width = if view.lines.len() > LISTED { 1.2 } else { 2.0 };
     let pen = (&*colour(of.rank, view.lines.len()), DashType::Solid, width);
     let trace = words(line(&of.name, places, pen), told).show_legend(is_listed).legend_group(group(of));
-    // A line through one place is not seen.
+    // A line through one point is invisible.
     if of.steps.len() == 1 { trace.mode(Mode::LinesMarkers) } else { trace }
 }
 
-/// What is broad where something touches; the first explains it.
+/// Broad traces of the stretches in contact; the first of them explains the width in the legend.
 fn touching(view: &View<'_>) -> Vec<PointTrace> {
     const WIDTH: u16 = 8;
     let touching: Vec<&Line> =
@@ -75,12 +75,12 @@ fn touching(view: &View<'_>) -> Vec<PointTrace> {
     touching.iter().enumerate().map(trace).collect()
 }
 
-/// What is shown or hidden together.
+/// Legend group of a run: its traces are shown and hidden together.
 fn group(of: &Line) -> String {
     format!("run {}", of.rank)
 }
 
-/// Where each run swings most.
+/// Marks of the largest amplitude of each run.
 fn peaks(view: &View<'_>) -> Option<PointTrace> {
     let of = view.lines.iter().filter_map(|line| {
         let step = line.largest?;

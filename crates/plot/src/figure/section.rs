@@ -1,4 +1,4 @@
-//! Sections of the sector.
+//! Sections of a sector.
 
 use plotly::common::{DashType, MarkerSymbol};
 use serde_json::json;
@@ -10,11 +10,11 @@ use crate::outline::outline;
 use crate::section::{self as drawing, Drawing, NO_NODES, SectionView, project};
 use rubmap_analysis::result::{NodeKind, SectorGeometry};
 
-/// What the tips' line is called, and its nodes.
+/// Name of the contact line, and of its nodes.
 const LINE: &str = "contact line";
 
-/// The nodes of the sector, of those that cover each other one, at the same scale in both directions; across the axis with the contact line
-/// and the casing at its clearance.
+/// Nodes of the sector, one of those that cover each other, at the same scale in both directions; across the axis with the contact line and
+/// the casing at its clearance.
 pub fn section(geometry: &SectorGeometry, view: SectionView) -> Figure {
     let drawn = Drawing::new(geometry, view, 0.0);
     let [x, y] = drawing::axes(geometry, view);
@@ -53,7 +53,7 @@ fn style(kind: NodeKind) -> (MarkerSymbol, usize, &'static str) {
     }
 }
 
-/// Where what the nodes cover ends, turned into one plane.
+/// Outline of the area that the nodes cover, turned into one plane.
 fn rim(geometry: &SectorGeometry, view: SectionView) -> Option<PointTrace> {
     (view == SectionView::Meridional).then_some(())?;
     let places: Vec<(f64, f64)> = geometry.nodes.iter().map(|node| project(view, node.position)).collect();
@@ -62,7 +62,7 @@ fn rim(geometry: &SectorGeometry, view: SectionView) -> Option<PointTrace> {
     (!edges.is_empty()).then(|| silent("what the nodes cover", strokes(edges), pen))
 }
 
-/// The contact line with the clearance of every node where it is known.
+/// Trace of the contact line, with the clearance of every node where it is known.
 fn contact_line(geometry: &SectorGeometry, view: SectionView) -> Option<PointTrace> {
     let places = geometry.contact.iter().map(|place| Some(project(view, place.position)));
     let told = geometry.contact.iter().enumerate().map(|(k, place)| {
@@ -73,7 +73,7 @@ fn contact_line(geometry: &SectorGeometry, view: SectionView) -> Option<PointTra
     });
     let trace = line(LINE, places, (WARNING, DashType::Solid, 2.2));
     let trace = super::marks::words(trace, told.collect()).legend_group(LINE);
-    // The nodes on it have its name already, if they are known.
+    // Known nodes of the contact line have its name already.
     let named = geometry.nodes.iter().any(|node| node.kind == NodeKind::Contact);
     (!geometry.contact.is_empty()).then(|| trace.show_legend(!named))
 }

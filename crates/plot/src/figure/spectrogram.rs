@@ -1,4 +1,4 @@
-//! The spectrogram of a run.
+//! Spectrogram of a run.
 
 use std::f64::consts::TAU;
 
@@ -19,16 +19,16 @@ use crate::spectrogram_strips::{Strip, strips};
 use crate::spectrogram_view::{Over, SpectrogramUnit, View, mean};
 use rubmap_analysis::result::RunUps;
 
-/// Pixels of height of the map with one curve above it, and of another one.
+/// Height in pixels of the map with one curve above it; `STRIP`: of each further curve.
 const HEIGHT: usize = 700;
 const STRIP: usize = 140;
 
-/// The spectra of a sensor in the frames of the run of this number, below how far it swings: over the rotational speed if that only rises or
-/// only falls, otherwise over time with the speed above.
+/// Spectra of a sensor in the frames of the run of this number, below its amplitude: over the rotational speed if that only rises or only
+/// falls, otherwise over time with the speed above.
 ///
-/// The colours of the map are the logarithms of amplitudes to the base of 10; `customdata` has of every cell the amplitude itself, its
-/// frequency in Hz (upwards frequencies: its engine order), and the speed in rpm and the time in s of the frame it is from.
-/// `layout.meta.amplitude` says how to show it linearly.
+/// The colours of the map are the logarithms of amplitudes to the base of 10; `customdata` holds for every cell the amplitude itself, its
+/// frequency in Hz (with frequencies on the vertical axis: its engine order), and the speed in rpm and the time in s of the frame it comes
+/// from. `layout.meta.amplitude` says how to show it linearly.
 pub fn spectrogram(run_ups: &RunUps, run: usize, sensor: usize, unit: SpectrogramUnit) -> Figure {
     let title = title(run_ups, run, sensor);
     let view = match View::of(run_ups, run, sensor, unit) {
@@ -116,7 +116,7 @@ fn map(view: &View<'_>, found: &Cells<'_>, quietest: f64, unit: &str) -> Box<Tra
     cells((x, y), (values, told), &words, ("x", "y", "coloraxis"))
 }
 
-/// Engine orders, those that the lobes excite apart.
+/// Traces of the engine orders, those that the lobes excite apart.
 fn engine_orders(view: &View<'_>) -> Vec<PointTrace> {
     let lines = view.order_lines();
     let some_excited = lines.iter().any(|line| line.excited);
@@ -136,7 +136,7 @@ fn engine_orders(view: &View<'_>) -> Vec<PointTrace> {
     [false, true].into_iter().filter_map(of).collect()
 }
 
-/// A curve above the map, with what stands out.
+/// Traces of a curve above the map, with its marks.
 fn strip(curve: &Strip) -> Vec<PointTrace> {
     let places = curve.places.iter().copied().map(Some);
     let drawn = line(&curve.axis, places, (CURVE, DashType::Solid, 1.6)).show_legend(false);

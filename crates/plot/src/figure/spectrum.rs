@@ -13,8 +13,8 @@ use crate::spectrum::{self as drawing, Frame, Lines, MOST, Shown};
 use rubmap_analysis::result::{Point, SensorSpectrum, SpeedSpectra};
 use rubmap_wheel::dynamics::sector::Units;
 
-/// Spectra of the sensor of index `sensor` at one speed: in the rotating frame its amplitude above those of the wheel's nodal diameters,
-/// in the fixed frame the latter where they may be seen, a name for each nodal diameter. Amplitudes are logarithmic over four decades.
+/// Spectra of the sensor of index `sensor` at one speed: in the rotating frame its amplitude above those of the wheel's nodal diameters, in
+/// the fixed frame the latter where they may be seen, a name for each nodal diameter. Amplitudes are logarithmic over four decades.
 pub fn spectrum(spectra: &SpeedSpectra, point: &Point, units: &Units, sensor: usize, frame: Frame) -> Figure {
     let Some(found) = spectra.sensors.get(sensor) else {
         let title = format!("Spectrum, {} rpm", label(rpm(point.speed_rad_s), 0));
@@ -53,7 +53,7 @@ pub fn spectrum(spectra: &SpeedSpectra, point: &Point, units: &Units, sensor: us
     }
 }
 
-/// A logarithmic axis of amplitudes.
+/// Logarithmic axis of amplitudes.
 fn upwards(title: &str, range: (f64, f64)) -> Axis {
     axis(title)
         .type_(AxisType::Log)
@@ -61,12 +61,12 @@ fn upwards(title: &str, range: (f64, f64)) -> Axis {
         .exponent_format(plotly::common::ExponentFormat::SmallE)
 }
 
-/// A frequency that is seen at so many times the speed, to be said after other things.
+/// Frequency of a line seen at this multiple of the rotational frequency, in words that follow others.
 fn hertz(order: f64, point: &Point) -> String {
     format!(", {} Hz", label(order * rpm(point.speed_rad_s) / 60.0, 1))
 }
 
-/// Stems down to the foot of the axis: a bar of error has one end there.
+/// Adds stems down to the foot of the axis, drawn as error bars with one end there.
 fn stems(trace: PointTrace, heights: Vec<f64>, foot: f64, colour: &str) -> PointTrace {
     let down = heights.iter().map(|height| height - foot).collect();
     let bars =
@@ -74,7 +74,7 @@ fn stems(trace: PointTrace, heights: Vec<f64>, foot: f64, colour: &str) -> Point
     trace.error_y(bars.color(colour.to_owned()).thickness(1.5).width(0))
 }
 
-/// The sensor itself.
+/// Trace of the sensor itself.
 fn whole(
     found: &SensorSpectrum,
     lines: &[(f64, f64)],
@@ -90,7 +90,7 @@ fn whole(
     Some(stems(trace, lines.iter().map(|line| line.1).collect(), foot, CURVE).y_axis("y2"))
 }
 
-/// The lines of every nodal diameter, of each direction of travel a trace.
+/// Traces of the lines of every nodal diameter, one for each direction of travel.
 fn by_diameter(lines: &Lines, shown: &Shown, point: &Point, unit: &str) -> Vec<PointTrace> {
     let of = |(i, forward): (usize, bool)| {
         let here = shown.lines.iter().filter(|line| line.nodal_diameter == i && line.forward == forward);

@@ -1,4 +1,4 @@
-//! What happened at one speed over its revolutions.
+//! Histories of one speed over its revolutions.
 
 use super::document::{Figure, axis};
 use super::marks::{line, template};
@@ -23,7 +23,7 @@ pub fn speed_histories(histories: &SpeedHistories, what: HistoryQuantity, index:
             0 => ("yaxis".to_owned(), "y".to_owned()),
             _ => (format!("yaxis{}", place + 1), format!("y{}", place + 1)),
         };
-        // From the top down, with room between them.
+        // Panels stand from the top down, with room between them.
         let height = 1.0 / panels.len() as f64;
         let foot = 1.0 - height * (place + 1) as f64;
         let room = if place + 1 < panels.len() { 0.05 } else { 0.0 };

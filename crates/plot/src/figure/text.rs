@@ -1,13 +1,13 @@
-//! Texts as Plotly reads them: a little HTML, which no name of a user's may become.
+//! Texts in the small HTML that Plotly reads, which no user's text may become.
 
 use crate::heading;
 
-/// A text that is shown as it is.
+/// Escapes a text, so that it is shown as it is.
 pub(super) fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
-/// A text in lines of about so many characters.
+/// Breaks a text into lines of about so many characters.
 pub(super) fn broken(text: &str, columns: usize) -> String {
     let lines: Vec<String> = heading::broken(text, columns).iter().map(|line| escaped(line)).collect();
     lines.join("<br>")

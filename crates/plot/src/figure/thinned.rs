@@ -1,10 +1,10 @@
-//! Curves of no more samples than a screen shows.
+//! Curves thinned to the samples that a screen shows.
 
-/// Samples of all curves of a figure together, about.
+/// Approximate number of samples of all curves of a figure together.
 const MOST: usize = 24_000;
 
-/// A curve from left to right as one of `curves`: of stretches with too many samples the lowest and the highest are left, in their order.
-/// With how many samples are one then.
+/// Thins a curve, from left to right, one of `curves`: of each stretch with too many samples the lowest and the highest are left, in their
+/// order. Returns it with the number of samples per stretch.
 pub(super) fn thinned(places: Vec<(f64, f64)>, curves: usize) -> (Vec<(f64, f64)>, usize) {
     let together = (2 * places.len()).div_ceil((MOST / curves.max(1)).max(500));
     if together <= 2 {
@@ -23,7 +23,7 @@ pub(super) fn thinned(places: Vec<(f64, f64)>, curves: usize) -> (Vec<(f64, f64)
     (left, together)
 }
 
-/// What a figure says of curves of which so many samples are one.
+/// Note that a figure shows only the extremes of every `together` samples.
 pub(super) fn words(together: usize) -> Option<String> {
     (together > 1).then(|| format!("of {together} samples each the lowest and the highest are drawn"))
 }

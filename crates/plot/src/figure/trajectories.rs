@@ -1,4 +1,4 @@
-//! Where blade tips move before the lobes of their casing, seen from beside the wheel.
+//! Trajectories of blade tips before the lobes of their casing, seen from beside the wheel.
 
 use plotly::common::DashType;
 
@@ -12,8 +12,8 @@ use crate::cells::rpm;
 use crate::trajectories::{self as drawing, ANGLE, NO_TIPS, View};
 use rubmap_analysis::result::SpeedHistories;
 
-/// The outward motion of every tip that a radial or normal sensor records over its angle in the fixed frame, and the casing that it meets
-/// there with its shape at full height.
+/// Outward motion of every tip that a radial or normal sensor records over its angle in the fixed frame, and the casing that it meets there
+/// with its shape at full height.
 pub fn trajectories(histories: &SpeedHistories) -> Figure {
     let view = View::new(histories, ((0.0, 0.0), (1.0, 1.0)));
     let length = &histories.units.length;

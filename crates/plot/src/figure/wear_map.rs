@@ -1,4 +1,4 @@
-//! What the blades wore off the coating of the casing.
+//! Wear of the coating of the casing.
 
 use plotly::layout::RangeMode;
 use serde_json::json;
@@ -14,7 +14,7 @@ use crate::wear_map::{self as drawing, ANGLE, NO_COATING, deepest};
 use rubmap_analysis::result::{Point, WearMap};
 use rubmap_wheel::dynamics::sector::Units;
 
-/// The depth of wear over the angle of the casing and the contact nodes at the end of one speed, above it the deepest at each angle.
+/// Depth of wear over the angle of the casing and the contact nodes at the end of one speed, above it the deepest at each angle.
 pub fn wear_map(wear: &WearMap, point: &Point, units: &Units) -> Figure {
     let nodes = wear.depths.iter().map(Vec::len).max().unwrap_or(0);
     let one = together(wear.depths.len(), MOST.0);

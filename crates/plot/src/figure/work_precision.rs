@@ -1,4 +1,4 @@
-//! Error over computing time of every setting of a study.
+//! Work and precision: error over computing time of every setting of a study.
 
 use plotly::common::{DashType, ErrorData, ErrorType, Line, LineShape, Marker, MarkerSymbol, Mode};
 use plotly::layout::{Axis, AxisType};
@@ -16,8 +16,8 @@ use rubmap_analysis::request::SchemeChoice;
 use rubmap_analysis::result::{Quantity, SpeedStudy};
 use rubmap_analysis::run::WorkPrecision;
 
-/// The errors of one quantity over computing time at the speed of index `speed`, both on logarithmic axes: a name for each scheme, marks
-/// larger for more modes, and the Pareto front of all.
+/// Errors of one quantity over computing time at the speed of index `speed`, both on logarithmic axes: a name for each scheme, marks larger
+/// for more modes, and the Pareto front of all.
 pub fn work_precision(study: &WorkPrecision, speed: usize, quantity: Quantity) -> Figure {
     let title = drawing::title(study, quantity);
     let Some(at) = study.speeds.get(speed) else { return no_speed("work_precision", &title, speed) };
@@ -52,7 +52,7 @@ pub fn work_precision(study: &WorkPrecision, speed: usize, quantity: Quantity) -
         .axis("yaxis", logarithmic(&error_axis(quantity, study), view.diagram.y.values))
 }
 
-/// A figure of one speed of a study, without its traces.
+/// Builds a figure of one speed of a study, without its traces.
 pub(super) fn begin(
     kind: &str,
     title: &str,
@@ -66,18 +66,18 @@ pub(super) fn begin(
     figure.meta("quantity", quantity).meta("speed_rpm", rpm(at.speed_rad_s)).meta("units", json!({"y": "1"}))
 }
 
-/// What is shown where a study has no such speed.
+/// Figure with a message, where a study has no speed of this index.
 pub(super) fn no_speed(kind: &str, title: &str, speed: usize) -> Figure {
     Figure::new(kind, title, &[]).empty(&format!("the study has no speed of index {speed}"))
 }
 
-/// A logarithmic axis.
+/// Logarithmic axis.
 pub(super) fn logarithmic(title: &str, (low, high): (f64, f64)) -> Axis {
     let axis = axis(title).type_(AxisType::Log).range(vec![low.log10(), high.log10()]);
     axis.exponent_format(plotly::common::ExponentFormat::SmallE)
 }
 
-/// The symbol of a scheme.
+/// Symbol of a scheme.
 pub(super) fn mark(scheme: SchemeChoice) -> MarkerSymbol {
     match scheme {
         SchemeChoice::ExactModal => symbol(0, true),
@@ -87,7 +87,7 @@ pub(super) fn mark(scheme: SchemeChoice) -> MarkerSymbol {
     }
 }
 
-/// The runs of a scheme with their steps per revolution; bars are the standard error where trajectories are chaotic.
+/// Runs of a scheme with their steps per revolution; bars are the standard error where trajectories are chaotic.
 fn runs(view: &View, scheme: SchemeChoice) -> Option<PointTrace> {
     let of: Vec<&Drawn> = view.runs.iter().filter(|drawn| drawn.run.setting.scheme == scheme).collect();
     let told = of.iter().map(|drawn| ((drawn.run.time_s, drawn.error), drawn.title()));

@@ -1,4 +1,4 @@
-//! What was asked for, in a few lines.
+//! Summary of the request, in a few lines.
 
 use maud::{Markup, html};
 use rubmap_analysis::request::{ModalAnalysisRequest, SweepRequest};
@@ -40,10 +40,10 @@ fn words(value: &impl Serialize) -> String {
     serde_json::to_value(value).map(|value| plain(&value)).unwrap_or_default()
 }
 
-/// Entries of a list that are shown; all are among the settings.
+/// Number of entries of a list that are shown; all of them are in the settings.
 const SHOWN: usize = 8;
 
-/// A value of a request as one says it: without quotes and braces.
+/// Words for a value of a request: without quotes and braces.
 fn plain(value: &Value) -> String {
     let joined = |parts: Vec<String>| parts.join(", ");
     match value {

@@ -1,4 +1,4 @@
-//! How far the numbers can be trusted.
+//! Credentials of a report: how far its numbers can be trusted.
 
 use std::collections::BTreeSet;
 

@@ -1,12 +1,12 @@
-//! What stands at the top of a report.
+//! Head of a report: title, facts and notes.
 
-/// What stands at the top of a report.
+/// Head of a report.
 #[derive(Debug, Clone, Default)]
 pub struct Head {
-    /// What it is about.
+    /// Title of the report.
     pub title: String,
     /// Facts about job, model and program: names and values.
     pub facts: Vec<(&'static str, String)>,
-    /// What its owner has noted.
+    /// Notes of the owner of the job.
     pub notes: Option<String>,
 }

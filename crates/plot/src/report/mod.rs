@@ -1,4 +1,5 @@
-//! A job as one page that needs nothing else: what was asked, how far it can be trusted, what was found. For a browser, and for paper (A4).
+//! Report of a job as one self-contained page: the request, how far the numbers can be trusted, and the results. For a browser, and for
+//! paper (A4).
 
 mod asked;
 mod credentials;
@@ -20,26 +21,26 @@ use page::{drawing, page};
 
 pub use head::Head;
 
-/// What a sweep found.
+/// Results of a sweep.
 #[derive(Debug, Clone, Copy)]
 pub struct Sweep<'a> {
-    /// The map at one sensor.
+    /// Interaction map at one sensor.
     pub map: &'a InteractionMap,
-    /// The critical speeds at every sensor.
+    /// Critical speeds at every sensor.
     pub critical: &'a [CriticalSpeeds],
-    /// Contact over speed; none of a scene without.
+    /// Contact over speed; none for a scene without contact.
     pub forces: Option<&'a ForceMap>,
     /// Histories that were recorded.
     pub histories: &'a [SpeedHistories],
     /// Natural frequencies of the same model, if there are any.
     pub campbell: Option<&'a Campbell>,
-    /// What the materials bear, as far as it is known.
+    /// Strengths of the materials, as far as they are known.
     pub strengths: &'a [Strengths],
-    /// Surfaces to be shown, each from the front and in the meridional view.
+    /// Surfaces to be shown, each from this view and in the meridional view.
     pub surfaces: &'a [(FieldSurface, SurfaceView)],
 }
 
-/// The report of a sweep, as HTML. All texts of users are escaped.
+/// Renders the report of a sweep, as HTML. All texts of users are escaped.
 pub fn sweep(head: &Head, sweep: &Sweep) -> String {
     let Sweep { map, critical, forces, histories, campbell, strengths, surfaces } = *sweep;
     let of_sensor = critical.iter().find(|table| table.sensor == map.sensor);
@@ -77,7 +78,7 @@ pub fn sweep(head: &Head, sweep: &Sweep) -> String {
     page(head, &body)
 }
 
-/// The report of a modal analysis, as HTML. All texts of users are escaped.
+/// Renders the report of a modal analysis, as HTML. All texts of users are escaped.
 pub fn modal_analysis(head: &Head, campbell: &Campbell) -> String {
     let body = html! {
         (asked::modal_analysis(&campbell.settings))
@@ -92,7 +93,7 @@ pub fn modal_analysis(head: &Head, campbell: &Campbell) -> String {
     page(head, &body)
 }
 
-/// All settings: whoever posts them asks for the same.
+/// Renders all settings of a request; posting them repeats the request.
 fn settings(settings: Value) -> Markup {
     html! {
         h2 { "Settings" }

@@ -1,10 +1,10 @@
-//! The frame of a report: one file with its style in it.
+//! Frame of a report: one file that contains its style.
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use super::head::Head;
 
-/// Narrow enough for A4 beside its margins; drawings shrink to the width of the paper.
+/// Style sheet: narrow enough for A4 with its margins; drawings shrink to the width of the paper.
 const STYLE: &str = "
 @page { size: A4; margin: 15mm }
 body { font: 14px/1.45 Helvetica, Arial, 'DejaVu Sans', sans-serif; color: #1c1c1c; max-width: 1180px; margin: 2em auto; padding: 0 1em }
@@ -21,7 +21,7 @@ pre { white-space: pre-wrap; overflow-wrap: anywhere; font-size: .8em } .notes {
 @media print { body { font-size: 9.5pt; margin: 0; padding: 0; max-width: none } pre { font-size: 7pt } }
 ";
 
-/// A page around its `body`.
+/// Renders a page around its `body`.
 pub(super) fn page(head: &Head, body: &Markup) -> String {
     let Head { title, facts, notes } = head;
     html! {
@@ -44,7 +44,7 @@ pub(super) fn page(head: &Head, body: &Markup) -> String {
     .into_string()
 }
 
-/// Names and values.
+/// Renders a table of names and values.
 pub(super) fn facts_table(facts: impl IntoIterator<Item = (impl maud::Render, String)>) -> Markup {
     html! {
         table class="facts" {
@@ -53,9 +53,9 @@ pub(super) fn facts_table(facts: impl IntoIterator<Item = (impl maud::Render, St
     }
 }
 
-/// A drawing of this crate, whose texts are escaped where they are drawn.
+/// Embeds a drawing of this crate, whose texts are escaped where they are drawn.
 pub(super) fn drawing(svg: &str) -> Markup {
-    // A declaration is for a file of its own.
+    // An XML declaration belongs to a file of its own only.
     let element = svg.find("<svg").map_or("", |start| &svg[start..]);
     html! { figure { (PreEscaped(element)) } }
 }

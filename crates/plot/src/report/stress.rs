@@ -11,13 +11,13 @@ use crate::axis::significant;
 use crate::cells::rpm;
 use crate::{HaighColour, SurfaceView, validity};
 
-/// Cycles that are listed.
+/// Number of cycles that are listed.
 const LISTED: usize = 15;
 
-/// Speeds that are named.
+/// Number of speeds that are named.
 const NAMED: usize = 12;
 
-/// The section on stress; nothing of a sweep without.
+/// Renders the section on stress; nothing for a sweep without stress.
 pub(super) fn section(map: &InteractionMap, strengths: &[Strengths]) -> Markup {
     let speeds: Vec<SpeedStress> = map.points.iter().filter_map(SpeedStress::of).collect();
     let stress = SweepStress {
@@ -118,7 +118,7 @@ fn cycles(stress: &SweepStress) -> Markup {
     }
 }
 
-/// The section on linear theory; nothing of what an earlier version computed.
+/// Renders the section on linear theory; nothing for results of versions that did not check it.
 pub(super) fn validity_section(map: &InteractionMap) -> Markup {
     let judged: Vec<(&Point, &Validity)> =
         map.points.iter().filter_map(|point| Some((point, point.validity.as_ref()?))).collect();
@@ -151,7 +151,7 @@ fn verdicts(judged: &[(&Point, &Validity)]) -> String {
     format!("Of {} speeds: {}.", judged.len(), counts.collect::<Vec<_>>().join(", "))
 }
 
-/// Of every number its largest value over the speeds, beside its limits.
+/// Renders the largest value over the speeds of every measure of validity, beside its limits.
 fn measures(judged: &[(&Point, &Validity)]) -> Markup {
     let mut largest: Vec<(&Point, &ValidityCheck)> = Vec::new();
     for (point, check) in
@@ -179,7 +179,7 @@ fn measures(judged: &[(&Point, &Validity)]) -> Markup {
     }
 }
 
-/// The speeds at which it does not hold, with the number that says so.
+/// Lists the speeds at which linear theory does not hold, with the number that decides.
 fn speeds(judged: &[(&Point, &Validity)]) -> Markup {
     let reason = |(point, found): &(&Point, &Validity)| {
         Some(format!("{:.0} rpm: {}", rpm(point.speed_rad_s), validity::reason(found)?))
@@ -195,7 +195,7 @@ fn speeds(judged: &[(&Point, &Validity)]) -> Markup {
     }
 }
 
-/// Pictures of the wheel and its sectors.
+/// Renders pictures of the wheel and its sectors.
 pub(super) fn pictures(surfaces: &[(FieldSurface, SurfaceView)]) -> Markup {
     html! {
         @if !surfaces.is_empty() {

@@ -9,7 +9,7 @@ use crate::axis::significant;
 use crate::cells::rpm;
 use crate::validity;
 
-/// Largest responses that are listed.
+/// Number of largest responses that are listed.
 const LISTED: usize = 10;
 
 pub(super) fn critical_speeds(tables: &[CriticalSpeeds]) -> Markup {
@@ -48,7 +48,7 @@ fn of_sensor(table: &CriticalSpeeds) -> Markup {
     }
 }
 
-/// Decimals of a critical speed in rpm: of a maximum on a branch more may be known.
+/// Decimals of a critical speed in rpm: the maximum on a branch may be known better.
 fn decimals(peak: &CriticalSpeed) -> usize {
     if peak.on_branch && rpm(peak.speed_error_rad_s) < 1.0 { 2 } else { 0 }
 }
@@ -99,7 +99,7 @@ pub(super) fn driven_crossings(crossings: &[DrivenCrossing]) -> Markup {
     }
 }
 
-/// The speeds and sensors that move most, largest first.
+/// Table of the speeds and sensors that move most, largest first.
 pub(super) fn largest_responses(map: &InteractionMap) -> Markup {
     let responses = |point| -> Vec<(&Point, &SensorResponse)> {
         let point: &Point = point;
@@ -136,7 +136,7 @@ fn or_none<T: ToString>(value: Option<T>) -> String {
     value.map_or_else(|| "–".to_owned(), |value| value.to_string())
 }
 
-/// A verdict on the steady state in words.
+/// Words for a verdict on the steady state.
 pub(super) fn verdict(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Periodic => "periodic",

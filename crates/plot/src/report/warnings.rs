@@ -1,4 +1,4 @@
-//! What the numbers are not worth.
+//! Warnings of a report: limits on the trust in its numbers.
 
 use maud::{Markup, html};
 use rubmap_analysis::result::{CriticalSpeeds, InteractionMap, Point, PointStatus, ReductionReport, Verdict};
@@ -6,7 +6,7 @@ use rubmap_analysis::result::{CriticalSpeeds, InteractionMap, Point, PointStatus
 use crate::cells::rpm;
 use crate::validity;
 
-/// Speeds without a result that are named.
+/// Number of speeds without a result that are named.
 const NAMED: usize = 8;
 
 pub(super) fn section(warnings: &[String]) -> Markup {

@@ -1,34 +1,34 @@
-//! What is nearest to the viewer, pixel by pixel (a z-buffer).
+//! Depth buffer (z-buffer): the surface nearest to the viewer, pixel by pixel.
 
-/// A corner of a triangle.
+/// Corner of a triangle.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Corner {
-    /// In pixels: to the right, down, and towards the viewer.
+    /// Position in pixels: to the right, down, and towards the viewer.
     pub(super) place: [f64; 3],
     pub(super) value: f64,
-    /// How far `value` is claimed: 1, or 0 where nothing is, then whatever it is.
+    /// Weight of `value`: 1 where it is known, 0 where nothing is claimed; at 0 the value has no meaning.
     pub(super) claim: f64,
-    /// How far the surface faces the viewer: 1 entirely, 0 if it is seen edge on.
+    /// Light: 1 where the surface faces the viewer, 0 where it is seen edge on.
     pub(super) light: f64,
 }
 
-/// Which side of a surface is seen.
+/// Side of a surface that is seen in a pixel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Side {
-    /// None: what is behind is seen.
+    /// No surface: the background is seen.
     Nothing,
-    /// The outer one.
+    /// Outer side.
     Outside,
-    /// The inner one, where the surface is open.
+    /// Inner side, where the surface is open.
     Inside,
 }
 
-/// What is seen in a pixel.
+/// Surface seen in a pixel.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Fragment {
-    /// Towards the viewer.
+    /// Depth in pixels, larger towards the viewer.
     pub(super) depth: f32,
-    /// NaN where nothing is claimed.
+    /// Value of the surface; NaN where nothing is claimed.
     pub(super) value: f32,
     pub(super) light: f32,
     pub(super) side: Side,
@@ -37,10 +37,10 @@ pub(super) struct Fragment {
 const EMPTY: Fragment =
     Fragment { depth: f32::NEG_INFINITY, value: f32::NAN, light: 0.0, side: Side::Nothing };
 
-/// A part of a pixel that rounding may cost at the edge of a triangle: pixels on an edge belong to both of its triangles.
+/// Share of the area of a triangle that rounding may cost at its edge: pixels on an edge belong to both of its triangles.
 const EDGE: f64 = 1e-9;
 
-/// The nearest surface in every pixel.
+/// Nearest surface in every pixel.
 #[derive(Debug)]
 pub(super) struct Depths {
     pub(super) width: usize,
@@ -57,21 +57,20 @@ impl Depths {
         &self.fragments[line * self.width + column]
     }
 
-    /// All, line by line.
+    /// Fragments of all pixels, line by line.
     pub(super) fn fragments(&self) -> &[Fragment] {
         &self.fragments
     }
 
-    /// Draws a triangle where nothing is nearer. Depth, light and value are linear between the corners, which is exact for parallel
-    /// rays; half-way to corners of which nothing is claimed the
-    /// values end.
+    /// Draws a triangle where nothing is nearer. Depth, light and value are linear between the corners, which is exact for parallel rays;
+    /// values end half-way to corners of which nothing is claimed.
     pub(super) fn triangle(&mut self, corners: &[Corner; 3]) {
         let [a, b, c] = corners.map(|corner| corner.place);
         let twice = cross(a, b, c[0], c[1]);
         if !twice.is_finite() || twice == 0.0 {
             return;
         }
-        // On the picture y points down: anticlockwise seen from outside is clockwise there.
+        // In the image y points down: anticlockwise seen from outside is clockwise there.
         let side = if twice < 0.0 { Side::Outside } else { Side::Inside };
         let (columns, lines) = (span([a[0], b[0], c[0]], self.width), span([a[1], b[1], c[1]], self.height));
         for line in lines {
@@ -94,8 +93,8 @@ impl Depths {
         }
     }
 
-    /// Whether nothing hides a place, given in pixels as corners are: it may lie behind by `tolerance`, and at the rim of what is
-    /// seen.
+    /// Whether no surface hides a position, given in pixels as corners are: it may lie behind by `tolerance`, or at the rim of the visible
+    /// surface.
     pub(super) fn shows(&self, [x, y, depth]: [f64; 3], tolerance: f64) -> bool {
         let near = |value: f64, count: usize| {
             let middle = value.floor();
@@ -108,12 +107,12 @@ impl Depths {
     }
 }
 
-/// Twice the area of the triangle from `a` over `b` to a place.
+/// Twice the area of the triangle from `a` over `b` to a point.
 fn cross(a: [f64; 3], b: [f64; 3], x: f64, y: f64) -> f64 {
     (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0])
 }
 
-/// The value in between, of what is claimed; none where that is less than half.
+/// Interpolated value of the corners that claim one; none where their weight is less than half.
 fn value(corners: &[Corner; 3], weights: &[f64; 3]) -> Option<f64> {
     let claims = corners.iter().zip(weights).map(|(corner, weight)| (corner.value, weight * corner.claim));
     let claims = claims.filter(|(_, claim)| *claim > 0.0);
@@ -122,11 +121,11 @@ fn value(corners: &[Corner; 3], weights: &[f64; 3]) -> Option<f64> {
     (claim >= 0.5).then(|| sum / claim)
 }
 
-/// The pixels of `count` whose middles may lie within some places.
+/// Range of pixels, of `count`, whose middles may lie within some positions.
 fn span(places: [f64; 3], count: usize) -> std::ops::Range<usize> {
     let (low, high) =
         places.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(*v), b.max(*v)));
-    // A cast takes what lies outside to the ends.
+    // A cast limits positions outside to the ends.
     (low.floor() as usize).min(count)..(high.ceil() as usize).min(count)
 }
 
@@ -139,14 +138,14 @@ mod tests {
         Corner { place, value, claim: 1.0, light: 1.0 }
     }
 
-    /// A square between two diagonal corners at a depth that is linear in x.
+    /// Draws a square between two diagonal corners at a depth that is linear in x.
     fn square(depths: &mut Depths, from: f64, to: f64, depth: impl Fn(f64) -> f64, value: f64) {
         let at = |x: f64, y: f64| corner([x, y, depth(x)], value);
         depths.triangle(&[at(from, from), at(from, to), at(to, to)]);
         depths.triangle(&[at(from, from), at(to, to), at(to, from)]);
     }
 
-    /// The plane z = x − 50 pierces z = 0 at x = 50: left of it the one is seen, right of it the other.
+    /// Plane z = x − 50 that pierces z = 0 at x = 50: left of it the one is seen, right of it the other.
     #[test]
     fn of_two_squares_the_nearer_is_seen_pixel_by_pixel() {
         for order in [false, true] {
@@ -186,7 +185,7 @@ mod tests {
             depths.triangle(&corners);
             depths.at(1, 1).side
         };
-        // Down and then up to the right: anticlockwise as it is seen.
+        // Down and then up to the right is anticlockwise, as seen.
         assert_eq!(seen(corners), Side::Outside);
         assert_eq!(seen([corners[0], corners[2], corners[1]]), Side::Inside);
     }

@@ -1,27 +1,27 @@
-//! The colours of a surface: bands between round values.
+//! Colours of a surface: bands between round values.
 //!
-//! Light and shade darken a colour. On a scale without steps that would be read as another value; from one band to the next it is not,
-//! as their borders stay where they are.
+//! Light and shade darken a colour. On a continuous scale a darker colour would be read as another value; with bands it is not, as their
+//! borders stay where they are.
 
 use crate::axis::ticks;
 use crate::colour;
 
-/// Shades of a colour.
+/// Number of shades of a colour.
 const SHADES: usize = 16;
 
-/// Brightness of what is seen edge on.
+/// Brightness of a surface seen edge on.
 const DARKEST: f64 = 0.62;
 
-/// Most bands; with their shades, and those of what has no value and of insides, they fit into a palette.
+/// Largest number of bands; with their shades, and the shades of unclaimed values and of insides, they fit into a palette.
 const MOST_BANDS: usize = 12;
 
-/// Bands that are aimed at.
+/// Number of bands aimed at.
 const BANDS: f64 = 10.0;
 
-/// Colours of what nothing is claimed of: stripes, as where a map has no result.
+/// Colours of surfaces of which nothing is claimed: stripes, as where a map has no result.
 const UNCLAIMED: [[u8; 3]; 2] = [[0xe9, 0xe9, 0xe9], [0xb5, 0xb5, 0xb5]];
 
-/// Pixels along a line in which a stripe of both colours fits.
+/// Period of the stripes along a line, pixels: it holds both colours.
 const STRIPES: usize = 14;
 
 /// Colour of insides.
@@ -36,15 +36,15 @@ pub(super) const AT_REST: [u8; 3] = [0x9a, 0x8f, 0x86];
 /// Bands of values.
 #[derive(Debug)]
 pub(super) struct Levels {
-    /// From the lowest value to the highest, both round.
+    /// Range of values from the lowest to the highest, both round.
     pub(super) values: (f64, f64),
-    /// Borders with their labels.
+    /// Borders of the bands, with their labels.
     pub(super) borders: Vec<(f64, String)>,
     count: usize,
 }
 
 impl Levels {
-    /// Of the values that are finite; none if there are none. What is never negative begins at 0.
+    /// Chooses bands for the finite values; none if there are none. Values that are never negative begin at 0.
     pub(super) fn of(values: &[Option<f64>]) -> Option<Self> {
         let found = values.iter().flatten().filter(|value| value.is_finite());
         let (low, high) = found.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(*v), b.max(*v)));
@@ -52,7 +52,7 @@ impl Levels {
             return None;
         }
         let low = if low >= 0.0 { 0.0 } else { low };
-        // What is the same everywhere has a colour, too.
+        // A value that is the same everywhere needs a colour, too.
         let high =
             if high - low > 1e-9 * high.abs().max(low.abs()) { high } else { low + low.abs().max(1.0) };
         let inner = ticks((low, high), BANDS);
@@ -65,7 +65,7 @@ impl Levels {
         Some(Self { values, borders: ticks(values, count as f64), count })
     }
 
-    /// The band of a value.
+    /// Index of the band of a value.
     fn band(&self, value: f64) -> usize {
         let share = (value - self.values.0) / (self.values.1 - self.values.0);
         ((share * self.count as f64) as usize).min(self.count - 1)
@@ -83,13 +83,13 @@ impl Levels {
     }
 }
 
-/// Place of a shade in the palette of [`palette`].
+/// Index of a shade in the palette of [`palette`].
 pub(super) fn shade(colour: usize, light: f64) -> u8 {
     let shade = (light.clamp(0.0, 1.0) * (SHADES - 1) as f64).round() as usize;
     (colour * SHADES + shade) as u8
 }
 
-/// The number of the colour of a value in a pixel.
+/// Index of the colour of a value in a pixel.
 pub(super) fn of_value(levels: Option<&Levels>, value: f64, (column, line): (usize, usize)) -> usize {
     match levels {
         Some(levels) if !value.is_nan() => 3 + levels.band(value),
@@ -97,16 +97,16 @@ pub(super) fn of_value(levels: Option<&Levels>, value: f64, (column, line): (usi
     }
 }
 
-/// The number of the colour of insides.
+/// Index of the colour of insides.
 pub(super) const OF_INSIDE: usize = 2;
 
-/// The place of the colour of edges in the palette.
+/// Index of the colour of edges in the palette.
 pub(super) const OF_EDGE: u8 = 253;
 
-/// The place of the colour of the outline at rest in the palette.
+/// Index of the colour of the outline at rest in the palette.
 pub(super) const OF_REST: u8 = 254;
 
-/// All colours in all shades, red, green and blue of 256 each.
+/// Palette of all colours in all shades: red, green and blue of 256 entries.
 pub(super) fn palette(levels: Option<&Levels>) -> Vec<u8> {
     let bands = levels.map_or(0, |levels| levels.count);
     let bands = (0..bands).filter_map(|band| levels.map(|levels| levels.colour(band)));
@@ -147,7 +147,7 @@ mod tests {
         assert!(Levels::of(&[None, Some(f64::NAN)]).is_none());
     }
 
-    /// What is shaded stays darker than the next higher band in the same light, and the hue is that of its band.
+    /// Shades of a band stay darker than the next higher band in the same light, and have the hue of their band.
     #[test]
     fn shades_do_not_leave_the_order_of_the_scale() {
         let levels = Levels::of(&[Some(0.0), Some(10.0)]).unwrap();

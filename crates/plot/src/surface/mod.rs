@@ -1,4 +1,4 @@
-//! A wheel or one of its sectors with something on it, hidden parts hidden.
+//! Surface of a wheel or of one of its sectors with a field on it, hidden parts hidden.
 
 mod depths;
 mod levels;
@@ -24,7 +24,7 @@ const WIDTH: f64 = 1180.0;
 const LEFT: f64 = 92.0;
 const PLOT: (f64, f64) = (900.0, 700.0);
 
-/// By how much an edge may lie behind the faces it belongs to, in pixels.
+/// Depth by which an edge may lie behind the faces it belongs to, in pixels.
 const TOLERANCE: f64 = 3.0;
 
 /// Draws a surface as it is displaced, coloured by its values, at the same scale in both directions.
@@ -71,7 +71,7 @@ pub fn surface(surface: &FieldSurface, view: SurfaceView) -> String {
     document(&surface.title, width, diagram.bottom() + 110.0, content)
 }
 
-/// What stands below the title.
+/// Paragraphs below the title: subtitles of the surface, the view, and the magnification of displacements.
 fn paragraphs(surface: &FieldSurface, camera: Camera, stretch: f64) -> Vec<String> {
     let mut words = surface.subtitles.clone();
     let drawn = if stretch > 0.0 {
@@ -96,20 +96,20 @@ fn bar(levels: &Levels, surface: &FieldSurface, diagram: &Diagram) -> Element {
     colour_bar::draw_colours(levels.stops(), &scale, diagram.right() + 26.0, &levels.borders, &title)
 }
 
-/// What is seen of a surface.
+/// Surface as the drawing shows it.
 struct Picture {
     levels: Option<Levels>,
     depths: Depths,
-    /// Places in the palette, line by line.
+    /// Palette indices of the pixels, line by line.
     indices: Vec<u8>,
-    /// Where the node with the largest value is in the drawing, with this value, and whether it can be seen.
+    /// Position in the drawing of the node with the largest value, this value, and whether the node can be seen.
     largest: Option<((f64, f64), f64, bool)>,
     /// Whether the outline at rest is drawn.
     rests: bool,
 }
 
 impl Picture {
-    /// None without faces.
+    /// Draws a surface into pixels; none without faces.
     fn new(
         surface: &FieldSurface,
         diagram: &Diagram,
@@ -168,7 +168,7 @@ impl Picture {
         )
     }
 
-    /// A ring about the node with the largest value, if it can be seen.
+    /// Ring about the node with the largest value, if it can be seen.
     fn largest_mark(&self, surface: &FieldSurface) -> Element {
         let Some((place, value, true)) = self.largest else { return group() };
         let words =
@@ -178,7 +178,7 @@ impl Picture {
         group().set("class", "largest").child(rim).child(marks::ring(place, "#d62728")).title(&words)
     }
 
-    /// What the marks mean: what is there, and nothing else.
+    /// Key of the marks that occur.
     fn key(&self, surface: &FieldSurface, (width, y): (f64, f64)) -> Element {
         let mut flow = Flow::new(LEFT, width - 20.0, y);
         let patch = |rgb: [u8; 3]| {
@@ -195,13 +195,13 @@ impl Picture {
         let fragments = self.depths.fragments();
         let pixels = |of: &dyn Fn(&Fragment) -> bool| fragments.iter().filter(|seen| of(seen)).count();
         let covered = pixels(&|seen| seen.side != Side::Nothing);
-        // Single pixels are not seen as hatching.
+        // Hatching cannot be seen on single pixels.
         if 1000 * pixels(&|seen| seen.side == Side::Outside && seen.value.is_nan()) > covered {
             let words =
                 if self.levels.is_some() { "nothing claimed: near contact nodes" } else { "no values" };
             flow = flow.entry(hatching::mark(), 20.0, words);
         }
-        // At the rim of what is closed single pixels see its far side.
+        // At the rim of a closed surface, single pixels show its far side.
         if 1000 * pixels(&|seen| seen.side == Side::Inside) > covered {
             flow = flow.entry(patch(levels::INSIDE), 20.0, "inside of an open surface");
         }
@@ -213,7 +213,7 @@ impl Picture {
     }
 }
 
-/// A factor that has two digits, as it is read.
+/// Formats a factor of two digits.
 fn two_digits(value: f64) -> String {
     match value.log10().floor() {
         power if (-4.0..6.0).contains(&power) => label(value, (1.0 - power).max(0.0) as usize),
@@ -225,7 +225,7 @@ fn with_unit(value: f64, unit: &str) -> String {
     format!("{} {unit}", significant(value)).trim_end().to_owned()
 }
 
-/// The node with the largest value; none where all is 0.
+/// Index and value of the node with the largest value; none where all values are 0.
 fn largest(values: &[Option<f64>]) -> Option<(usize, f64)> {
     let found = values.iter().enumerate().filter_map(|(node, value)| Some((node, (*value)?)));
     let known: Vec<(usize, f64)> = found.filter(|(_, value)| value.is_finite()).collect();
@@ -236,7 +236,7 @@ fn largest(values: &[Option<f64>]) -> Option<(usize, f64)> {
 /// Draws an edge, two pixels wide, where nothing hides it.
 fn draw_edge([from, to]: [[f64; 3]; 2], depths: &Depths, indices: &mut [u8]) {
     let length = f64::max((to[0] - from[0]).abs(), (to[1] - from[1]).abs());
-    // None is longer than the image, whose diagram has room for all places.
+    // No edge is longer than the image, whose diagram has room for all nodes.
     let steps = length.ceil().clamp(1.0, (depths.width + depths.height) as f64);
     for step in 0..=steps as usize {
         let share = step as f64 / steps;
@@ -255,7 +255,7 @@ fn draw_edge([from, to]: [[f64; 3]; 2], depths: &Depths, indices: &mut [u8]) {
     }
 }
 
-/// Draws the border of what is covered, two pixels wide, over everything else.
+/// Draws the border of the covered pixels, two pixels wide, over everything else.
 fn draw_outline(covered: &Depths, indices: &mut [u8]) {
     let is_covered = |column: usize, line: usize| covered.at(column, line).side != Side::Nothing;
     for line in 1..covered.height.max(1) - 1 {

@@ -1,4 +1,4 @@
-//! Faces as they are drawn: their light, and the edges that show the form.
+//! Faces as they are drawn: their light, and the edges that show the shape.
 
 use std::collections::BTreeMap;
 
@@ -6,23 +6,23 @@ use rubmap_analysis::result::FieldSurface;
 
 use super::depths::{Corner, Depths};
 
-/// Faces that meet at more than this are an edge and not a bend: cos 35°.
+/// Cosine of the angle between two faces below which they meet in an edge and not in a bend: cos 35°.
 const EDGE: f64 = 0.82;
 
-/// A surface in pixels.
+/// Surface in pixels.
 pub(super) struct Shape<'a> {
-    /// To the right, down, and towards the viewer.
+    /// Positions of the nodes in pixels: to the right, down, and towards the viewer.
     pub(super) places: Vec<[f64; 3]>,
-    /// Those with at least three corners, all of which have a place.
+    /// Faces with at least three corners, all at finite positions.
     faces: Vec<&'a [u32]>,
-    /// Of each face, of length 1, in the directions of `places`; none of one without area.
+    /// Unit normal of each face, in the directions of `places`; none of a face without area.
     normals: Vec<Option<[f64; 3]>>,
-    /// Of each node the number that it shares with those in the same place: sectors side by side may have nodes of their own.
+    /// Number of each node, shared by all nodes in the same place: neighbouring sectors may have nodes of their own.
     merged: Vec<u32>,
 }
 
 impl<'a> Shape<'a> {
-    /// Of the faces of a surface whose nodes are at these places.
+    /// Prepares the faces of a surface whose nodes are at these positions.
     pub(super) fn new(surface: &'a FieldSurface, places: Vec<[f64; 3]>) -> Self {
         let placed = |corner: &u32| {
             places.get(*corner as usize).is_some_and(|place| place.iter().all(|value| value.is_finite()))
@@ -66,7 +66,7 @@ impl<'a> Shape<'a> {
         }
     }
 
-    /// The light at the corners of each face: of the mean direction of all faces that bend into each other there.
+    /// Light at the corners of each face, from the mean normal of all faces that bend into each other there.
     fn lights(&self) -> Vec<Vec<f64>> {
         let mut around: Vec<Vec<u32>> = vec![Vec::new(); self.merged.len()];
         for (index, face) in self.faces.iter().enumerate() {
@@ -87,7 +87,7 @@ impl<'a> Shape<'a> {
         faces.map(|(face, own)| face.iter().map(|corner| at(own, corner)).collect()).collect()
     }
 
-    /// Edges that show the form: where a surface ends, where faces meet at an angle, and where it turns away from the viewer.
+    /// Edges that show the shape: where a surface ends, where faces meet at an angle, and where it turns away from the viewer.
     pub(super) fn edges(&self) -> Vec<[[f64; 3]; 2]> {
         let mut uses: Vec<([u32; 2], u32, [u32; 2])> = Vec::new();
         for (index, face) in self.faces.iter().enumerate() {
@@ -113,7 +113,7 @@ impl<'a> Shape<'a> {
     }
 }
 
-/// The mean of corners, of the values that are claimed.
+/// Mean of corners; its value is the mean of the claimed ones.
 fn middle(corners: &[Corner]) -> Corner {
     let mean = |of: &dyn Fn(&Corner) -> f64| corners.iter().map(of).sum::<f64>() / corners.len() as f64;
     let claim = mean(&|corner| corner.claim);
@@ -126,7 +126,7 @@ fn middle(corners: &[Corner]) -> Corner {
     }
 }
 
-/// The direction in which a face looks (Newell), which need not be flat; down is negative here, so that up is positive.
+/// Normal of a face (Newell), which need not be flat; down is negative here, so that up is positive.
 fn normal(face: &[u32], places: &[[f64; 3]]) -> Option<[f64; 3]> {
     let mut sum = [0.0; 3];
     for (i, corner) in face.iter().enumerate() {
@@ -137,7 +137,7 @@ fn normal(face: &[u32], places: &[[f64; 3]]) -> Option<[f64; 3]> {
             *value += (a[j] - b[j]) * (a[k] + b[k]);
         }
     }
-    // Pixels go down: the mirrored corners turn the other way.
+    // The vertical axis of pixels points down, so the mirrored corners turn the other way.
     unit(sum.map(|value| -value))
 }
 
@@ -150,7 +150,7 @@ fn dot(a: &[f64; 3], b: &[f64; 3]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// A number for each node, the same for those in the same place.
+/// Number of each node, equal for nodes in the same place.
 fn merged(nodes: &[[f64; 3]]) -> Vec<u32> {
     let size = nodes.iter().flatten().filter(|value| value.is_finite()).fold(0.0, |m: f64, v| m.max(v.abs()));
     let cell = |value: f64| (1e6 * value / size).round() as i64;

@@ -1,28 +1,28 @@
-//! From where a surface is looked at, and how large its displacement is drawn.
+//! View of a surface: its direction, and how large its displacement is drawn.
 
 use std::f64::consts::{PI, TAU};
 
 use rubmap_analysis::result::FieldSurface;
 
-/// From where a surface is looked at.
+/// Direction from which a surface is seen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SurfaceView {
-    /// Along the axis, from where it points to.
+    /// Front view, along the axis, which points to the viewer.
     Front,
-    /// Along the axis, from the other side.
+    /// Rear view, along the axis, which points away from the viewer.
     Rear,
-    /// Across the axis. A sector is turned into the meridional plane: radius over axial coordinate, what has the largest angle in front.
+    /// Side view, across the axis. A sector is turned into the meridional plane: radius over axial coordinate, the largest angle in front.
     Meridional,
 }
 
-/// Share of the largest radius that the largest displacement is drawn as.
+/// Share of the largest radius at which the largest displacement is drawn.
 pub(super) const LARGEST_SHARE: f64 = 0.05;
 
-/// A view of one surface.
+/// View of one surface.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Camera {
     view: SurfaceView,
-    /// Angle in the middle of a sector; none of a wheel.
+    /// Angle of the middle of a sector; none for a wheel.
     sector: Option<f64>,
 }
 
@@ -31,7 +31,7 @@ impl Camera {
         Self { view, sector: middle(nodes) }
     }
 
-    /// To the right, up, and towards the viewer. Keeps the sense of rotation.
+    /// Projects a position: to the right, up, and towards the viewer. Keeps the sense of rotation.
     pub(super) fn project(self, [x, y, z]: [f64; 3]) -> [f64; 3] {
         match (self.view, self.sector) {
             (SurfaceView::Front, _) => [x, y, z],
@@ -44,7 +44,7 @@ impl Camera {
         }
     }
 
-    /// What it shows, in words.
+    /// Words for the view.
     pub(super) fn words(self) -> &'static str {
         match (self.view, self.sector) {
             (SurfaceView::Front, _) => "seen along the axis, which points to the viewer",
@@ -67,7 +67,7 @@ impl Camera {
     }
 }
 
-/// The middle of the angles that nodes take; none if there is no gap of half a turn between them, as on a wheel.
+/// Middle of the angles of nodes; none without a gap of half a turn between them, as on a wheel.
 fn middle(nodes: &[[f64; 3]]) -> Option<f64> {
     let radius = largest_radius(nodes);
     let off_axis = nodes.iter().filter(|[x, y, _]| f64::hypot(*x, *y) > 1e-9 * radius);
@@ -80,13 +80,13 @@ fn middle(nodes: &[[f64; 3]]) -> Option<f64> {
     (gap > PI).then_some(start + 0.5 * (TAU - gap))
 }
 
-/// The largest distance of a node from the axis.
+/// Largest distance of a node from the axis.
 pub(super) fn largest_radius(nodes: &[[f64; 3]]) -> f64 {
     let radii = nodes.iter().map(|[x, y, _]| f64::hypot(*x, *y));
     radii.filter(|radius| radius.is_finite()).fold(0.0, f64::max)
 }
 
-/// How many times as large as it is displacement is drawn, to two digits; 0 where nothing moves.
+/// Magnification of the displacement, to two digits; 0 where nothing moves.
 pub(super) fn stretch(surface: &FieldSurface) -> f64 {
     let moved = surface.displacement.iter().map(|[x, y, z]| x.hypot(*y).hypot(*z));
     let largest = moved.filter(|moved| moved.is_finite()).fold(0.0, f64::max);
@@ -94,7 +94,7 @@ pub(super) fn stretch(surface: &FieldSurface) -> f64 {
     if !(wanted.is_finite() && wanted > 0.0) {
         return 0.0;
     }
-    // 2.3e2 is written and read as it is shown.
+    // Parsing 2.3e2 gives the number that is shown.
     format!("{wanted:.1e}").parse().unwrap_or(0.0)
 }
 

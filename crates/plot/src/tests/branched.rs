@@ -1,11 +1,11 @@
-//! Branches that look like real ones: a resonance that stiffens where the tips touch, with what happens along it.
+//! Fixtures of branches: a resonance that stiffens where the tips touch, with bifurcations along it.
 
 use serde_json::{Value, json};
 
 use super::{map, point, rad_s, sensor, units};
 use rubmap_analysis::result::{Branches, Point};
 
-/// Speed in rpm at which the response has this amplitude: on the way up, and on the way down.
+/// Speed in rpm at which the response has this amplitude, on the way up or on the way down.
 pub(super) fn way(up: bool, amplitude: f64) -> f64 {
     let beside = 1200.0 * (1.0 / amplitude.powi(2) - 1.0).max(0.0).sqrt();
     22_000.0 * (1.0 + 0.2 * amplitude.powi(2)) + if up { -beside } else { beside }
@@ -33,15 +33,15 @@ fn bifurcation(kind: &str, rpm: f64, amplitude: f64) -> Value {
     found
 }
 
-/// Where the branch turns back, of amplitudes between these.
+/// Speed in rpm and amplitude at which the branch turns back, between two amplitudes.
 fn turn(low: f64, high: f64, sign: f64) -> (f64, f64) {
     let all = (0..=20_000).map(|k| low + (high - low) * f64::from(k) / 20_000.0);
     let best = all.max_by(|a, b| (sign * way(false, *a)).total_cmp(&(sign * way(false, *b)))).unwrap();
     (way(false, best), best)
 }
 
-/// Two folds, two flips with the branch between them on which motions repeat at every second lobe only, and on that a second frequency;
-/// `whole`: followed to all ends.
+/// Branches of a resonance: two folds, two flips with the branch between them on which motions repeat at every second lobe only, and on
+/// that a second frequency; `whole`: followed to all ends.
 pub(super) fn resonance(whole: bool) -> Branches {
     let (top, bottom) = (turn(0.9, 1.0, 1.0), turn(0.4, 0.7, -1.0));
     let (mut points, first) = (Vec::new(), 0.168);
@@ -55,7 +55,7 @@ pub(super) fn resonance(whole: bool) -> Branches {
         let amplitude = 1.0 - 0.69 * f64::from(k) / 60.0;
         let word = match amplitude {
             a if a > top.1 || a < bottom.1 => "stable",
-            // The multipliers of some could not be found.
+            // Multipliers of some points could not be found.
             a if (a - 0.80).abs() < 0.04 => "undecided",
             _ => "fold",
         };
@@ -97,7 +97,7 @@ pub(super) fn resonance(whole: bool) -> Branches {
     .unwrap()
 }
 
-/// The same over the clearance, with a point that meets another response.
+/// Branch over the clearance, with a point that meets another response.
 pub(super) fn over_clearance() -> Branches {
     let mut over = json!(resonance(true));
     over["parameter"] = json!("clearance");

@@ -9,7 +9,7 @@ use super::{corners, of_class, tick};
 use crate::{branches, figure};
 use rubmap_analysis::result::{Branches, Point, Stability};
 
-/// A line is solid up to the place of the bifurcation and dashed from there, and the mark stands at it.
+/// Changes of a line from solid to dashed are where the bifurcation and its mark are.
 #[test]
 fn lines_change_where_the_bifurcation_is() {
     let of = resonance(true);
@@ -66,7 +66,7 @@ fn marks_say_how_far_off_they_may_be() {
     );
 }
 
-/// Keys and headings of what is there, and nothing else.
+/// Keys and headings name the lines and marks that occur, and nothing else.
 #[test]
 fn keys_explain_the_branches_that_are_there() {
     let of = |branches: &Branches, sensor, marched: &[Point]| {
@@ -101,7 +101,7 @@ fn keys_explain_the_branches_that_are_there() {
     assert!(!clear.contains("of the sweep"), "speeds are dots over speed only");
 }
 
-/// Numbers that are none interrupt lines; the rest is where it was.
+/// Values that are not finite interrupt lines; the rest stays where it was.
 #[test]
 fn what_is_no_number_is_not_drawn() {
     for spoil in 0..4 {
@@ -164,7 +164,7 @@ fn figures_have_the_points_and_their_words() {
     assert_eq!(numbers(&trace(&figure, "the same, not settled")["x"]).len(), 1);
 }
 
-/// A hundred thousand points.
+/// Branches of a hundred thousand points make no large drawings.
 #[test]
 fn long_branches_make_no_large_drawings() {
     let mut long = resonance(true);

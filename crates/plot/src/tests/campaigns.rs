@@ -7,7 +7,7 @@ use super::{of_class, units};
 use crate::{campaign, figure};
 use rubmap_analysis::result::Campaign;
 
-/// Twelve designs over clearance and damping, at four speeds; one has no result at the last.
+/// Campaign of twelve designs over clearance and damping, at four speeds; one has no result at the last.
 pub(super) fn designs() -> Campaign {
     let parameter =
         |name: &str, at: &str| json!({"name": name, "at": [at], "from": 0.0, "to": 1.0, "levels": 4});
@@ -50,7 +50,7 @@ fn the_limit_stands_in_the_map_of_its_parameter_and_bars_begin_with_the_most() {
     assert_eq!(of_class(&read, "bar").count(), 4);
     let widths: Vec<f64> =
         of_class(&read, "bar").map(|bar| bar.attribute("width").unwrap().parse().unwrap()).collect();
-    // Clearance alone and with others, then damping.
+    // Sensitivities of the clearance alone and with others, then of the damping.
     assert!(widths[1] > widths[0] && widths[0] > widths[3] && widths[3] > widths[2], "{widths:?}");
     assert!((widths[0] / widths[1] - 0.65 / 0.78).abs() < 1e-3, "{widths:?}");
     for words in ["12 designs, 47 of 48 simulations", "amplitude, mm", "95 %"] {
@@ -60,7 +60,7 @@ fn the_limit_stands_in_the_map_of_its_parameter_and_bars_begin_with_the_most() {
     assert_eq!(of_class(&Document::parse(&other).unwrap(), "threshold").count(), 0);
 }
 
-/// Of designs with the same value the most severe; where nothing is known, nothing is shown.
+/// Cells show the most severe of the designs with the same value; nothing where nothing is known.
 #[test]
 fn the_map_has_the_most_severe_of_each_value() {
     let of = designs();
@@ -70,7 +70,7 @@ fn the_map_has_the_most_severe_of_each_value() {
         let expected = 0.3 - 0.8 * (value - 0.2);
         assert!((by_speed[0].unwrap() - expected).abs() < 1e-12);
     }
-    // The one without a result has the heaviest damping, and others its clearance.
+    // The design without a result has the heaviest damping, and others have its clearance.
     assert!(map[3].1[3].is_some() && of.map(1).len() == 3);
     let figure = serde_json::to_value(figure::campaign(&of, 0)).unwrap();
     assert_eq!(figure["data"][0]["z"].as_array().unwrap().len(), 4);
@@ -87,7 +87,8 @@ fn a_campaign_without_results_is_drawn_as_well() {
     figure::campaign(&of, 1);
 }
 
-/// The same designs with a model that is more severe at the first speed, less at the second, unclear at the third and not known at the last.
+/// Campaign of [`designs`] with a compared model that is more severe at the first speed, less at the second, unclear at the third and not
+/// known at the last.
 pub(super) fn compared() -> Campaign {
     let mut of = designs();
     for design in &mut of.designs {

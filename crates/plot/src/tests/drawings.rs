@@ -1,5 +1,5 @@
-//! All drawings alike: they can be read, say what they are and in which units, explain what is drawn and nothing else, and survive
-//! results with nothing in them.
+//! Common properties of all drawings: they can be read, name their content and units, explain the marks that occur and nothing else, and
+//! survive empty results.
 
 use roxmltree::Document;
 use rubmap_analysis::result::{ForceMap, Point, Quantity, SpeedHistories, SpeedSpectra, WearMap};
@@ -27,7 +27,7 @@ pub(super) fn mm() -> Units {
     serde_json::from_value(units()).unwrap()
 }
 
-/// A drawing, how its title begins, and the titles of its axes.
+/// Drawing, the beginning of its title, and the titles of its axes.
 type Drawing = (String, &'static str, &'static [&'static str]);
 
 fn all() -> Vec<Drawing> {
@@ -232,7 +232,7 @@ fn all() -> Vec<Drawing> {
 fn all_say_what_they_are_and_in_which_units() {
     for (drawing, title, axes) in all() {
         let read = Document::parse(&drawing).unwrap();
-        // Any letters may follow each other in an embedded image.
+        // Embedded images may contain any sequence of letters.
         let attributes =
             read.descendants().flat_map(|node| node.attributes()).map(|attribute| attribute.value());
         let mut written = attributes.filter(|value| !value.starts_with("data:"));
@@ -254,7 +254,7 @@ fn all_say_what_they_are_and_in_which_units() {
     }
 }
 
-/// Nothing is written beyond the edges of a drawing, as far as widths of texts can be told.
+/// Texts stay within the edges of a drawing, as far as their widths are known.
 #[test]
 fn no_text_leaves_the_drawing() {
     for (drawing, title, _) in all() {
@@ -390,7 +390,7 @@ fn other_keys_explain_what_is_there_only() {
     );
 }
 
-/// A nodal diameter n at engine order k is seen at k ± n.
+/// Lines of nodal diameter n at engine order k are seen at k ± n.
 #[test]
 fn the_fixed_frame_shifts_by_the_nodal_diameter() {
     let drawing = spectrum(&spectra(6), &credentials(), &mm(), 0, Frame::Fixed);
@@ -408,7 +408,7 @@ fn the_fixed_frame_shifts_by_the_nodal_diameter() {
     assert!(super::is_near(at("nodal diameter 0, engine order 10"), tick("10")));
 }
 
-/// Where |f − iΩ/2π| comes down to zero lie the crossings of n = 1, and lines go down to them.
+/// Crossings of n = 1 lie where |f − iΩ/2π| falls to zero, and lines go down to them.
 #[test]
 fn standing_waves_come_down_to_zero() {
     let mut modes = modes();
@@ -428,7 +428,7 @@ fn standing_waves_come_down_to_zero() {
     assert!(super::is_near(line[3].0, super::tick(&read, "6,000")), "{line:?}");
 }
 
-/// The casing before a tip is its clearance less the lobes, and motion is drawn at the angle where the tip is.
+/// Casing before a tip: clearance less lobes; motion is drawn at the angle of the tip.
 #[test]
 fn trajectories_stand_where_the_tip_is() {
     let mut recorded = recorded([3, 4], 8);
@@ -443,7 +443,7 @@ fn trajectories_stand_where_the_tip_is() {
     let read = Document::parse(&drawing).unwrap();
     let path = super::of_class(&read, "trajectory").next().unwrap();
     let highest = super::corners(path).into_iter().min_by(|a, b| a.1.total_cmp(&b.1)).unwrap();
-    // 90° of its own and two eighths of a revolution.
+    // The tip stands at 90° and has moved on by two eighths of a revolution.
     assert!(super::is_near(highest.0, super::tick(&read, "180°")), "{highest:?}");
     assert!(super::is_near(highest.1, super::level(&read, "0.1")), "{highest:?}");
     let wall = super::corners(super::of_class(&read, "casing").next().unwrap());
@@ -451,7 +451,7 @@ fn trajectories_stand_where_the_tip_is() {
     assert!(super::is_near(lowest, super::level(&read, "−0.1")), "0.3 less lobes of 0.4: {lowest}");
 }
 
-/// Fewest and emptiest results: each is a drawing, without numbers that are none.
+/// Results with the fewest and emptiest entries make drawings without numbers that are not finite.
 #[test]
 fn drawings_of_next_to_nothing_are_drawings() {
     let mut drawings = vec![
@@ -562,7 +562,7 @@ fn drawings_of_next_to_nothing_are_drawings() {
     }
 }
 
-/// An image has the width that was asked for, the shape of the drawing, and its texts, which are all that is lost without them.
+/// Images have the requested width, the proportions of the drawing, and its texts, which alone are lost without them.
 #[test]
 fn images_have_the_right_size_and_texts() {
     for (drawing, title, _) in all() {
@@ -581,7 +581,7 @@ fn images_have_the_right_size_and_texts() {
     }
 }
 
-/// However much there is, a drawing does not grow with it.
+/// Large results make no larger drawings.
 #[test]
 fn large_results_make_no_large_drawings() {
     let mut many = spectra(1);

@@ -1,5 +1,5 @@
-//! One of every figure: `cargo test --release -p rubmap-plot gallery_of_figures -- --ignored` leaves them in `target/gallery`, and, where
-//! `rubmap demo` left its results in `demo` in it, figures of those.
+//! Gallery of figures: `cargo test --release -p rubmap-plot gallery_of_figures -- --ignored` leaves one of every kind in `target/gallery`,
+//! and, where `rubmap demo` left its results in `demo` in it, figures of those.
 
 use std::path::{Path, PathBuf};
 
@@ -18,7 +18,7 @@ use crate::{
 };
 use rubmap_analysis::result::{Campbell, CriticalSpeeds, InteractionMap, Quantity};
 
-/// One of each kind, and what is particular.
+/// Figures of each kind, and of special cases, with their names.
 pub(super) fn all() -> Vec<(String, Figure)> {
     let whole = Window::default();
     let mut all = Vec::new();
@@ -92,7 +92,7 @@ pub(super) fn all() -> Vec<(String, Figure)> {
     all
 }
 
-/// Figures of what `rubmap demo` left, if it did.
+/// Figures of the results of `rubmap demo`, if there are any.
 fn demo(folder: &Path) -> Vec<(String, Figure)> {
     let (Some(map), Some(critical), Some(modes)) = (
         read::<InteractionMap>(&folder.join("interaction-map.json")),

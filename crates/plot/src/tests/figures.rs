@@ -1,4 +1,4 @@
-//! Figures: their numbers are those of the results, and they leave to the page what is the page's.
+//! Properties of figures: their numbers are those of the results, and the page decides its own style.
 
 use serde_json::{Value, json};
 
@@ -12,7 +12,7 @@ use crate::figure;
 use crate::{ForceQuantity, Frame, HaighColour, HistoryQuantity, LevelColour, VerticalAxis, Window};
 use rubmap_analysis::result::Quantity;
 
-/// The trace of this name.
+/// Finds the trace of this name.
 pub(super) fn trace<'a>(figure: &'a Value, name: &str) -> &'a Value {
     let traces = figure["data"].as_array().unwrap();
     traces.iter().find(|trace| trace["name"] == name).unwrap_or_else(|| panic!("no {name}: {figure}"))
@@ -42,7 +42,7 @@ fn colours_of_the_page_are_left_to_the_page() {
     }
 }
 
-/// The row of `map()` has 0.01 at engine order 1 and 0.5 at 2; its third speed diverged.
+/// Amplitudes in the row of `map()`: 0.01 at engine order 1 and 0.5 at 2; its third speed diverged.
 #[test]
 fn cells_have_the_amplitudes_of_the_map() {
     let whole = Window::default();
@@ -80,7 +80,7 @@ fn cells_have_the_amplitudes_of_the_map() {
     assert_eq!(figure["layout"]["meta"]["speed_indices"], json!([0, 1, 2, 3, 4]));
 }
 
-/// With frequencies upwards 0.5 mm at engine order 2 lie at 10,000 / 60 · 2 Hz.
+/// Frequencies on the vertical axis: 0.5 mm at engine order 2 lie at 10,000 / 60 · 2 Hz.
 #[test]
 fn frequencies_are_engine_orders_times_the_speed() {
     let whole = Window::default();
@@ -101,7 +101,7 @@ fn frequencies_are_engine_orders_times_the_speed() {
     }
 }
 
-/// 1,000 speeds by 1,000 engine orders, one amplitude of which is the largest.
+/// Map of 1,000 speeds by 1,000 engine orders, one amplitude of which is the largest.
 #[test]
 fn a_large_map_is_thinned_by_its_largest() {
     let mut large = map();
@@ -144,7 +144,7 @@ fn peaks_have_the_errors_of_the_table() {
     assert!((driven["x"][0].as_f64().unwrap() - 12_500.0).abs() < 1e-6);
 }
 
-/// In the fixed frame the line of nodal diameter 2 at engine order 4 is seen at 6 and at 2.
+/// Lines of nodal diameter 2 at engine order 4 are seen at 6 and at 2 in the fixed frame.
 #[test]
 fn spectra_are_where_they_are_seen() {
     let figure = |frame| json!(figure::spectrum(&spectra(6), &credentials(), &mm(), 0, frame));
@@ -162,7 +162,7 @@ fn spectra_are_where_they_are_seen() {
     assert_eq!(seen(&fixed, "nodal diameter 2, |k−n|").0, 2.0);
 }
 
-/// Engine orders of the rotating frame are elsewhere in the fixed one: neither their lines nor crossings at them are drawn.
+/// Engine orders of the rotating frame are at other orders in the fixed one: neither their lines nor crossings at them are drawn.
 #[test]
 fn the_fixed_frame_has_no_engine_orders_of_the_wheel() {
     let names = |figure: Value| -> Vec<String> {
@@ -263,7 +263,7 @@ fn campbell_lines_are_the_frequencies() {
     assert!((seen[0] - against).abs() < 1e-9, "{seen:?}");
 }
 
-/// Where nothing is known there are words, and no trace.
+/// Empty results give a message and no trace.
 #[test]
 fn nothing_to_draw_is_said() {
     let mut still = spectra(3);

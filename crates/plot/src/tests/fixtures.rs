@@ -1,4 +1,4 @@
-//! Results that look like real ones, for drawings of them.
+//! Fixtures for drawings: results that look like real ones.
 
 use std::f64::consts::TAU;
 
@@ -7,13 +7,13 @@ use serde_json::{Value, json};
 
 use super::{SPEEDS_RPM, map, point, rad_s, units};
 
-/// Lobes of the scene of `map()`.
+/// Height of the lobes of the scene of `map()` at an angle.
 fn lobe(angle: f64) -> f64 {
     let wrapped = |centre: f64| (angle - centre) - TAU * ((angle - centre) / TAU).round();
     [0.0, 0.5 * TAU].map(|centre| 0.4 * (-(wrapped(centre) / 0.3f64).powi(2)).exp()).iter().sum()
 }
 
-/// Two tips and a sensor elsewhere over some revolutions: pushed by two lobes and ringing after them.
+/// Histories of two tips and another sensor over some revolutions: pushed by two lobes and ringing after them.
 pub(super) fn recorded(revolutions: [u32; 2], samples: u32) -> SpeedHistories {
     let count = (revolutions[1] - revolutions[0]) * samples;
     let turned = |j: u32| TAU * f64::from(j + 1) / f64::from(samples);
@@ -54,7 +54,7 @@ pub(super) fn recorded(revolutions: [u32; 2], samples: u32) -> SpeedHistories {
     .unwrap()
 }
 
-/// Contact of so many nodes at the speeds of `map()`; the third has no result.
+/// Contact of this number of nodes at the speeds of `map()`; the third has no result.
 pub(super) fn contact(nodes: usize) -> ForceMap {
     let row = |speed: usize| {
         let along = |scale: f64| -> Vec<f64> {
@@ -79,7 +79,7 @@ pub(super) fn contact(nodes: usize) -> ForceMap {
     .unwrap()
 }
 
-/// Wear of two lobes on so many rods before so many nodes.
+/// Wear of two lobes on this number of rods before this number of nodes.
 pub(super) fn worn(rods: usize, nodes: usize) -> WearMap {
     let depth = |rod: usize, node: usize| {
         let angle = TAU * (rod as f64 + 0.5) / rods as f64;
@@ -88,7 +88,7 @@ pub(super) fn worn(rods: usize, nodes: usize) -> WearMap {
     WearMap { depths: (0..rods).map(|rod| (0..nodes).map(|node| depth(rod, node)).collect()).collect() }
 }
 
-/// Engine order k to 12 in bins of a quarter; 4 on nodal diameter 2, 6 on 1, and some noise.
+/// Spectra to engine order 12 in bins of a quarter: engine order 4 on nodal diameter 2, 6 on 1, and some noise.
 pub(super) fn spectra(nodal_diameters: usize) -> SpeedSpectra {
     let orders: Vec<f64> = (0..=48).map(|bin| 0.25 * f64::from(bin)).collect();
     let row = |n: usize| -> Vec<f64> {
@@ -110,7 +110,7 @@ pub(super) fn spectra(nodal_diameters: usize) -> SpeedSpectra {
     .unwrap()
 }
 
-/// A blade on a disk: faces at ±0.3 rad, clamped at the bore, `tips` contact nodes.
+/// Sector with a blade on a disk: faces at ±0.3 rad, clamped at the bore, `tips` contact nodes.
 pub(super) fn sector(tips: usize) -> SectorGeometry {
     let mut nodes = Vec::new();
     for ring in 0..8 {

@@ -1,6 +1,6 @@
-//! Drawings to be looked at: `cargo test --release -p rubmap-plot gallery -- --ignored` leaves all of them in `target/gallery` as SVG,
-//! and as PNG in colour and in grey, and the figures. Where `rubmap demo` and `rubmap study` left their results in `demo` and `study` in it, those are
-//! drawn.
+//! Gallery of drawings: `cargo test --release -p rubmap-plot gallery -- --ignored` leaves all of them in `target/gallery` as SVG, and as
+//! PNG in colour and in grey, and the figures. Where `rubmap demo` and `rubmap study` left their results in `demo` and `study` in it, those
+//! are drawn.
 
 use std::path::{Path, PathBuf};
 

@@ -1,35 +1,35 @@
-//! A small impeller of our own to be drawn: a hub and thin blades, as the surface of a wheel or of a sector.
+//! Fixture of a small impeller: a hub and thin blades, as the surface of a wheel or of a sector.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use rubmap_analysis::result::{FieldSurface, SurfaceColour};
 
-/// Of how many sectors a wheel has.
+/// Number of sectors of a wheel.
 pub(super) const SECTORS: usize = 9;
 
-/// A point of a meridional section: axial coordinate and radius.
+/// Point of a meridional section: axial coordinate and radius.
 type Place = (f64, f64);
 
 fn between(a: Place, b: Place, share: f64) -> Place {
     (a.0 + share * (b.0 - a.0), a.1 + share * (b.1 - a.1))
 }
 
-/// The hub from the front to the rim.
+/// Meridional curve of the hub from the front to the rim.
 fn hub(s: f64) -> Place {
     (40.0 - 37.0 * (FRAC_PI_2 * s).sin(), 60.0 - 42.0 * (FRAC_PI_2 * s).cos())
 }
 
-/// The bore and then the back.
+/// Meridional curve of the bore and then the back.
 fn core(s: f64) -> Place {
     if s < 0.5 { (40.0 * (1.0 - 2.0 * s), 12.0) } else { (0.0, 12.0 + 96.0 * (s - 0.5)) }
 }
 
-/// The tips of the blades.
+/// Meridional curve of the blade tips.
 fn tip(s: f64) -> Place {
     (42.0 - 34.0 * (FRAC_PI_2 * s).sin(), 62.0 - 26.0 * (FRAC_PI_2 * s).cos())
 }
 
-/// Angle of the blade against its root at the rim.
+/// Angle of the blade relative to its root at the rim.
 fn wrap(s: f64) -> f64 {
     0.9 * (1.0 - s).powi(2) - 0.3
 }
@@ -38,13 +38,13 @@ const THICKNESS: f64 = 1.4;
 
 struct Builder {
     nodes: Vec<[f64; 3]>,
-    /// Share of the blade from hub to tip; 0 in the hub.
+    /// Relative height of each node on the blade, from hub to tip; 0 in the hub.
     heights: Vec<f64>,
     faces: Vec<Vec<u32>>,
 }
 
 impl Builder {
-    /// A patch of `rows` × `columns` faces, seen from outside if rows × columns points there.
+    /// Adds a patch of `rows` × `columns` faces, seen from outside if rows × columns points there.
     fn patch(&mut self, rows: usize, columns: usize, at: impl Fn(f64, f64) -> (Place, f64, f64)) {
         let first = self.nodes.len() as u32;
         for i in 0..=rows {
@@ -86,7 +86,7 @@ impl Builder {
     }
 }
 
-/// Sectors `which`, so finely divided, in a mode of nodal diameter `i`; nothing is claimed of the tips.
+/// Surface of the sectors `which`, divided this finely, in a mode of nodal diameter `i`; nothing is claimed of the tips.
 pub(super) fn impeller(which: std::ops::Range<usize>, fine: usize, i: f64) -> FieldSurface {
     let mut built = Builder { nodes: Vec::new(), heights: Vec::new(), faces: Vec::new() };
     let closed = which.len() < SECTORS;

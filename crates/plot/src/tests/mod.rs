@@ -1,4 +1,4 @@
-//! Drawings read back: what must be seen is there, where it belongs.
+//! Drawings read back: their content is there, where it belongs.
 
 mod branched;
 mod branching;
@@ -58,7 +58,7 @@ fn point(index: usize, status: &str) -> Value {
     point
 }
 
-/// Five speeds; the third diverged, the fourth is not settled.
+/// Map of five speeds; the third diverged, the fourth is not settled.
 fn map() -> InteractionMap {
     let row = json!([9.0, 0.0, 0.01, 0.0, 0.5, 0.0, 0.002]);
     serde_json::from_value(json!({
@@ -114,7 +114,7 @@ fn modes() -> Campbell {
     .unwrap()
 }
 
-/// `modes` with its frequencies split by ∓3 Hz.
+/// Modes of `modes` with their frequencies split by ∓3 Hz.
 fn waves() -> Campbell {
     let modes = modes();
     let by = |split: f64| {
@@ -125,7 +125,7 @@ fn waves() -> Campbell {
     Campbell { waves: Some(waves), ..modes }
 }
 
-/// Both waves of every mode are drawn in the place of one curve, and told apart in the legend.
+/// Waves of a split mode are drawn in the place of one curve each, and distinguished in the legend.
 #[test]
 fn split_waves_are_drawn_apart() {
     let count = |drawing: &str, words: &str| drawing.matches(words).count();
@@ -158,7 +158,7 @@ fn split_waves_are_drawn_apart() {
     assert_eq!(count(&campbell(&waves()), "forward waves"), 1);
 }
 
-/// A K(Ω) that cannot be trusted is said above the drawing, and only then.
+/// Warnings about an unreliable K(Ω) stand above the drawing, and only then.
 #[test]
 fn unsound_stiffening_stands_above_the_drawing() {
     let drawings = |verdict: &str| {
@@ -185,7 +185,7 @@ fn unsound_stiffening_stands_above_the_drawing() {
     }
 }
 
-/// A critical speed without a dominant line has no engine order.
+/// Critical speeds without a dominant line have no engine order.
 #[test]
 fn a_critical_speed_without_a_line_is_labelled_without_one() {
     let mut critical = critical();
@@ -209,7 +209,7 @@ fn number(node: Node, name: &str) -> f64 {
     node.attribute(name).unwrap().parse().unwrap()
 }
 
-/// Where a tick label stands: the axis as the reader sees it.
+/// Position of a tick label: the axis as the reader sees it.
 fn tick(drawing: &Document, label: &str) -> f64 {
     number(drawing.descendants().find(|node| node.text() == Some(label)).unwrap(), "x")
 }
@@ -354,7 +354,7 @@ fn crossings_of_the_campbell_diagram_lie_on_their_engine_order() {
     );
 }
 
-/// Width, height and the red, green, blue and opacity of every pixel.
+/// Width, height and the red, green, blue and opacity of every pixel of an image.
 fn decoded(image: &[u8]) -> (u32, u32, Vec<u8>) {
     let mut reader = png::Decoder::new(std::io::Cursor::new(image)).read_info().unwrap();
     let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
@@ -363,14 +363,14 @@ fn decoded(image: &[u8]) -> (u32, u32, Vec<u8>) {
     (frame.width, frame.height, pixels)
 }
 
-/// Places along a path of straight lines.
+/// Corners of a path of straight lines.
 fn corners(path: Node) -> Vec<(f64, f64)> {
     let steps = path.attribute("d").unwrap().split(['M', 'L']).skip(1);
     let pair = |step: &str| step.split_once(' ').map(|(x, y)| (x.parse().unwrap(), y.parse().unwrap()));
     steps.map(|step| pair(step).unwrap()).collect()
 }
 
-/// Where a label of the vertical axis points to.
+/// Height to which a label of the vertical axis points.
 fn level(drawing: &Document, label: &str) -> f64 {
     number(drawing.descendants().find(|node| node.text() == Some(label)).unwrap(), "y") - 4.5
 }

@@ -1,4 +1,4 @@
-//! Run-ups that look like real ones: a blade mode of 400 Hz that engine order 4 excites, passed at several rates.
+//! Fixtures of run-ups: a blade mode of 400 Hz that engine order 4 excites, passed at several rates.
 
 use std::f64::consts::TAU;
 
@@ -7,26 +7,26 @@ use serde_json::{Value, json};
 use super::{map, point, sensor, units};
 use rubmap_analysis::result::{Point, RunUps};
 
-/// Angular frequency and modal damping of the mode.
+/// Angular frequency of the mode, rad/s; `DAMPING`: its modal damping.
 const OMEGA: f64 = TAU * 400.0;
 const DAMPING: f64 = 0.002;
 
-/// The engine order that excites it, and how far it swings at most if one stays there.
+/// Engine order that excites the mode; `LARGEST`: its steady amplitude at resonance.
 const ORDER: f64 = 4.0;
 const LARGEST: f64 = 0.8;
 
 const REVOLUTIONS: u64 = 8;
 
-/// Lines of a spectrum: to engine order 12.
+/// Number of lines of a spectrum: to engine order 12.
 const LINES: usize = 97;
 
-/// The steady amplitude at a speed.
+/// Steady amplitude at a speed.
 fn steady(speed_rad_s: f64) -> f64 {
     let off = (ORDER * speed_rad_s - OMEGA) / (DAMPING * OMEGA);
     LARGEST / (1.0 + off * off).sqrt()
 }
 
-/// Line by line under a Hann window: the forced response, another order, what rings at the frequency of the mode, and the mean.
+/// Spectrum under a Hann window, line by line: the forced response, another order, the ringing at the frequency of the mode, and the mean.
 fn spectrum(speed_rad_s: f64, forced: f64, ringing: f64) -> Vec<f64> {
     let lines = [(0.0, 0.4), (ORDER, forced), (8.0, 0.004), (OMEGA / speed_rad_s, ringing)];
     let line = |j: usize| {
@@ -98,7 +98,7 @@ fn run(number: usize, rate: Option<f64>, frames: Vec<Value>) -> Value {
     run
 }
 
-/// From 4,500 to 7,500 rpm, or down, at these rates in rad/s².
+/// Run-ups from 4,500 to 7,500 rpm, or run-downs, at these rates in rad/s².
 pub(super) fn passed(rates: &[f64], upwards: bool) -> RunUps {
     let (low, high) = (super::rad_s(4_500.0), super::rad_s(7_500.0));
     let (from, sign) = if upwards { (low, 1.0) } else { (high, -1.0) };
@@ -112,12 +112,12 @@ pub(super) fn passed(rates: &[f64], upwards: bool) -> RunUps {
     )
 }
 
-/// More rates than a key lists.
+/// Rates of more runs than a key lists.
 pub(super) fn many_rates() -> Vec<f64> {
     (0..40).map(|k| 20.0 * 1.09f64.powi(k)).collect()
 }
 
-/// Up to 6,500 rpm, held there, and down again.
+/// Run up to 6,500 rpm, held there, and down again.
 pub(super) fn through_points() -> RunUps {
     let points = [(0.0, 4_500.0), (2.0, 6_500.0), (3.0, 6_500.0), (7.0, 4_500.0)];
     let points = points.map(|(time, rpm)| (time, super::rad_s(rpm)));

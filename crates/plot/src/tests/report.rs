@@ -11,7 +11,7 @@ use rubmap_analysis::result::{
     CriticalSpeeds, FieldSurface, InteractionMap, Strengths, ValidityMeasure, ValidityVerdict,
 };
 
-/// The page as XML: HTML's elements without an end get one.
+/// Converts a page to XML: elements of HTML without an end get one.
 fn as_xml(page: &str) -> String {
     let page = page.strip_prefix("<!DOCTYPE html>").expect("a document type");
     page.replace("initial-scale=1\">", "initial-scale=1\"/>").replace("utf-8\">", "utf-8\"/>")
@@ -100,7 +100,7 @@ fn page(
     as_xml(&report::sweep(&report::Head::default(), &found))
 }
 
-/// What was not looked at is named, where linear theory is said to hold and where it is not.
+/// Measures that were not evaluated are named, whether linear theory is said to hold or not.
 #[test]
 fn a_report_says_what_validity_lacks() {
     let mut map = stressed_map();
@@ -125,11 +125,11 @@ fn a_report_says_what_validity_lacks() {
     ] {
         assert!(words.contains(expected), "{expected}: {words}");
     }
-    // In the table of critical speeds, too.
+    // The table of critical speeds names them, too.
     assert_eq!(words.matches("linear theory holds as far as is known").count(), 2);
 }
 
-/// Stress, margin, linear theory and pictures have their sections, with their numbers; without them there are none.
+/// Sections on stress, margin, linear theory and pictures hold their numbers; without numbers there is no section.
 #[test]
 fn a_report_says_what_is_left_and_what_is_not_valid() {
     let text = |page: &str| {
@@ -158,7 +158,7 @@ fn a_report_says_what_is_left_and_what_is_not_valid() {
     let read = Document::parse(&full).unwrap();
     let drawings = read.descendants().filter(|node| node.tag_name().name() == "svg").count();
     assert_eq!(drawings, 4, "map, Haigh diagram, and a sector from two sides");
-    // Drawings share the page: what has one name is one thing.
+    // Drawings share the page, so equal ids must mean equal elements.
     let mut named = std::collections::BTreeMap::new();
     for node in
         read.descendants().filter(|node| node.has_tag_name(("http://www.w3.org/2000/svg", "linearGradient")))

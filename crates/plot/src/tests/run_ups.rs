@@ -12,7 +12,7 @@ use rubmap_analysis::result::RunUps;
 
 const UNITS: [SpectrogramUnit; 2] = [SpectrogramUnit::Order, SpectrogramUnit::Hz];
 
-/// Where the rings of the largest amplitudes are, the highest first.
+/// Positions of the rings of the largest amplitudes, the highest first.
 fn peaks(read: &Document) -> Vec<(f64, f64)> {
     let rings = of_class(read, "peak").map(|peak| peak.first_element_child().unwrap());
     rings.map(|ring| (number(ring, "cx"), number(ring, "cy"))).collect()
@@ -44,7 +44,7 @@ fn every_run_is_a_line_and_speeds_of_a_sweep_are_dots() {
     assert_eq!(key(&alone), ["400 rad/s²", "largest half peak-to-peak"]);
 }
 
-/// Places of corners are speeds and amplitudes of frames.
+/// Corners of lines are speeds and amplitudes of frames.
 #[test]
 fn lines_go_through_their_frames() {
     let of = passed(&[400.0], true);
@@ -65,7 +65,7 @@ fn lines_go_through_their_frames() {
     }
 }
 
-/// Who passes faster swings less, and past the critical speed: above it on the way up, below it on the way down.
+/// Faster runs reach less, and past the critical speed: above it on the way up, below it on the way down.
 #[test]
 fn the_rate_lowers_and_moves_the_peak() {
     for (upwards, side) in [(true, 1.0), (false, -1.0)] {
@@ -125,7 +125,7 @@ fn what_must_be_known_stands_below_the_title() {
     }
 }
 
-/// The line of engine order 8 is where its order or its frequency is at every speed, and the mode rings at 400 Hz.
+/// Lines of engine order 8 are at its order or its frequency at every speed, and the mode rings at 400 Hz.
 #[test]
 fn engine_orders_fan_out_over_hz() {
     let of = passed(&[50.0], true);
@@ -163,7 +163,7 @@ fn engine_orders_fan_out_over_hz() {
     assert!(rises.iter().all(|(from, to)| ((foot - to) / (foot - from) - ratio).abs() < 1e-3), "{rises:?}");
 }
 
-/// The mean of 0.4 is neither shown nor does it set the scale.
+/// Mean values, 0.4 here, are neither shown nor set the scale.
 #[test]
 fn the_mean_is_left_out() {
     let figure = json!(figure::spectrogram(&passed(&[400.0], true), 0, 0, SpectrogramUnit::Order));
@@ -172,7 +172,7 @@ fn the_mean_is_left_out() {
     assert_eq!(numbers(&figure["data"][0]["y"])[0], 0.25);
 }
 
-/// Over the speed as long as it does not turn back, even if it is held; otherwise over time, with the speed above.
+/// Spectrograms are over the speed as long as it does not turn back, even if it is held; otherwise over time, with the speed above.
 #[test]
 fn a_speed_that_turns_back_is_drawn_over_time() {
     let units = |of: &RunUps| {
@@ -267,7 +267,7 @@ fn the_same_run_ups_are_the_same_drawings() {
     assert_eq!(all(&of), all(&of.clone()));
 }
 
-/// Many frames, or many lines: one amplitude of all is the largest, and is still there.
+/// Runs of many frames, or many lines, still show their single largest amplitude.
 #[test]
 fn long_runs_make_no_large_drawings() {
     for (frames, lines) in [(10_000, 201), (60, 8_001)] {

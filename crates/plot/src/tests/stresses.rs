@@ -11,7 +11,7 @@ use crate::{
     HaighColour, LevelColour, VerticalAxis, Window, critical_speeds, haigh, interaction_map, map_sheet,
 };
 
-/// Fatigue strength 120 and ultimate strength 400 of the blade.
+/// Strengths of the blade: fatigue 120 and ultimate 400.
 pub(super) fn strengths() -> Vec<Strengths> {
     serde_json::from_value(json!([
         {"set": "BLADE", "fatigue": 120.0, "ultimate": 400.0, "yield": 350.0, "source": "2e8 cycles, a <handbook>"},
@@ -20,7 +20,7 @@ pub(super) fn strengths() -> Vec<Strengths> {
     .unwrap()
 }
 
-/// Cycles about `mean` and `alternating` of a blade and a disk.
+/// Stress with cycles about `mean` and `alternating`, of a blade and a disk.
 pub(super) fn stress(mean: f64, alternating: f64) -> PointStress {
     let cycle = |node: u64, share: f64| {
         let (mean, alternating) = (share * mean, share * alternating);
@@ -44,7 +44,7 @@ pub(super) fn validity(verdict: &str, over_thickness: f64) -> Validity {
     .unwrap()
 }
 
-/// The map of five speeds; linear theory is doubtful at the fourth and left at the fifth.
+/// Map of five speeds; linear theory is doubtful at the fourth and left at the fifth.
 pub(super) fn stressed_map() -> InteractionMap {
     let mut map = map();
     let verdicts = [("linear", 0.1), ("linear", 0.2), ("linear", 0.3), ("doubtful", 1.2), ("beyond", 12.9)];
@@ -135,7 +135,7 @@ fn texts(drawing: &str) -> String {
     read.descendants().filter_map(|node| node.text()).collect::<Vec<_>>().join("|")
 }
 
-/// The critical speeds of the map: 13,000 rpm is doubtful.
+/// Critical speeds of the map: linear theory is doubtful at 13,000 rpm.
 pub(super) fn stressed_critical() -> CriticalSpeeds {
     let mut critical = critical();
     let map = stressed_map();
@@ -146,7 +146,7 @@ pub(super) fn stressed_critical() -> CriticalSpeeds {
     critical
 }
 
-/// Where linear theory is doubtful or left, the map says so at these speeds, with the number; elsewhere nothing is said.
+/// Speeds at which linear theory is doubtful or left are marked with the deciding number; other speeds have no mark.
 #[test]
 fn the_map_marks_where_linear_theory_does_not_hold() {
     let drawn = |map: &InteractionMap, by| {

@@ -130,7 +130,7 @@ fn a_study_without_completed_runs_says_why() {
     assert!(Document::parse(&absent).is_ok() && absent.contains("no speed of index 7"));
 }
 
-/// A line per size, each a spike of its size at sample `spike` of so many; the reference last.
+/// Histories with a line per size, each a spike of its size at sample `spike` of `samples`; the reference last.
 pub(super) fn first_revolutions(sizes: &[u32], samples: usize, spike: usize) -> Histories {
     let line = |(i, &modes): (usize, &u32)| {
         let mut displacement = vec![0.0; samples];

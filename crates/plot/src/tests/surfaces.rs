@@ -10,7 +10,7 @@ use crate::{SurfaceView, surface};
 
 const VIEWS: [SurfaceView; 3] = [SurfaceView::Front, SurfaceView::Rear, SurfaceView::Meridional];
 
-/// Width and places in the palette of the only image.
+/// Width and palette indices of the only image.
 fn image(drawing: &str) -> (usize, Vec<u8>) {
     let drawing = Document::parse(drawing).unwrap();
     let image = drawing.descendants().find(|node| node.has_tag_name("image")).unwrap();
@@ -24,7 +24,7 @@ fn turned(surface: &FieldSurface, angle: f64) -> FieldSurface {
     FieldSurface { nodes: all(&surface.nodes), displacement: all(&surface.displacement), ..surface.clone() }
 }
 
-/// A wheel in nodal diameter 0 looks the same after a turn by a sector; after half of one it does not.
+/// Wheels in nodal diameter 0 look the same after a turn by a sector; after half of one they do not.
 #[test]
 fn a_turn_by_a_sector_is_not_seen() {
     let wheel = impeller(0..SECTORS, 6, 0.0);
@@ -37,7 +37,7 @@ fn a_turn_by_a_sector_is_not_seen() {
     assert!(whole < 0.002 && half > 0.05, "{whole} {half}");
 }
 
-/// From both sides of the axis the silhouettes are mirrored.
+/// Silhouettes from both sides of the axis are mirror images.
 #[test]
 fn front_and_rear_have_one_silhouette() {
     let mut wheel = impeller(0..SECTORS, 6, 0.0);
@@ -80,7 +80,7 @@ fn a_drawing_says_what_it_shows() {
     }
 }
 
-/// A sector whose cyclic faces are open shows its inside, where there is one.
+/// Sectors with open cyclic faces show their inside, where there is one.
 #[test]
 fn open_surfaces_show_their_inside() {
     let mut sector = impeller(0..1, 5, 2.0);
@@ -97,7 +97,7 @@ fn open_surfaces_show_their_inside() {
     assert!(surface(&sector, SurfaceView::Meridional).contains("inside of an open surface"));
 }
 
-/// The largest displacement takes its share of the drawing: two plates, one of which moves by a tenth of a millimetre.
+/// Displacements take their share of the drawing: two plates, one of which moves by a tenth of a millimetre.
 #[test]
 fn displacement_is_as_large_as_is_said() {
     let plate = |x: f64| [[x, 0.0, 0.0], [x + 10.0, 0.0, 0.0], [x + 10.0, 10.0, 0.0], [x, 10.0, 0.0]];
@@ -162,7 +162,7 @@ fn what_is_odd_is_still_a_drawing() {
     }
 }
 
-/// Forty thousand nodes: no larger than a few hundred kilobytes.
+/// Meshes of forty thousand nodes make drawings of a few hundred kilobytes at most.
 #[test]
 fn a_fine_mesh_makes_no_larger_drawing() {
     let fine = impeller(0..SECTORS, 28, 2.0);

@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 use crate::natural::{CORNERS, EDGES, Natural};
 
-/// The trilinear functions.
+/// Trilinear shape functions.
 pub fn linear(xi: Natural) -> [f64; 8] {
     CORNERS.map(|c| (0..3).map(|d| 0.5 * (1.0 + c[d] * xi[d])).product())
 }
@@ -17,7 +17,7 @@ pub fn linear_derivatives(xi: Natural) -> [Vector3<f64>; 8] {
     })
 }
 
-/// The serendipity functions of 20 nodes.
+/// Serendipity shape functions of 20 nodes.
 ///
 /// Corners `N = (1 + ξ_a ξ)(1 + η_a η)(1 + ζ_a ζ)(ξ_a ξ + η_a η + ζ_a ζ − 2)/8`, mid-edge nodes
 /// `N = (1 − ξ²)(1 + η_a η)(1 + ζ_a ζ)/4` along ξ and alike along η and ζ. Complete to second degree in ξ, η, ζ: a
@@ -54,7 +54,7 @@ pub fn quadratic_derivatives(xi: Natural) -> [Vector3<f64>; 20] {
     })
 }
 
-/// The factors of a function in one direction and their derivatives: `1 + c ξ` at an end, `1 − ξ²` in the middle.
+/// Factor of a function in one direction and its derivative: `1 + c ξ` at an end, `1 − ξ²` in the middle.
 fn factor(c: f64, xi: f64) -> (f64, f64) {
     if c == 0.0 { (1.0 - xi * xi, -2.0 * xi) } else { (1.0 + c * xi, c) }
 }

@@ -9,7 +9,7 @@ use nalgebra::Vector3;
 use crate::element::ElementKind;
 use crate::natural::Natural;
 
-/// `N_a(ξ)` of every node.
+/// Shape functions `N_a(ξ)` of every node.
 pub fn functions(kind: ElementKind, xi: Natural) -> Vec<f64> {
     use ElementKind::{C3D4, C3D6, C3D8, C3D8I, C3D10, C3D15, C3D20, C3D20R, QM6};
     match kind {
@@ -22,7 +22,7 @@ pub fn functions(kind: ElementKind, xi: Natural) -> Vec<f64> {
     }
 }
 
-/// `∂N_a/∂ξ` of every node.
+/// Derivatives `∂N_a/∂ξ` of every node.
 pub fn derivatives(kind: ElementKind, xi: Natural) -> Vec<Vector3<f64>> {
     use ElementKind::{C3D4, C3D6, C3D8, C3D8I, C3D10, C3D15, C3D20, C3D20R, QM6};
     match kind {
@@ -40,7 +40,7 @@ mod tests {
     use super::*;
     use crate::topology::Topology;
 
-    /// One at its own node and zero at all others; together one everywhere; derivatives those of differences.
+    /// Functions are one at their own node and zero at all others; together one everywhere; derivatives those of differences.
     #[test]
     fn functions_are_those_of_their_nodes() {
         for kind in ElementKind::ALL {

@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 use crate::natural::{Natural, TETRAHEDRON_EDGES};
 
-/// The four barycentric coordinates, each with its derivative.
+/// Barycentric coordinates, all four, each with its derivative.
 pub(super) fn linear(xi: Natural) -> [(f64, Vector3<f64>); 4] {
     [
         (1.0 - xi[0] - xi[1] - xi[2], Vector3::new(-1.0, -1.0, -1.0)),
@@ -14,7 +14,7 @@ pub(super) fn linear(xi: Natural) -> [(f64, Vector3<f64>); 4] {
     ]
 }
 
-/// Corners `L(2L − 1)`, middles of edges `4 L_a L_b`.
+/// Quadratic shape functions: corners `L(2L − 1)`, middles of edges `4 L_a L_b`.
 pub(super) fn quadratic(xi: Natural) -> [(f64, Vector3<f64>); 10] {
     let l = linear(xi);
     std::array::from_fn(|a| match l.get(a) {

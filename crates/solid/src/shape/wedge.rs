@@ -9,7 +9,7 @@ fn barycentric(xi: Natural) -> [(f64, Vector3<f64>); 3] {
     [(1.0 - xi[0] - xi[1], Vector3::new(-1.0, -1.0, 0.0)), (xi[0], Vector3::x()), (xi[1], Vector3::y())]
 }
 
-/// `L(1 ± ζ)/2`.
+/// Linear shape functions `L(1 ± ζ)/2`.
 pub(super) fn linear(xi: Natural) -> [(f64, Vector3<f64>); 6] {
     let l = barycentric(xi);
     std::array::from_fn(|a| {
@@ -19,8 +19,8 @@ pub(super) fn linear(xi: Natural) -> [(f64, Vector3<f64>); 6] {
     })
 }
 
-/// The serendipity functions: corners `L(1 ± ζ)(2L − 2 ± ζ)/2`, middles of the triangles' edges `2 L_a L_b (1 ± ζ)`, of those along
-/// ζ `L(1 − ζ²)`.
+/// Serendipity shape functions: corners `L(1 ± ζ)(2L − 2 ± ζ)/2`, middles of the triangles' edges `2 L_a L_b (1 ± ζ)`, of those along ζ
+/// `L(1 − ζ²)`.
 pub(super) fn quadratic(xi: Natural) -> [(f64, Vector3<f64>); 15] {
     let (l, z) = (barycentric(xi), xi[2]);
     std::array::from_fn(|a| {
@@ -41,7 +41,7 @@ pub(super) fn quadratic(xi: Natural) -> [(f64, Vector3<f64>); 15] {
     })
 }
 
-/// −1 for a corner of the triangle ζ = −1, else 1.
+/// Side of a corner: −1 on the triangle ζ = −1, else 1.
 fn side(corner: usize) -> f64 {
     if corner < 3 { -1.0 } else { 1.0 }
 }

@@ -1,4 +1,4 @@
-//! The rows of [`NodalStress`](super::NodalStress), element by element.
+//! Rows of [`NodalStress`](super::NodalStress), element by element.
 
 use std::collections::HashMap;
 
@@ -8,14 +8,14 @@ use crate::extrapolation::extrapolation;
 use crate::gradients::{Gradients, Recovery};
 use crate::mesh::SectorMesh;
 
-/// What one material's elements around a node make of displacement: the gradient in x, y, z, summed over them.
+/// Row of the operator: the displacement gradient in x, y, z at a node, summed over the elements of one material around it.
 #[derive(Debug)]
 pub(super) struct Row {
-    /// The node.
+    /// Node of the gradient.
     pub(super) node: u32,
-    /// Lamé's constants.
+    /// Lamé's constants of the material.
     pub(super) constants: (f64, f64),
-    /// Where its entries begin in [`Rows::columns`] and end.
+    /// Range of the row's entries in [`Rows::columns`].
     pub(super) entries: std::ops::Range<usize>,
 }
 
@@ -24,7 +24,7 @@ pub(super) struct Row {
 pub(super) struct Bubbles {
     /// Corners of the element.
     pub(super) nodes: [u32; 8],
-    /// Their amplitudes.
+    /// Recovery of the modes' amplitudes.
     pub(super) recovery: Box<Recovery>,
 }
 
@@ -32,12 +32,12 @@ pub(super) struct Bubbles {
 #[derive(Debug, Default)]
 pub(super) struct Rows {
     pub(super) rows: Vec<Row>,
-    /// Nodes; behind the last, three for each of `bubbles`.
+    /// Columns: nodes; behind the last, three for each of `bubbles`.
     pub(super) columns: Vec<u32>,
-    /// What a column's vector is multiplied by for its derivatives in x, y, z.
+    /// Weights of a column's vector in the derivatives in x, y, z.
     pub(super) weights: Vec<[f64; 3]>,
     pub(super) bubbles: Vec<Bubbles>,
-    /// Elements around each node.
+    /// Number of elements around each node.
     pub(super) elements: Vec<u32>,
 }
 

@@ -9,7 +9,7 @@ use super::build::{Bubbles, Row, Rows};
 use crate::frame::AxisFrame;
 use crate::mesh::SectorMesh;
 
-/// Columns computed at once, real and imaginary parts beside each other: nine derivatives of so many fit into registers.
+/// Columns computed at once, real and imaginary parts beside each other: nine derivatives of this many fit into registers.
 const COLUMNS: usize = 2;
 
 /// Real and imaginary parts of a number in each of the columns.
@@ -18,21 +18,21 @@ type Lanes = [f64; 2 * COLUMNS];
 /// A gradient or a vector of nodal values in each of the columns.
 type Vectors = [Lanes; 3];
 
-/// The linear operator from the displacements of a sector's nodes to stress at its nodes.
+/// Linear operator from the displacements of a sector's nodes to stress at its nodes.
 ///
-/// Displacement gradients of each element are carried from its integration points to its nodes ([`crate::extrapolation`]), made
-/// stress by the element's own material, and averaged over all elements around the node, whatever their material, as CalculiX does;
-/// unlike it across the cyclic faces too. Stress jumps between materials are averaged away.
+/// Displacement gradients of each element are carried from its integration points to its nodes ([`crate::extrapolation`]), made stress by
+/// the element's own material, and averaged over all elements around the node, whatever their material, as CalculiX does; unlike CalculiX,
+/// across the cyclic faces too. Stress jumps between materials are averaged away.
 #[derive(Debug)]
 pub struct NodalStress {
     nodes: usize,
-    /// Per node, the cylindrical unit vectors.
+    /// Cylindrical unit vectors at each node.
     frames: Vec<Matrix3<f64>>,
     /// Pairs of low and high node.
     cyclic: Vec<(u32, u32)>,
-    /// Places in the mesh's nodes.
+    /// Nodes at which there is stress, as indices in the mesh's nodes.
     places: Vec<u32>,
-    /// Per place, its rows, those of its high node, and one over the number of elements around both.
+    /// Rows of each place, those of its high node, and one over the number of elements around both.
     parts: Vec<(Range<usize>, Range<usize>, f64)>,
     rows: Vec<Row>,
     columns: Vec<u32>,
@@ -151,7 +151,7 @@ impl NodalStress {
         }
     }
 
-    /// The stresses of some rows of one node, in its (r, θ, z), summed.
+    /// Sum of the stresses of some rows of one node, in its (r, θ, z).
     fn sum(&self, rows: &[Row], values: &[Vectors]) -> [Lanes; 6] {
         let mut sum = [[0.0; 2 * COLUMNS]; 6];
         for row in rows {
@@ -189,7 +189,7 @@ impl NodalStress {
     }
 }
 
-/// `sum += factor · value`.
+/// Adds `factor · value` to `sum`.
 #[inline]
 fn add(sum: &mut Lanes, factor: f64, value: &Lanes) {
     for (sum, value) in sum.iter_mut().zip(value) {

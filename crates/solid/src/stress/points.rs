@@ -6,7 +6,7 @@ use crate::gradients::Gradients;
 use crate::material::{Stress, stress};
 use crate::mesh::{Element, SectorMesh};
 
-/// `σ = D B u` in x, y, z at every integration point of an element, of the displacements of its nodes in x, y, z. Incompatible modes
+/// Stress `σ = D B u` in x, y, z at every integration point of an element, of the displacements of its nodes in x, y, z. Incompatible modes
 /// follow statically.
 pub fn point_stress(mesh: &SectorMesh, element: &Element, displacements: &[Vector3<f64>]) -> Vec<Stress> {
     let material = &mesh.sets[element.set as usize].material;

@@ -6,9 +6,8 @@ use pulp::Simd;
 
 use rubmap_numerics::sector_fourier::{SectorFourier, Wave};
 
-/// Sum of the amplitudes of all nodal diameters of every row of `harmonic[column][row]`, rows padded to whole vectors: no row is
-/// displaced by more in any sector. Of a pair it is what is nowhere below √(re² + im²) and at most 8.3 % above it. No number
-/// stays no number.
+/// Sums the amplitudes of all nodal diameters of every row of `harmonic[column][row]`, rows padded to whole vectors: no row is displaced by more in
+/// any sector. The amplitude of a pair is estimated by a number nowhere below √(re² + im²) and at most 8.3 % above it. NaN stays NaN.
 #[inline(always)]
 pub(super) fn amplitude_sums<S: Simd>(simd: S, fourier: &SectorFourier, harmonic: &[f64], sums: &mut [f64]) {
     let harmonic = S::as_simd_f64s(harmonic).0;

@@ -6,11 +6,11 @@ use serde::{Deserialize, Serialize};
 use super::sector::{CyclicMatrix, SectorModel};
 use rubmap_numerics::matrix_serde;
 
-/// The polynomial of one Hermitian matrix through three speeds 0 < Ω_a < Ω_b, by divided differences in x = Ω².
-/// For Ω_a = Ω_b/2 these are the paper's formulae.
+/// Polynomial of one Hermitian matrix through three speeds 0 < Ω_a < Ω_b, by divided differences in x = Ω². For Ω_a = Ω_b/2 these are the
+/// paper's formulae.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct StiffnessPolynomial {
-    /// K0, then K1 and K2 where the model has stiffening.
+    /// Coefficients K0, then K1 and K2 where the model has stiffening.
     #[serde(with = "matrix_serde::list")]
     pub coefficients: Vec<Mat<c64>>,
 }
@@ -31,7 +31,7 @@ impl StiffnessPolynomial {
         Self { coefficients: vec![k0, k1, k2] }
     }
 
-    /// K(Ω), or K0 where `stiffening` is off.
+    /// Stiffness K(Ω), or K0 where `stiffening` is off.
     pub fn at(&self, speed_rad_s: f64, stiffening: bool) -> Mat<c64> {
         let x = speed_rad_s * speed_rad_s;
         match (self.coefficients.as_slice(), stiffening) {
@@ -43,7 +43,7 @@ impl StiffnessPolynomial {
     }
 }
 
-/// K(Ω) of the full sector as a sum over its given matrices: weights of the polynomial in Ω² through them.
+/// Terms of K(Ω) of the full sector as a sum over its given matrices: weights of the polynomial in Ω² through them.
 pub(super) fn stiffness_terms(sector: &SectorModel, speed_rad_s: f64) -> Vec<(f64, &CyclicMatrix)> {
     let x: Vec<f64> = sector.speeds_rad_s.iter().map(|speed| speed * speed).collect();
     let at = speed_rad_s * speed_rad_s;

@@ -8,17 +8,17 @@
 
 use super::casing::ramp;
 
-/// Δ(t) and its shares.
+/// Change Δ(t) of the clearances, and its share at every contact node.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ClearanceChange {
-    /// Revolutions after the start, ascending from above 0, and Δ there, length; negative where clearances close.
+    /// Points of the course: revolutions after the start, ascending from above 0, and Δ there, length; negative where clearances close.
     pub course: Vec<(f64, f64)>,
-    /// s_k of every contact node; absent: 1.
+    /// Shares s_k of every contact node; absent: 1.
     pub along_chord: Option<Vec<f64>>,
 }
 
 impl ClearanceChange {
-    /// Δ after `revolutions`.
+    /// Change Δ after `revolutions`.
     pub fn at(&self, revolutions: f64) -> f64 {
         let next = self.course.partition_point(|(instant, _)| *instant <= revolutions);
         let (from, before) = next.checked_sub(1).map_or((0.0, 0.0), |last| self.course[last]);
@@ -28,44 +28,44 @@ impl ClearanceChange {
         }
     }
 
-    /// Revolutions after which it changes no more.
+    /// Revolutions after which the clearances change no more.
     pub fn ends_after(&self) -> f64 {
         self.course.last().map_or(0.0, |(instant, _)| *instant)
     }
 
-    /// s_k Δ of contact node k after the last point.
+    /// Change s_k Δ at contact node k after the last point.
     pub fn lasting(&self, node: usize) -> f64 {
         self.share(node) * self.course.last().map_or(0.0, |(_, change)| *change)
     }
 
-    /// Largest |Δ|.
+    /// Largest |Δ| of the course.
     pub(crate) fn largest(&self) -> f64 {
         self.course.iter().fold(0.0, |most, (_, change)| most.max(change.abs()))
     }
 
-    /// s_k.
+    /// Share s_k of contact node k.
     pub(crate) fn share(&self, node: usize) -> f64 {
         self.along_chord.as_ref().map_or(1.0, |along| along[node])
     }
 }
 
-/// What it adds to the gaps, with all that can be known before the loop.
+/// Change of the gaps by a [`ClearanceChange`], with all that can be known before the loop.
 #[derive(Debug)]
 pub(crate) struct ClearanceShift {
     change: ClearanceChange,
-    /// `[node]`, padded.
+    /// Shares `[node]`, padded.
     shares: Vec<f64>,
 }
 
 impl ClearanceShift {
-    /// Of so many contact nodes, padded to `stride`.
+    /// Prepares the change of `contact_nodes` nodes, padded to `stride`.
     pub(crate) fn new(change: &ClearanceChange, contact_nodes: usize, stride: usize) -> Self {
         let mut shares: Vec<f64> = (0..contact_nodes).map(|node| change.share(node)).collect();
         shares.resize(stride, 0.0);
         Self { change: change.clone(), shares }
     }
 
-    /// Adds to the gaps of all sectors after `revolutions`.
+    /// Adds the change after `revolutions` to the gaps of all sectors.
     pub(crate) fn add(&self, revolutions: f64, gaps: &mut [f64]) {
         let change = self.change.at(revolutions);
         for sector in gaps.chunks_exact_mut(self.shares.len()) {

@@ -8,14 +8,14 @@
 //! z⁺ − z⁻ = S (z⁺ − z⁻ without them),   S = (1 + R Ωg/2h)⁻¹,   R = diag(receptance)
 //! ```
 //!
-//! They do no work: Re (z⁺ − z⁻)ᴴ g (z⁺ − z⁻) = 0, so that the energy identity stands, and every step that is stable
-//! without them is stable with them. A force moves S R φᴴ f within its step: the contact operator is no longer symmetric,
-//! but positive definite still. Second order in h whatever the scheme.
+//! Coriolis forces do no work: Re (z⁺ − z⁻)ᴴ g (z⁺ − z⁻) = 0, so that the energy identity stands, and every step that is stable without
+//! them is stable with them. A force moves S R φᴴ f within its step: the contact operator is no longer symmetric, but positive definite
+//! still. The order in h is two, whatever the scheme.
 
 use faer::linalg::solvers::DenseSolveCore;
 use faer::{Mat, MatRef, c64};
 
-/// S of one nodal diameter over the integrated modes, whose receptances are given.
+/// Swing matrix S of one nodal diameter over the integrated modes, whose receptances are given.
 pub(crate) fn swing_matrix(g: MatRef<'_, c64>, speed_rad_s: f64, step: f64, receptance: &[f64]) -> Mat<c64> {
     let modes = receptance.len();
     let factor = speed_rad_s / (2.0 * step);

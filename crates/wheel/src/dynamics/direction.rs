@@ -1,11 +1,11 @@
-//! A direction of displacement at a contact node.
+//! Direction of displacement at a contact node.
 
 use faer::{MatRef, c64};
 
-/// Components of a node: r, θ, z.
+/// Number of components of a node: r, θ, z.
 pub const COMPONENTS: usize = 3;
 
-/// A displacement direction at a contact node in (r, θ, z) components.
+/// Displacement direction at a contact node in (r, θ, z) components.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Direction {
     /// Contact node, from the leading edge.
@@ -15,7 +15,7 @@ pub struct Direction {
 }
 
 impl Direction {
-    /// dᵀφ of mode `mode`, φ given at the contact DOF (`n_b × modes`).
+    /// Component dᵀφ of mode `mode` along the direction, φ given at the contact DOF (`n_b × modes`).
     pub fn of(&self, contact: MatRef<'_, c64>, mode: usize) -> c64 {
         (0..3).map(|c| contact[(3 * self.node + c, mode)] * self.components[c]).sum()
     }

@@ -1,4 +1,4 @@
-//! Effects beyond damping and contact with a rigid casing. One that is absent does not exist in the run.
+//! Effects beyond damping and contact with a rigid casing. An effect that is absent is no part of the run.
 
 use super::clearance_change::ClearanceChange;
 use super::clearance_drift::ClearanceDrift;
@@ -20,7 +20,7 @@ pub struct Effects<'a> {
     pub flexible_casing: Option<&'a FlexibleCasing>,
     /// Eccentric casing or whirling shaft.
     pub orbit: Option<Orbit>,
-    /// Clearances that change.
+    /// Clearances that change over the run.
     pub clearance_change: Option<&'a ClearanceChange>,
     /// Clearances that follow the speed.
     pub clearance_drift: Option<&'a ClearanceDrift>,
@@ -28,7 +28,7 @@ pub struct Effects<'a> {
     pub mistuning: Option<&'a [f64]>,
     /// Forces at engine orders.
     pub excitation: &'a [EngineOrderExcitation],
-    /// The Euler force of a speed that changes; on the vibration where the wheel has gyroscopic matrices.
+    /// Euler force of a speed that changes; on the vibration where the wheel has gyroscopic matrices.
     pub euler_force: Option<&'a EulerForce>,
     /// Whether the energy of every nodal diameter is recorded, revolution by revolution.
     pub energies: bool,
@@ -37,31 +37,31 @@ pub struct Effects<'a> {
 /// Coulomb friction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Friction<'a> {
-    /// μ.
+    /// Friction coefficient μ.
     pub coefficient: f64,
-    /// How it acts.
+    /// Law by which friction acts.
     pub law: FrictionLaw,
-    /// What forces act against.
+    /// Directions that contact forces act against.
     pub directions: &'a [Direction],
 }
 
-/// How friction acts.
+/// Law by which friction acts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FrictionLaw {
-    /// On tips that slide forwards ([`super::contact::friction`]): directions are n + μt of every contact node.
+    /// Friction on tips that slide forwards ([`super::contact::friction`]): directions are n + μt of every contact node.
     Sliding,
-    /// On tips that stick, or slide in any direction ([`super::contact::disc`]): directions are n, t and n × t of every contact node.
-    /// Not with a coating, nor with a boundary without mass.
+    /// Friction on tips that stick, or slide in any direction ([`super::contact::disc`]): directions are n, t and n × t of every contact
+    /// node. Not with a coating, nor with a boundary without mass.
     Disc,
 }
 
 impl Effects<'_> {
-    /// Whether forces act that are known beforehand.
+    /// Whether forces act that are known beforehand: excitation or the Euler force.
     pub(crate) fn forces_are_known(&self) -> bool {
         !self.excitation.is_empty() || self.euler_force.is_some()
     }
 
-    /// Whether any changes what the tips meet.
+    /// Whether any effect changes the surface that the tips meet.
     pub(crate) fn change_contact(&self) -> bool {
         self.friction.is_some()
             || self.coating.is_some()

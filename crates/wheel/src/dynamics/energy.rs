@@ -1,25 +1,25 @@
-//! The energy audit (docs/method.md, Energy).
+//! Energy audit of a run (docs/method.md, Energy).
 
 use super::oscillators::Exchange;
 
-/// Work of the effects of a scene, force·length; 0 for those it does not name.
+/// Work of the effects of a scene, force·length; 0 for effects that the scene does not have.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct EffectWork {
-    /// Of forces at engine orders and the Euler force, on the wheel.
+    /// Work of forces at engine orders and of the Euler force, on the wheel.
     pub excitation: f64,
-    /// Of mistuning: minus the change of the energy that the stiffness deviations store.
+    /// Work of mistuning: minus the change of the energy that the stiffness deviations store.
     pub mistuning: f64,
-    /// Of contact forces on the casing.
+    /// Work of contact forces on the casing.
     pub casing: f64,
-    /// Lost in the casing's damping.
+    /// Energy lost in the casing's damping.
     pub casing_loss: f64,
-    /// Heat of friction: of tips that slide forwards what the shaft supplies against the rotation, Σ μλ·rΩ·h; of a disc Σ τ·v h. Its
-    /// work on the vibration is part of that of contact.
+    /// Heat of friction: of tips that slide forwards the energy that the shaft supplies against the rotation, Σ μλ·rΩ·h; of a disc Σ τ·v h.
+    /// The work of friction on the vibration is part of that of contact.
     pub friction_heat: f64,
 }
 
-/// Both sides of E^{q+½} − E^{q−½} = fᵀ(u_{q+1} − u_{q−1})/2 − loss, summed over a run; E is the
-/// scheme's own energy ([`super::schemes`]).
+/// Energy identity E^{q+½} − E^{q−½} = fᵀ(u_{q+1} − u_{q−1})/2 − loss, both sides summed over a run; E is the scheme's own energy
+/// ([`super::schemes`]).
 ///
 /// The identity holds to round-off in exact arithmetic of the scheme, so its residual is the cheapest proof that a
 /// run was integrated, not merely finished.
@@ -35,25 +35,25 @@ pub struct EnergyAudit {
 }
 
 impl EnergyAudit {
-    /// Of a run that starts with the mechanical energy `initial`.
+    /// Audit of a run that starts with the mechanical energy `initial`.
     pub(crate) fn starting_at(initial: f64) -> Self {
         Self { initial, last: initial, largest_energy: initial.abs(), ..Self::default() }
     }
 
-    /// Adds what the energy gained and lost.
+    /// Adds the work done on the wheel and the energy lost.
     #[inline(always)]
     pub(crate) fn add(&mut self, exchange: Exchange) {
         self.work += exchange.work;
         self.loss += exchange.loss;
     }
 
-    /// Adds what contact forces did to the casing.
+    /// Adds the work of contact forces on the casing and its loss.
     pub(crate) fn add_casing(&mut self, exchange: Exchange) {
         self.effects.casing += exchange.work;
         self.effects.casing_loss += exchange.loss;
     }
 
-    /// What the effects do is counted here as it happens.
+    /// Work of the effects, to be added to as it is done.
     pub(crate) fn effects_mut(&mut self) -> &mut EffectWork {
         &mut self.effects
     }
@@ -84,12 +84,12 @@ impl EnergyAudit {
         self.work
     }
 
-    /// Work of the effects so far.
+    /// Work of the effects so far, force·length.
     pub fn effects(&self) -> EffectWork {
         self.effects
     }
 
-    /// Energy lost so far to damping, and to modes that follow statically.
+    /// Energy lost so far to damping, and to modes that follow statically, force·length.
     pub fn loss(&self) -> f64 {
         self.loss
     }
@@ -100,7 +100,7 @@ impl EnergyAudit {
     }
 }
 
-/// The larger of two numbers, and NaN if either is: a broken run must not look balanced.
+/// Larger of two numbers, and NaN if either is: a broken run must not look balanced.
 fn larger(a: f64, b: f64) -> f64 {
     if a >= b { a } else { b + 0.0 * a }
 }

@@ -1,21 +1,21 @@
-//! What can be wrong with a model or break in a computation on it.
+//! Errors of a model or of a computation on it.
 
-/// A model that cannot be reduced, or a speed at which it cannot be evaluated.
+/// Error of a model that cannot be reduced, or of a speed at which it cannot be evaluated.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ModelError {
-    /// K_ii or K(Ω) is not positive definite.
+    /// Stiffness K_ii or K(Ω) that is not positive definite.
     #[error(
         "the stiffness of nodal diameter {nodal_diameter} at {speed_rad_s} rad/s is not positive definite: {hint}"
     )]
     StiffnessNotPositiveDefinite {
         /// Nodal diameter i.
         nodal_diameter: usize,
-        /// Ω in rad/s.
+        /// Speed Ω, rad/s.
         speed_rad_s: f64,
-        /// What usually causes this.
+        /// Usual cause.
         hint: &'static str,
     },
-    /// The wheel can move without deforming.
+    /// Wheel that can move without deforming.
     #[error(
         "nodal diameter {nodal_diameter} has {modes} rigid-body modes at {speed_rad_s} rad/s: is the hub constrained, \
          and does every part of the sector hang on it?"
@@ -23,12 +23,12 @@ pub enum ModelError {
     RigidBodyModes {
         /// Nodal diameter i.
         nodal_diameter: usize,
-        /// Ω in rad/s.
+        /// Speed Ω, rad/s.
         speed_rad_s: f64,
-        /// How many.
+        /// Number of rigid-body modes.
         modes: usize,
     },
-    /// The mass is negative for some motion, by more than round-off.
+    /// Mass that is negative for some motion, by more than round-off.
     #[error(
         "the mass is negative, by more than round-off, for a motion of nodal diameter {nodal_diameter} that DOF {dof} takes \
          part in (counted from 0 in the DOF table without its rows of the high face): is the density positive everywhere?"
@@ -39,7 +39,7 @@ pub enum ModelError {
         /// Own DOF of the sector, from 0.
         dof: usize,
     },
-    /// More modes were asked for than there are.
+    /// Request for more modes than there are.
     #[error(
         "nodal diameter {nodal_diameter} has fewer modes with mass than `modes_per_speed` asks for; ask for fewer"
     )]
@@ -47,7 +47,7 @@ pub enum ModelError {
         /// Nodal diameter i.
         nodal_diameter: usize,
     },
-    /// The reduced mass is not positive definite.
+    /// Reduced mass that is not positive definite.
     #[error(
         "the reduced mass of nodal diameter {nodal_diameter} is not positive definite: the contact nodes have a motion \
          without mass among so many modes; ask for fewer `modes_per_speed`, or integrate the elements' mass in full"
@@ -56,7 +56,7 @@ pub enum ModelError {
         /// Nodal diameter i.
         nodal_diameter: usize,
     },
-    /// The eigenvalue iteration did not reach its tolerance.
+    /// Eigenvalue iteration that did not reach its tolerance.
     #[error(
         "the fixed-interface modes of nodal diameter {nodal_diameter} at {speed_rad_s} rad/s did not converge: \
          residual {residual:.1e} after {iterations} block iterations"
@@ -64,14 +64,14 @@ pub enum ModelError {
     ModesNotConverged {
         /// Nodal diameter i.
         nodal_diameter: usize,
-        /// Ω in rad/s.
+        /// Speed Ω, rad/s.
         speed_rad_s: f64,
         /// Largest relative residual.
         residual: f64,
-        /// Block iterations done.
+        /// Number of block iterations done.
         iterations: usize,
     },
-    /// The count of eigenvalues below a shift exceeds the modes found.
+    /// Count of eigenvalues below a shift that exceeds the modes found.
     #[error(
         "fixed-interface modes of nodal diameter {nodal_diameter} at {speed_rad_s} rad/s were missed and not found in \
          further searches; fewer `modes_per_speed` may avoid a cluster of them"
@@ -79,18 +79,18 @@ pub enum ModelError {
     ModesMissed {
         /// Nodal diameter i.
         nodal_diameter: usize,
-        /// Ω in rad/s.
+        /// Speed Ω, rad/s.
         speed_rad_s: f64,
     },
-    /// Coriolis forces of a model without gyroscopic matrix.
+    /// Request for Coriolis forces of a model without gyroscopic matrix.
     #[error("the model has no gyroscopic matrix, so there are no Coriolis forces to simulate")]
     NoGyroscopicMatrix,
-    /// A dense decomposition of a small reduced matrix failed.
+    /// Dense decomposition of a small reduced matrix that failed.
     #[error("the eigenvalue decomposition of nodal diameter {nodal_diameter} at {speed_rad_s} rad/s failed")]
     DecompositionFailed {
         /// Nodal diameter i.
         nodal_diameter: usize,
-        /// Ω in rad/s.
+        /// Speed Ω, rad/s.
         speed_rad_s: f64,
     },
 }

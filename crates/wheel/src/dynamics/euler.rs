@@ -1,29 +1,29 @@
-//! The Euler force of a wheel whose speed changes (docs/method.md, Run-up and run-down).
+//! Euler force of a wheel whose speed changes (docs/method.md, Run-up and run-down).
 //!
 //! ```text
 //! −Ω̇ ẑ × (r + u)   per unit mass:   φᴴf = −Ω̇ √N φᵀ ∫ρ Υᵀ(ẑ × r) dV   of nodal diameter 0,   −½Ω̇ g z   of every nodal diameter
 //! ```
 //!
-//! On the wheel at rest in its frame it is the same in every sector, so that it drives nodal diameter 0 alone. On the vibration it acts
-//! where Coriolis forces do, by their matrix: G = 2∫ρ Nᵀ[ẑ×]N dV. It pushes across the displacement, and may do work on it.
+//! On the wheel at rest in its frame the Euler force is the same in every sector, so that it drives nodal diameter 0 alone. On the vibration it
+//! acts where Coriolis forces do, by their matrix: G = 2∫ρ Nᵀ[ẑ×]N dV. It pushes across the displacement, and may do work on it.
 
 use faer::{MatRef, c64};
 
-/// Ω̇ in part of a run: straight pieces, one behind the other, between which it may jump.
+/// Rate Ω̇ of the speed in part of a run: straight pieces, one behind the other, between which it may jump.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SpeedRate(pub Vec<StraightRate>);
 
-/// Ω̇ that goes straight from one end to the other.
+/// Rate Ω̇ that goes straight from one end to the other.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StraightRate {
-    /// Revolutions after the start of the run at which it begins and ends.
+    /// Revolutions after the start of the run at which the piece begins and ends.
     pub revolutions: [f64; 2],
-    /// Ω̇ there, rad/s².
+    /// Rate Ω̇ at both ends, rad/s².
     pub rad_s2: [f64; 2],
 }
 
 impl SpeedRate {
-    /// After so many revolutions; beyond its ends that of its ends.
+    /// Rate Ω̇ after `revolutions`, rad/s²; beyond the ends the value at the end.
     pub(crate) fn at(&self, revolutions: f64) -> f64 {
         let begun = self.0.partition_point(|piece| piece.revolutions[0] <= revolutions);
         self.0.get(begun.saturating_sub(1)).map_or(0.0, |piece| piece.at(revolutions))
@@ -37,17 +37,17 @@ impl StraightRate {
     }
 }
 
-/// The Euler force in part of a run.
+/// Euler force in part of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EulerForce {
-    /// How the speed changes.
+    /// Rate of change of the speed.
     pub rate: SpeedRate,
     /// Force on every mode of nodal diameter 0 per unit Ω̇, as of [`modal_load`].
     pub load: Vec<f64>,
 }
 
-/// √N Φᵀf: what `reduced`, a load of every sector in the coordinates of the reduction at nodal diameter 0, is on the modes `shapes` of a
-/// wheel of so many sectors.
+/// Modal load √N Φᵀf: the force of `reduced`, a load of every sector in the coordinates of the reduction at nodal diameter 0, on the modes
+/// `shapes` of a wheel of `sectors` sectors.
 pub fn modal_load(reduced: &[f64], shapes: MatRef<'_, c64>, sectors: usize) -> Vec<f64> {
     let of = |mode: usize| shapes.col(mode).iter().zip(reduced).map(|(phi, f)| phi.re * f).sum::<f64>();
     (0..shapes.ncols()).map(|mode| (sectors as f64).sqrt() * of(mode)).collect()

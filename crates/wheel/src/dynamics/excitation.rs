@@ -1,12 +1,11 @@
-//! Forces at engine orders: what blades feel that turn through a steady field of k periods.
+//! Forces at engine orders, felt by blades that turn through a steady field of k periods.
 //!
 //! ```text
 //! f_s(t) = A cos(k(sα + Ωt) + ψ)      on given contact nodes and directions of every sector
 //! ```
 //!
-//! It drives the nodal diameter |k − N·round(k/N)| alone (aliasing), as one travelling wave, so its modal forces turn at
-//! kΩ and nothing but that is left to the step loop. It grows over the ramp like the restriction. A boundary without mass
-//! feels it through the modes it keeps only.
+//! Such a force drives the nodal diameter |k − N·round(k/N)| alone (aliasing), as one travelling wave, so its modal forces turn at kΩ and only
+//! that is left to the step loop. It grows over the ramp like the restriction. A boundary without mass feels it through the modes it keeps only.
 
 use std::f64::consts::TAU;
 
@@ -17,18 +16,18 @@ use super::direction::Direction;
 use super::modal_wheel::ModalWheel;
 use super::oscillators::ModalDamping;
 
-/// A force at one engine order.
+/// Force at one engine order.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EngineOrderExcitation {
-    /// k.
+    /// Engine order k.
     pub order: u32,
-    /// Where and along what; each gets the whole amplitude.
+    /// Contact nodes and directions of the force; each gets the whole amplitude.
     pub directions: Vec<Direction>,
-    /// A, force.
+    /// Amplitude A, force.
     pub amplitude: f64,
-    /// ψ, rad.
+    /// Phase ψ, rad.
     pub phase_rad: f64,
-    /// Revolutions over which it grows.
+    /// Revolutions over which the force grows.
     pub ramp_revolutions: f64,
 }
 
@@ -61,7 +60,7 @@ pub fn steady_amplitudes(
     amplitudes
 }
 
-/// Its modal forces.
+/// Modal forces of an engine order.
 #[derive(Debug)]
 pub(crate) struct ModalExcitation {
     /// Index of the nodal diameter among the wheel's harmonics.

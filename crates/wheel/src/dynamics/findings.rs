@@ -5,7 +5,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-/// Shares of stiffening and softening below this are none.
+/// Share of stiffening or softening below which it counts as none.
 const NONE: f64 = 1e-3;
 
 /// Most nodes that a sentence names.
@@ -14,7 +14,7 @@ const SHOWN: usize = 8;
 /// Fewest inner nodes of which it is said that they are out of balance.
 const FEWEST_JUDGED: usize = 10;
 
-/// A share may be this far from the number that is said of it.
+/// Largest distance of a share from the number that is reported for it.
 const SHARE: f64 = 0.05;
 
 /// Radians per second of one revolution per minute.
@@ -26,7 +26,7 @@ const USUAL_MODULUS: [f64; 2] = [1e6, 1.3e12];
 /// Densities of solids, from foam to osmium, kg/m³.
 const USUAL_DENSITY: [f64; 2] = [10.0, 2.3e4];
 
-/// √(E/ρ), from rubber to diamond, m/s.
+/// Wave speeds √(E/ρ), from rubber to diamond, m/s.
 const USUAL_WAVE_SPEED: [f64; 2] = [20.0, 2e4];
 
 /// Radii of wheels, m.
@@ -42,7 +42,7 @@ pub struct Findings {
     pub spin: Vec<SpinAtSpeed>,
     /// Noise of matrices of few digits; none where all digits are there, or no node is free.
     pub digits: Option<DigitNoise>,
-    /// Too few inner nodes in balance, if so.
+    /// Counts of inner nodes in balance, where they are too few.
     pub unbalanced: Option<Unbalanced>,
     /// Too few pairs of face nodes in balance, if so.
     pub open_joint: Option<OpenJoint>,
@@ -55,7 +55,7 @@ pub struct Findings {
 }
 
 impl Findings {
-    /// Sentences about what looks wrong, K(Ω) aside.
+    /// Sentences about the findings that look wrong, except those about K(Ω).
     pub fn warnings(&self) -> Vec<String> {
         let digits = self.digits.iter().map(DigitNoise::warning);
         let unbalanced = self.unbalanced.iter().map(Unbalanced::warning);
@@ -66,18 +66,18 @@ impl Findings {
     }
 }
 
-/// Inner nodes of which fewer than a tenth are in balance, in every known reading of the rows.
+/// Counts of inner nodes of which fewer than a tenth are in balance, in every known reading of the rows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Unbalanced {
-    /// Nodes in balance.
+    /// Number of nodes in balance.
     balanced: usize,
-    /// Nodes inside the sector with three components.
+    /// Number of nodes inside the sector with three components.
     inner: usize,
 }
 
 impl Unbalanced {
-    /// Returns the counts if fewer than a tenth of ten or more inner nodes are in balance: those of an elastic solid are, but for a few beside
-    /// clamps and supports.
+    /// Returns the counts if fewer than a tenth of ten or more inner nodes are in balance: the inner nodes of an elastic solid are, but for
+    /// a few beside clamps and supports.
     pub fn of(balanced: usize, inner: usize) -> Option<Self> {
         (inner >= FEWEST_JUDGED && 10 * balanced < inner).then_some(Self { balanced, inner })
     }
@@ -183,7 +183,7 @@ impl OddContact {
 pub struct SpinAtSpeed {
     /// Speed, rad/s.
     pub speed_rad_s: f64,
-    /// Verdict on its stiffness.
+    /// Verdict on the stiffness at this speed.
     pub finding: SpinFinding,
 }
 
@@ -195,28 +195,28 @@ pub enum SpinFinding {
         /// Residual of the identity, relative to its right-hand side.
         residual: f64,
     },
-    /// Both on the undeformed geometry, but not as much of each as mass and speed say.
+    /// Geometric stiffness and spin softening on the undeformed geometry, but not as much of each as mass and speed say.
     Shares {
-        /// Geometric stiffness, 1 where it is right.
+        /// Share of geometric stiffness, 1 where it is right.
         stiffening: f64,
-        /// Spin softening, 1 where it is right.
+        /// Share of spin softening, 1 where it is right.
         softening: f64,
-        /// Residual of the identity.
+        /// Residual of the identity, relative to its right-hand side.
         residual: f64,
     },
-    /// Something else: the deformed geometry, stresses of another load or of a sector whose ties were open.
+    /// Stiffness of something else: the deformed geometry, stresses of another load or of a sector whose ties were open.
     Other {
-        /// Residual of the identity.
+        /// Residual of the identity, relative to its right-hand side.
         residual: f64,
     },
-    /// Not checked: no row is free of clamps and cyclic faces.
+    /// Stiffness that was not checked: no row is free of clamps and cyclic faces.
     NotChecked,
-    /// Not checked: round-off of the entries hides the identity.
+    /// Stiffness that was not checked: round-off of the entries hides the identity.
     Hidden,
 }
 
 impl SpinFinding {
-    /// Whether what was found makes frequencies wrong at the given speeds already.
+    /// Whether the finding makes frequencies wrong at the given speeds already.
     pub fn is_wrong_at_speed(self) -> bool {
         matches!(self, Self::Shares { .. })
     }
@@ -229,7 +229,7 @@ impl SpinFinding {
         }
     }
 
-    /// Whether it was checked and fits no shares.
+    /// Whether the stiffness was checked and fits no shares.
     pub fn is_other(self) -> bool {
         matches!(self, Self::Other { .. })
     }
@@ -299,9 +299,9 @@ fn shares(f: &mut fmt::Formatter<'_>, stiffening: f64, softening: f64) -> fmt::R
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct DigitNoise {
-    /// Forces against rigid motions, as a part of Σ|K_ij| times the size of the sector: the median of nodes in balance.
+    /// Median over the nodes in balance of the forces against rigid motions, as a part of Σ|K_ij| times the size of the sector.
     pub residual: f64,
-    /// Change that it may make to the square of an angular frequency, rad²/s².
+    /// Change that the noise may make to the square of an angular frequency, rad²/s².
     pub square_rad2_s2: f64,
     /// Whether the entries have all digits, so that the forces have another cause.
     #[serde(default)]
@@ -309,12 +309,12 @@ pub struct DigitNoise {
 }
 
 impl DigitNoise {
-    /// Relative change that it may make to a frequency, Hz.
+    /// Relative change that the noise may make to the natural frequency `frequency_hz`, Hz.
     pub fn change_of(&self, frequency_hz: f64) -> f64 {
         0.5 * self.square_rad2_s2 / (TAU * frequency_hz).powi(2)
     }
 
-    /// A sentence about it.
+    /// Sentence about the noise.
     pub fn warning(&self) -> String {
         let at = |frequency_hz: f64| 100.0 * self.change_of(frequency_hz);
         if self.has_all_digits {
@@ -358,12 +358,12 @@ pub struct MaterialInSi {
     pub youngs_modulus_pa: f64,
     /// Density, kg/m³.
     pub density_kg_m3: f64,
-    /// √(E/ρ), m/s: some 5,000 in metals.
+    /// Wave speed √(E/ρ), m/s: some 5,000 in metals.
     pub wave_speed_m_s: f64,
 }
 
 impl InSi {
-    /// Sentences about what no wheel is like.
+    /// Sentences about values that no wheel has.
     fn warnings(&self) -> Vec<String> {
         let mut found = Vec::new();
         let mut expect = |value: f64, [least, most]: [f64; 2], of: &str, unit: &str, solids: &str| {

@@ -28,43 +28,43 @@ use super::oscillators::{Exchange, VANISHED};
 use super::schemes::Scheme;
 use super::sector::ContactNode;
 
-/// One nodal diameter of the casing.
+/// Nodal diameter of an elastic casing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CasingWave {
-    /// n.
+    /// Nodal diameter n.
     pub nodal_diameter: u32,
-    /// ω_n, rad/s.
+    /// Natural frequency ω_n, rad/s.
     pub omega: f64,
-    /// m_n for a radial amplitude of 1.
+    /// Modal mass m_n for a radial amplitude of 1.
     pub modal_mass: f64,
 }
 
 /// Elastic casing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FlexibleCasing {
-    /// Its nodal diameters.
+    /// Nodal diameters of the casing.
     pub waves: Vec<CasingWave>,
-    /// ζ of all of them.
+    /// Damping ratio ζ of all nodal diameters.
     pub damping_ratio: f64,
 }
 
 /// Thin elastic ring.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ring {
-    /// R of the centre line, length.
+    /// Radius R of the centre line, length.
     pub radius: f64,
-    /// E, force/length².
+    /// Young's modulus E, force/length².
     pub modulus: f64,
-    /// ρ, mass/volume.
+    /// Density ρ, mass/volume.
     pub density: f64,
-    /// A, length².
+    /// Area A of the cross-section, length².
     pub area: f64,
-    /// I for bending in the ring's plane, length⁴.
+    /// Second moment of area I for bending in the ring's plane, length⁴.
     pub second_moment: f64,
 }
 
 impl Ring {
-    /// Its waves n = 0, 2, 3 … `highest`.
+    /// Waves n = 0, 2, 3 … `highest` of the ring.
     pub fn waves(&self, highest: u32) -> Vec<CasingWave> {
         let Self { radius, modulus, density, area, second_moment } = *self;
         let wave = |nodal_diameter: u32| {
@@ -84,11 +84,11 @@ impl Ring {
     }
 }
 
-/// The casing in motion, in coordinates of modal mass 1.
+/// Elastic casing in motion, in coordinates of modal mass 1.
 #[derive(Debug)]
 pub(crate) struct CasingMotion {
     waves: Vec<WaveMotion>,
-    /// θ_k.
+    /// Angles θ_k of the contact nodes, rad.
     angles: Vec<f64>,
     radial: Vec<f64>,
     around: usize,
@@ -103,31 +103,31 @@ struct WaveMotion {
     stiffness: f64,
     inertia: f64,
     loss: f64,
-    /// 1/√m.
+    /// Scale 1/√m of a wave.
     scale: f64,
-    /// n_r cos and n_r sin of n(θ_k + sα) over √m, `[sector][node]`.
+    /// Factors n_r cos and n_r sin of n(θ_k + sα) over √m, `[sector][node]`.
     cos: Vec<f64>,
     sin: Vec<f64>,
-    /// Of the cosine and of the sine wave.
+    /// Parts of the wave: the cosine and the sine.
     parts: [Part; 2],
-    /// e^{jnΩt} at the last gaps.
+    /// Turn e^{jnΩt} at the last gaps.
     turn: (f64, f64),
 }
 
-/// A wave as its two parts move and open gaps, seen from the wheel.
+/// Wave of the casing as its two parts move and open gaps, seen from the wheel.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct LinearWave<'a> {
-    /// n.
+    /// Nodal diameter n.
     pub(crate) nodal_diameter: usize,
     pub(crate) keep: f64,
     pub(crate) receptance: f64,
-    /// ω².
+    /// Stiffness ω².
     pub(crate) stiffness: f64,
-    /// Of gaps per unit of the parts along the wheel's own cos nφ and sin nφ, `[sector][node]`, nodes padded.
+    /// Openings of gaps per unit of the parts along the wheel's own cos nφ and sin nφ, `[sector][node]`, nodes padded.
     pub(crate) openings: [&'a [f64]; 2],
 }
 
-/// z, z − z⁻, z⁺ − z⁻ not yet counted, and force.
+/// Motion of one part of a wave: z, z − z⁻, z⁺ − z⁻ not yet counted, and force.
 #[derive(Debug, Clone, Copy, Default)]
 struct Part {
     z: f64,
@@ -137,10 +137,10 @@ struct Part {
 }
 
 impl CasingMotion {
-    /// At rest; `sectors` of the `around` on the circumference, nodes padded to `stride`.
+    /// Casing at rest, seen by `sectors` of the `around` on the circumference, nodes padded to `stride`.
     ///
-    /// Where they are one of several parts that the wheel repeats, the forces of all parts cancel but on waves that repeat
-    /// with them, of which each part moves its share.
+    /// Where these sectors are one of several parts that the wheel repeats, the forces of all parts cancel but on waves that repeat with
+    /// them, of which each part moves its share.
     pub(crate) fn new(
         casing: &FlexibleCasing,
         scheme: Scheme,
@@ -188,14 +188,14 @@ impl CasingMotion {
         }
     }
 
-    /// What a unit force at node `from` opens at node `to`, `distance` sectors ahead, within a step.
+    /// Opening at node `to`, `distance` sectors ahead, by a unit force at node `from` within a step.
     pub(crate) fn operator(&self, distance: usize, to: usize, from: usize) -> f64 {
         let angle = self.angles[to] - self.angles[from] + TAU * distance as f64 / self.around as f64;
         let wave = |wave: &WaveMotion| wave.receptance * wave.scale.powi(2) * (wave.n * angle).cos();
         self.radial[to] * self.radial[from] * self.waves.iter().map(wave).sum::<f64>()
     }
 
-    /// Completes the last step by the forces pressed since, which it forgets.
+    /// Completes the last step by the forces pressed since, and clears them.
     pub(crate) fn complete(&mut self) -> Exchange {
         let (mut twice_work, mut loss) = (0.0, 0.0);
         for wave in &mut self.waves {
@@ -214,7 +214,7 @@ impl CasingMotion {
         Exchange { work: 0.5 * twice_work, loss }
     }
 
-    /// Brings to rest what has decayed to nothing (see [`super::oscillators`]).
+    /// Brings waves to rest that have decayed to nothing (see [`super::oscillators`]).
     pub(crate) fn quench(&mut self) {
         for part in self.waves.iter_mut().flat_map(|wave| &mut wave.parts) {
             for value in [&mut part.z, &mut part.d] {
@@ -223,7 +223,7 @@ impl CasingMotion {
         }
     }
 
-    /// One step free of forces.
+    /// Takes one step free of forces.
     pub(crate) fn predict(&mut self) {
         for wave in &mut self.waves {
             // The sine wave of n = 0 is never forced and stays at rest.
@@ -250,7 +250,7 @@ impl CasingMotion {
         }
     }
 
-    /// Presses with λ at a place of the last gaps.
+    /// Presses with λ at place `place` of the last gaps.
     pub(crate) fn press(&mut self, place: usize, lambda: f64) {
         for wave in &mut self.waves {
             let ((cos, sin), (a, b)) = (wave.turn, (wave.cos[place], wave.sin[place]));
@@ -269,7 +269,7 @@ impl CasingMotion {
         0.5 * self.waves.iter().map(of).sum::<f64>()
     }
 
-    /// Where it is and how it moves, in numbers whose squares are energies.
+    /// State of the casing in numbers whose squares are energies.
     pub(crate) fn state(&self) -> impl Iterator<Item = f64> {
         self.waves.iter().flat_map(|wave| {
             let numbers = |part: &Part| [wave.stiffness.sqrt() * part.z, wave.inertia.sqrt() * part.d];
@@ -277,7 +277,7 @@ impl CasingMotion {
         })
     }
 
-    /// Where its waves are.
+    /// Displacements and increments of the waves.
     pub(crate) fn stepped(&self) -> Vec<SteppedWave> {
         let of = |wave: &WaveMotion| SteppedWave {
             displacement: wave.parts.map(|part| part.z),
@@ -286,7 +286,7 @@ impl CasingMotion {
         self.waves.iter().map(of).collect()
     }
 
-    /// Has its waves where another motion left them, at rest where it has nothing, and nothing pressing.
+    /// Puts the waves where another motion left them, at rest where it has none, without forces.
     pub(crate) fn go_on_from(&mut self, waves: &[SteppedWave]) {
         for (index, wave) in self.waves.iter_mut().enumerate() {
             let SteppedWave { displacement, increment } = waves.get(index).copied().unwrap_or_default();
@@ -296,7 +296,7 @@ impl CasingMotion {
         }
     }
 
-    /// Its waves as a step that is linearised has them.
+    /// Waves of the casing as a linearised step has them.
     pub(crate) fn linear_waves(&self) -> impl Iterator<Item = LinearWave<'_>> {
         self.waves.iter().map(|wave| LinearWave {
             nodal_diameter: wave.n as usize,
@@ -317,7 +317,7 @@ impl CasingMotion {
 mod tests {
     use super::*;
 
-    /// R = 1, EI/(ρA) = 1: ω_2² = 36/5, ω_3² = 576/10.
+    /// Closed form of a ring with R = 1, EI/(ρA) = 1: ω_2² = 36/5, ω_3² = 576/10.
     #[test]
     fn ring_has_its_closed_form() {
         let ring = Ring { radius: 1.0, modulus: 2.0, density: 4.0, area: 0.25, second_moment: 0.5 };
@@ -330,7 +330,7 @@ mod tests {
         }
     }
 
-    /// A force turning with one blade, by the operator and by pressing, moves the casing under every node alike.
+    /// Casing under a force turning with one blade: the operator and pressing move it under every node alike.
     #[test]
     fn the_operator_is_what_pressing_does() {
         let node = |theta: f64, radial: f64| ContactNode {

@@ -1,67 +1,67 @@
-//! The state a run starts from.
+//! State from which a run starts.
 
 use faer::c64;
 
 use super::modal_wheel::ModalWheel;
 
-/// One mode that moves when the run starts; all others are at rest.
+/// Mode that moves when the run starts; all others are at rest.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct InitialMode {
     /// Index of the nodal diameter among the wheel's harmonics.
     pub harmonic: usize,
     /// Mode within the nodal diameter, counted from 0; one that the scheme integrates.
     pub family: usize,
-    /// z(0); its imaginary part is ignored for a single harmonic.
+    /// Displacement z(0); its imaginary part is ignored for a single harmonic.
     pub displacement: c64,
-    /// ż(0).
+    /// Velocity ż(0).
     pub velocity: c64,
 }
 
-/// A mode of a motion under way, as steps leave it: nothing is lost of it as it is of a velocity.
+/// Mode of a motion under way, by its displacement and increment: unlike a velocity, the increment carries it on without loss.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SteppedMode {
     /// Index of the nodal diameter among the wheel's harmonics.
     pub harmonic: usize,
     /// Mode within the nodal diameter, counted from 0; one that the scheme integrates.
     pub family: usize,
-    /// z.
+    /// Displacement z.
     pub displacement: c64,
-    /// z − z⁻.
+    /// Increment z − z⁻.
     pub increment: c64,
 }
 
-/// A wave of an elastic casing of a motion under way, the cosine and the sine, in coordinates of modal mass 1.
+/// Wave of an elastic casing of a motion under way, its cosine and sine part, in coordinates of modal mass 1.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct SteppedWave {
-    /// z.
+    /// Displacements z.
     pub displacement: [f64; 2],
-    /// z − z⁻.
+    /// Increments z − z⁻.
     pub increment: [f64; 2],
 }
 
-/// A motion under way.
+/// Motion under way, from which a run goes on.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Stepped {
-    /// Those that move.
+    /// Modes that move.
     pub modes: Vec<SteppedMode>,
-    /// All waves of an elastic casing; empty without, or where it is at rest.
+    /// Waves of an elastic casing, all of them; empty without, or where it is at rest.
     pub casing: Vec<SteppedWave>,
 }
 
-/// How a mode moves.
+/// Wave in which a mode moves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum InitialWave {
-    /// Released at rest.
+    /// Standing wave, released at rest.
     Standing,
-    /// Travelling towards +θ, z ∝ e^{−jωt}.
+    /// Wave that travels towards +θ, z ∝ e^{−jωt}.
     Forward,
-    /// Travelling towards −θ, z ∝ e^{jωt}.
+    /// Wave that travels towards −θ, z ∝ e^{jωt}.
     Backward,
 }
 
 impl InitialMode {
-    /// A mode whose largest displacement component at any contact node of any sector is `amplitude`; `phase`, of modulus
-    /// 1, turns it about the axis. Modes of single harmonics stand, whatever `wave` says.
+    /// Mode whose largest displacement component at any contact node of any sector is `amplitude`; `phase`, of modulus 1, turns it about
+    /// the axis. Modes of single harmonics stand, whatever `wave` says.
     pub fn of_amplitude(
         wheel: &ModalWheel,
         harmonic: usize,

@@ -1,4 +1,4 @@
-//! Rows of the basis that are kept in memory while a reduction goes by.
+//! Rows of the basis that are kept in memory during a reduction.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Mutex, PoisonError};
@@ -11,7 +11,7 @@ use super::reduction::{BasisRows, Checkpoints, ReducedWheel};
 pub struct KeptRows<'a> {
     checkpoints: &'a dyn Checkpoints,
     nodes: &'a [SectorNode],
-    /// By nodal diameter and own DOF.
+    /// Rows by nodal diameter and own DOF.
     rows: Mutex<BTreeMap<(usize, usize), Vec<f64>>>,
 }
 
@@ -21,10 +21,10 @@ impl<'a> KeptRows<'a> {
         Self { checkpoints, nodes, rows: Mutex::default() }
     }
 
-    /// The rows, once `reduced` is there.
+    /// Rows of the nodes, once `reduced` is there.
     ///
     /// # Panics
-    /// If it is of another reduction.
+    /// If `reduced` is of another reduction.
     pub fn of(self, reduced: &ReducedWheel) -> NodeRows {
         let rows = self.rows.into_inner().unwrap_or_else(PoisonError::into_inner);
         let gathered = NodeRows::gather(self.nodes, reduced, |harmonic, dof| {

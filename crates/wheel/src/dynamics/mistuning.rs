@@ -26,33 +26,33 @@ use super::oscillators::lanes::padded;
 use rubmap_numerics::aligned::Aligned;
 use rubmap_numerics::sector_fourier::SectorFourier;
 
-/// The most that B of a mode may take of its stability limit, ω²B < 4, for the mode to be mistuned.
+/// Largest part of its stability limit, ω²B < 4, that B of a mode may take for the mode to be mistuned.
 pub(crate) const RESOLVED: f64 = 3.0;
 
-/// Deviations beyond this are another wheel: ω²B(1 + δ) stays below 4.
+/// Largest deviation: beyond it the wheel is another one; within it ω²B(1 + δ) stays below 4.
 pub const LARGEST_DEVIATION: f64 = 0.25;
 
-/// Rows of the coupling at a time, which share the loads of amplitudes: their sums stay in registers.
+/// Number of rows of the coupling at a time, which share the loads of amplitudes: their sums stay in registers.
 const GROUP: usize = 5;
 
-/// The coupling of the nodal diameters.
+/// Coupling of the nodal diameters by mistuning.
 #[derive(Debug)]
 pub(crate) struct ModalMistuning {
-    /// Mistuned families.
+    /// Number of mistuned families.
     families: usize,
-    /// The same, padded to whole vectors.
+    /// Number of mistuned families, padded to whole vectors.
     length: usize,
-    /// ω e^{jψ} of every nodal diameter.
+    /// Weights ω e^{jψ} of every nodal diameter.
     weight: Vec<Weight>,
-    /// Fᵀ diag(δ) F over the Fourier columns, `[group of rows][column][row]`; the last group is padded.
+    /// Coupling Fᵀ diag(δ) F over the Fourier columns, `[group of rows][column][row]`; the last group is padded.
     coupling: Vec<[f64; GROUP]>,
-    /// a in Fourier coordinates, `[column][family]`, families padded.
+    /// Amplitudes a in Fourier coordinates, `[column][family]`, families padded.
     amplitude: Aligned,
-    /// The same times `coupling`.
+    /// Amplitudes times `coupling`, `[column][family]`, families padded.
     pull: Aligned,
 }
 
-/// A complex number of every family, 0 of those that pad them.
+/// Complex number of every family, 0 in the padding.
 #[derive(Debug)]
 struct Weight {
     re: Aligned,
@@ -71,7 +71,7 @@ impl Weight {
     }
 }
 
-/// Where a nodal diameter's modes are in the state.
+/// Places of a nodal diameter's modes in the state.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Place {
     /// Start of the real part.
@@ -83,7 +83,7 @@ pub(crate) struct Place {
 }
 
 impl ModalMistuning {
-    /// `resolved` families of every nodal diameter are mistuned.
+    /// Mistunes `resolved` families of every nodal diameter.
     pub(crate) fn new(
         deviations: &[f64],
         wheel: &ModalWheel,
@@ -133,7 +133,7 @@ impl ModalMistuning {
         }
     }
 
-    /// −∂f/∂z of every mistuned family between the Fourier columns: Re(w̄ C w), symmetric.
+    /// Stiffness −∂f/∂z of every mistuned family between the Fourier columns: Re(w̄ C w), symmetric.
     pub(crate) fn stiffness(&self, places: &[Place]) -> Vec<Mat<f64>> {
         let sectors = places.iter().map(|place| 1 + usize::from(place.im.is_some())).sum();
         let of = |family: usize| {
@@ -221,14 +221,13 @@ impl ModalMistuning {
     }
 }
 
-/// δ of `sectors` sectors, normally distributed with standard deviation `spread` about 0 and cut at
-/// [`LARGEST_DEVIATION`].
+/// Deviations δ of `sectors` sectors, normally distributed with standard deviation `spread` about 0 and cut at [`LARGEST_DEVIATION`].
 pub fn normal_deviations(spread: f64, seed: u64, sectors: usize) -> Vec<f64> {
     let cut = |x: f64| (spread * x).clamp(-LARGEST_DEVIATION, LARGEST_DEVIATION);
     normal_numbers(seed).take(sectors).map(cut).collect()
 }
 
-/// Normally distributed numbers of variance 1, the same for the same seed in every version (SplitMix64, Box–Muller).
+/// Normally distributed numbers of variance 1; a seed gives equal numbers in every version (SplitMix64, Box–Muller).
 pub fn normal_numbers(seed: u64) -> impl Iterator<Item = f64> {
     let mut generator = SplitMix64::seed_from_u64(seed);
     // In (0, 1].

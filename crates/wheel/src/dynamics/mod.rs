@@ -1,4 +1,4 @@
-//! The physics: cyclic structure, reduction, contact and time integration, in the words of docs/method.md.
+//! Physics of the wheel: cyclic structure, reduction, contact and time integration, in the words of docs/method.md.
 
 mod amplitude_sums;
 #[cfg(test)]

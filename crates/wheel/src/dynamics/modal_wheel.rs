@@ -1,4 +1,4 @@
-//! The reduced wheel at one speed in modal coordinates (docs/method.md, One speed in modal coordinates; Eq. 7).
+//! Reduced wheel at one speed in modal coordinates (docs/method.md, One speed in modal coordinates; Eq. 7).
 //!
 //! The wheel is block diagonal in the nodal diameter. Each small pencil (K_r(Ω), M_r) is solved once, an exact change
 //! of coordinates, after which the free motion is one scalar oscillator per mode:
@@ -18,17 +18,17 @@ use super::reduction::reduced::{ReducedHarmonic, ReducedWheel};
 use rubmap_numerics::hermitian::{EigenError, Eigenpairs, generalised_eigenpairs, generalised_eigenvalues};
 use rubmap_numerics::sector_fourier::is_single;
 
-/// Which effects of rotation a wheel has at a speed.
+/// Effects of rotation that a wheel has at a speed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct RotationEffects {
-    /// K(Ω) instead of the stiffness at rest.
+    /// Whether the stiffness is K(Ω) instead of that at rest.
     pub stiffening: bool,
-    /// Coriolis forces.
+    /// Whether Coriolis forces act.
     pub coriolis: bool,
 }
 
 impl RotationEffects {
-    /// No Coriolis forces.
+    /// Effects without Coriolis forces.
     pub fn stiffening(stiffening: bool) -> Self {
         Self { stiffening, coriolis: false }
     }
@@ -39,27 +39,27 @@ impl RotationEffects {
 pub struct ModalHarmonic {
     /// Nodal diameter i.
     pub harmonic: usize,
-    /// Whether its modes are single (real) rather than pairs.
+    /// Whether the modes are single (real) rather than pairs.
     pub single: bool,
-    /// ω_m in rad/s, ascending.
+    /// Natural frequencies ω_m, rad/s, ascending.
     pub omega: Vec<f64>,
-    /// φ restricted to the contact DOF, `n_b × modes`, mass-normalised; below them r, θ, z of nodes that are read
+    /// Mode shapes φ restricted to the contact DOF, `n_b × modes`, mass-normalised; below them r, θ, z of nodes that are read
     /// ([`NodeRows::join`](super::node_rows::NodeRows::join)).
     pub contact: Mat<c64>,
-    /// g = Φᴴ Ĝ Φ per unit speed, `modes × modes`, skew-Hermitian, real for single modes; absent without Coriolis forces.
+    /// Gyroscopic matrix g = Φᴴ Ĝ Φ per unit speed, `modes × modes`, skew-Hermitian, real for single modes; absent without Coriolis forces.
     pub gyroscopic: Option<Mat<c64>>,
 }
 
 /// All modes of the reduced wheel at one speed.
 #[derive(Debug, Clone)]
 pub struct ModalWheel {
-    /// Ω, rad/s.
+    /// Speed Ω, rad/s.
     pub speed_rad_s: f64,
-    /// Sectors simulated: all N, or one of the parts the wheel repeats.
+    /// Number of sectors simulated: all N, or one of the parts the wheel repeats.
     pub sectors: usize,
-    /// How often the wheel repeats them around the circumference: 1 for a full wheel.
+    /// Number of times the wheel repeats these sectors around the circumference: 1 for a full wheel.
     pub repeats: usize,
-    /// One per nodal diameter.
+    /// Modes of every nodal diameter.
     pub harmonics: Vec<ModalHarmonic>,
 }
 
@@ -76,7 +76,7 @@ impl ModalWheel {
         Ok(Self { speed_rad_s, sectors: reduced.sectors, repeats: 1, harmonics })
     }
 
-    /// The same with Φ of every nodal diameter in the coordinates of the reduction, as of [`mode_shapes`].
+    /// Modal wheel as of [`Self::at`], with Φ of every nodal diameter in the coordinates of the reduction, as of [`mode_shapes`].
     pub fn with_shapes(
         reduced: &ReducedWheel,
         speed_rad_s: f64,
@@ -88,12 +88,12 @@ impl ModalWheel {
         Ok((Self { speed_rad_s, sectors: reduced.sectors, repeats: 1, harmonics }, shapes))
     }
 
-    /// N, of which [`Self::sectors`] are simulated.
+    /// Number N of sectors around, of which [`Self::sectors`] are simulated.
     pub fn around(&self) -> usize {
         self.sectors * self.repeats
     }
 
-    /// ω_max in rad/s: with central differences it bounds the step, h < 2/ω_max.
+    /// Largest natural frequency ω_max, rad/s: with central differences it bounds the step, h < 2/ω_max.
     pub fn largest_frequency(&self) -> f64 {
         self.harmonics.iter().filter_map(|h| h.omega.last()).copied().fold(0.0, f64::max)
     }
@@ -103,7 +103,7 @@ impl ModalWheel {
         self.harmonics.iter().any(|harmonic| harmonic.gyroscopic.is_some())
     }
 
-    /// Real unknowns of the whole wheel.
+    /// Number of real unknowns of the whole wheel.
     pub fn unknowns(&self) -> usize {
         self.harmonics.iter().map(|h| if h.single { h.omega.len() } else { 2 * h.omega.len() }).sum()
     }
@@ -121,8 +121,8 @@ pub fn natural_frequencies(
     frequencies(&values, harmonic.harmonic, speed_rad_s)
 }
 
-/// Φ of nodal diameter `harmonic` of `wheel` in the coordinates of the reduction, `unknowns × modes`, mass-normalised: the
-/// same to the last bit as those behind [`ModalWheel::at`].
+/// Mode shapes Φ of nodal diameter `harmonic` of `wheel` in the coordinates of the reduction, `unknowns × modes`, mass-normalised: equal to
+/// the last bit to those behind [`ModalWheel::at`].
 pub fn mode_shapes(
     wheel: &ReducedWheel,
     harmonic: usize,
@@ -132,7 +132,7 @@ pub fn mode_shapes(
     Ok(eigenpairs(wheel, harmonic, speed_rad_s, stiffening)?.vectors)
 }
 
-/// ω in rad/s, ascending, and Φ of nodal diameter `harmonic` as [`mode_shapes`] has it; errors as of [`ModalWheel::at`].
+/// Natural frequencies ω in rad/s, ascending, and Φ of nodal diameter `harmonic` as [`mode_shapes`] has it; errors as of [`ModalWheel::at`].
 pub fn natural_modes(
     wheel: &ReducedWheel,
     harmonic: usize,
@@ -196,7 +196,7 @@ fn modal_harmonic_with_shapes(
     Ok((modes, shapes))
 }
 
-/// Φᴴ Ĝ Φ, skew-Hermitian to the last bit; real where the modes are.
+/// Gyroscopic matrix Φᴴ Ĝ Φ, skew-Hermitian to the last bit; real where the modes are.
 fn modal_gyroscopic(
     reduced: &ReducedHarmonic,
     modes: &Mat<c64>,
@@ -214,7 +214,7 @@ fn real(matrix: &Mat<c64>) -> Mat<f64> {
     Mat::from_fn(matrix.nrows(), matrix.ncols(), |i, j| matrix[(i, j)].re)
 }
 
-/// Eigenvalues below this fraction of the largest are round-off: zero, as far as double precision can tell.
+/// Fraction of the largest eigenvalue below which eigenvalues are round-off: zero, as far as double precision can tell.
 const ZERO: f64 = 1e-13;
 
 fn frequencies(values: &[f64], nodal_diameter: usize, speed_rad_s: f64) -> Result<Vec<f64>, ModelError> {

@@ -1,4 +1,4 @@
-//! What nodes of the sector do in the reduced coordinates (docs/method.md, Reduction): the wheel is read there.
+//! Displacements of nodes of the sector in the reduced coordinates (docs/method.md, Reduction), to read the wheel there.
 
 use std::collections::BTreeMap;
 
@@ -12,17 +12,17 @@ use super::reduction::ReducedWheel;
 /// Rows of the reduction basis at some nodes of a sector.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct NodeRows {
-    /// By id: their index, and whether they lie on the high face.
+    /// Nodes by id: their index, and whether they lie on the high face.
     nodes: BTreeMap<u64, (usize, bool)>,
-    /// (r, θ, z) of each.
+    /// Coordinates (r, θ, z) of each node.
     coordinates: Vec<[f64; 3]>,
-    /// Per nodal diameter, `3 nodes × unknowns`: r, θ, z of every node.
+    /// Rows of each nodal diameter, `3 nodes × unknowns`: r, θ, z of every node.
     harmonics: Vec<Mat<c64>>,
 }
 
 impl NodeRows {
-    /// Those of `nodes` for the nodal diameters of `reduced`; `row` gives the row of an own DOF at a nodal diameter,
-    /// real and imaginary part of every unknown.
+    /// Gathers the rows of `nodes` for the nodal diameters of `reduced`; `row` gives the row of an own DOF at a nodal diameter, real and
+    /// imaginary part of every unknown.
     ///
     /// # Errors
     /// Those of `row`.
@@ -51,17 +51,17 @@ impl NodeRows {
         Ok(Self { nodes: nodes.iter().enumerate().map(place).collect(), coordinates, harmonics })
     }
 
-    /// Index of node `id`, and whether it lies on the high face; none if it is not among them.
+    /// Index of node `id`, and whether it lies on the high face; none if it is not among the nodes.
     pub fn find(&self, id: u64) -> Option<(usize, bool)> {
         self.nodes.get(&id).copied()
     }
 
-    /// Where the node of this index is: r, θ, z.
+    /// Position of the node of this index: r, θ, z.
     pub fn coordinates(&self, index: usize) -> [f64; 3] {
         self.coordinates[index]
     }
 
-    /// `wheel` with these nodes below its contact nodes, at its speed. They can be read, not loaded.
+    /// Joins these nodes to `wheel`, below its contact nodes, at its speed. They can be read, not loaded.
     ///
     /// # Errors
     /// Those of [`ModalWheel::at`].

@@ -1,6 +1,6 @@
 //! Numbers in [−1, 1) whose bits depend on no library.
 
-/// Where the sequence is.
+/// State of the sequence of numbers.
 pub(super) struct Numbers(pub(super) u64);
 
 impl Numbers {

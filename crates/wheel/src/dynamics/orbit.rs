@@ -1,4 +1,4 @@
-//! The wheel's axis off the casing's: eccentric casing and whirling shaft.
+//! Orbit of the wheel's axis off the casing's: eccentric casing and whirling shaft.
 //!
 //! With the axis displaced by e towards the angle κΩt + ψ of the fixed frame, the gap at angle φ shrinks by
 //!
@@ -26,17 +26,17 @@ pub struct Orbit {
     pub phase_rad: f64,
 }
 
-/// What an orbit takes from the gaps, with all that can be known before the loop.
+/// Change of the gaps by an orbit, with all that can be known before the loop.
 #[derive(Debug)]
 pub(crate) struct OrbitShift {
     orbit: Orbit,
-    /// n_r e cos and n_r e sin of θ_k + sα − ψ, `[sector][node]`.
+    /// Factors n_r e cos and n_r e sin of θ_k + sα − ψ, `[sector][node]`.
     cos: Vec<f64>,
     sin: Vec<f64>,
 }
 
 impl OrbitShift {
-    /// `sectors` of the `around` on the circumference, nodes padded to `stride`.
+    /// Prepares the orbit for `sectors` of the `around` on the circumference, nodes padded to `stride`.
     pub(crate) fn new(
         orbit: Orbit,
         contact_nodes: &[ContactNode],
@@ -55,7 +55,7 @@ impl OrbitShift {
         shift
     }
 
-    /// Adds to the gaps after `revolutions`.
+    /// Subtracts the orbit's displacement after `revolutions` from the gaps.
     pub(crate) fn add(&self, revolutions: f64, growth: f64, gaps: &mut [f64]) {
         let (sin, cos) = (TAU * ((1.0 - self.orbit.whirl_ratio) * revolutions).fract()).sin_cos();
         let (sin, cos) = (growth * sin, growth * cos);

@@ -1,4 +1,4 @@
-//! One impeller sector as every computation sees it: cylindrical components, high face eliminated (docs/method.md, Conventions).
+//! Impeller sector as every computation sees it: cylindrical components, high face eliminated (docs/method.md, Conventions).
 
 use faer::sparse::SparseColMat;
 use serde::{Deserialize, Serialize};
@@ -22,7 +22,7 @@ pub struct Units {
     pub mass: String,
 }
 
-/// A sector matrix Y split by the cyclic structure (Eq. 2), both parts over the own DOF.
+/// Sector matrix Y split by the cyclic structure (Eq. 2), both parts over the own DOF.
 ///
 /// The wheel couples sector s to itself by `own` (Y0, with the high face's own block already added on the low
 /// face) and to sector s+1 by `next` (Y1, whose non-zero columns are low-face DOF of sector s+1). Mass and stiffness are
@@ -30,13 +30,13 @@ pub struct Units {
 /// Ĝ(i) = G0 + G1 e^{jiα} − G1ᵀ e^{−jiα}.
 #[derive(Debug, Clone)]
 pub struct CyclicMatrix {
-    /// Y0: both triangles stored, `n × n`.
+    /// Matrix Y0: both triangles stored, `n × n`.
     pub own: SparseColMat<usize, f64>,
-    /// Y1: coupling of this sector's rows to the next sector's low-face columns, `n × n`.
+    /// Matrix Y1: coupling of this sector's rows to the next sector's low-face columns, `n × n`.
     pub next: SparseColMat<usize, f64>,
 }
 
-/// A node of the blade tip that may touch the casing.
+/// Node of the blade tip that may touch the casing.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ContactNode {
     /// Node id in the user's model.
@@ -45,14 +45,14 @@ pub struct ContactNode {
     pub position: [f64; 3],
     /// Unit normal out of the blade into the casing, in (r, θ, z) components at the node.
     pub normal: [f64; 3],
-    /// Rows of its r, θ and z displacement among the own DOF.
+    /// Rows of the node's r, θ and z displacement among the own DOF.
     pub dofs: [usize; 3],
 }
 
-/// What a sector is made of: matrices over the own DOF (internal, low face and contact), in (r, θ, z) components.
+/// Parts of a sector: matrices over the own DOF (internal, low face and contact), in (r, θ, z) components.
 #[derive(Debug, Clone)]
 pub struct SectorParts {
-    /// Free text of the user.
+    /// Name of the model: free text of the user.
     pub name: String,
     /// Number N of identical sectors in the wheel.
     pub sectors: usize,
@@ -69,23 +69,23 @@ pub struct SectorParts {
     pub speeds_rad_s: Vec<f64>,
     /// Contact nodes from leading to trailing edge.
     pub contact: Vec<ContactNode>,
-    /// The three DOF of a node, or fewer where some are clamped, grouped node by node: index of the node each
-    /// own DOF belongs to (the graph that fill-reducing orderings compress).
+    /// Index of the node that each own DOF belongs to (the graph that fill-reducing orderings compress): the three DOF of a node, or fewer
+    /// where some are clamped, grouped node by node.
     pub node_of_dof: Vec<usize>,
 }
 
-/// A sector whose parts fit together; they can be read, not changed. What its numbers must be beyond that (symmetric, positive)
-/// an importer has checked: everything docs/package.md lists.
+/// Sector whose parts fit together; they can be read, not changed. Further conditions on its numbers (symmetric, positive) an importer has
+/// checked: everything docs/package.md lists.
 #[derive(Debug, Clone)]
 pub struct SectorModel(SectorParts);
 
-/// Why parts make no sector.
+/// Reason why parts make no sector.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum UnsoundSector {
-    /// A wheel without sectors.
+    /// Wheel without sectors.
     #[error("a wheel has at least one sector")]
     NoSectors,
-    /// Nothing could ever touch.
+    /// Sector without contact nodes: nothing could ever touch.
     #[error("a sector has at least one contact node")]
     NoContactNodes,
     /// Speeds other than `[0]` or `[0, Ω1/2, Ω1]`, or not as many as stiffness matrices.
@@ -93,38 +93,38 @@ pub enum UnsoundSector {
         "{matrices} stiffness matrices at the speeds {speeds_rad_s:?} rad/s: give one at rest, or three at 0, Ω/2 and Ω"
     )]
     Speeds {
-        /// How many stiffness matrices there are.
+        /// Number of stiffness matrices.
         matrices: usize,
-        /// Their speeds.
+        /// Speeds of the matrices, rad/s.
         speeds_rad_s: Vec<f64>,
     },
-    /// A matrix of another size than the number of DOF.
+    /// Matrix of another size than the number of DOF.
     #[error("a matrix has {rows} rows and {columns} columns, the sector {dofs} degrees of freedom")]
     Size {
-        /// Its rows.
+        /// Number of rows of the matrix.
         rows: usize,
-        /// Its columns.
+        /// Number of columns of the matrix.
         columns: usize,
-        /// Own DOF of the sector.
+        /// Number of own DOF of the sector.
         dofs: usize,
     },
-    /// A contact node whose displacement is not among the DOF.
+    /// Contact node whose displacement is not among the DOF.
     #[error("contact node {id} has degree of freedom {dof}, the sector those below {dofs}")]
     ContactDof {
-        /// The node.
+        /// Id of the node.
         id: u64,
-        /// Its row.
+        /// Row of the displacement.
         dof: usize,
-        /// Own DOF of the sector.
+        /// Number of own DOF of the sector.
         dofs: usize,
     },
 }
 
 impl SectorModel {
-    /// Of parts that fit together.
+    /// Builds a sector from parts that fit together.
     ///
     /// # Errors
-    /// [`UnsoundSector`] says which do not.
+    /// [`UnsoundSector`] names the parts that do not fit.
     pub fn new(parts: SectorParts) -> Result<Self, UnsoundSector> {
         if parts.sectors == 0 {
             return Err(UnsoundSector::NoSectors);
@@ -157,7 +157,7 @@ impl SectorModel {
         Ok(Self(parts))
     }
 
-    /// What it is made of, to make another one.
+    /// Parts of the sector, to make another one from.
     pub fn into_parts(self) -> SectorParts {
         self.0
     }

@@ -1,4 +1,4 @@
-//! Where the whole wheel was at some instants, in the coordinates of the reduction: fields and stresses are read there.
+//! States of the whole wheel at some instants, in the coordinates of the reduction: fields and stresses are read there.
 //!
 //! ```text
 //! u_s = Re Σ_i e^{jisα} Υ̂_i X_i,   X_i = w_i Φ_i z_i,   w_i = 1/√N for single harmonics, √(2/N) for pairs
@@ -13,26 +13,26 @@ use super::integrate::ModalStates;
 use super::modal_wheel::{ModalHarmonic, ModalWheel, mode_shapes};
 use super::reduction::ReducedWheel;
 
-/// The wheel at some instants.
+/// States of the wheel at some instants.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WheelStates {
-    /// The instants, in revolutions since the start.
+    /// Instants, in revolutions since the start.
     pub revolutions: Vec<f64>,
-    /// Of every nodal diameter that was simulated; the others are at rest.
+    /// States of every nodal diameter that was simulated; the others are at rest.
     pub harmonics: Vec<HarmonicStates>,
 }
 
-/// One nodal diameter at these instants.
+/// States of one nodal diameter at the instants of [`WheelStates`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct HarmonicStates {
     /// Nodal diameter i of the whole wheel.
     pub harmonic: usize,
-    /// X_i, `unknowns of the reduction × instants`.
+    /// Coordinates X_i, `unknowns of the reduction × instants`.
     pub coordinates: Mat<c64>,
 }
 
 impl WheelStates {
-    /// From the modes of `wheel`, which is `reduced` at its speed.
+    /// States in the coordinates of `reduced` from the modes of `wheel`, which is `reduced` at its speed.
     ///
     /// # Errors
     /// Those of [`ModalWheel::at`].

@@ -1,13 +1,13 @@
-//! What a run counted.
+//! Counters of a run.
 
 use rubmap_numerics::complementarity::active_set::PivotStatistics;
 
 /// Work and contact counters of one run.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct RunStatistics {
-    /// Steps taken.
+    /// Number of steps taken.
     pub steps: u64,
-    /// Steps with at least one contact force.
+    /// Number of steps with at least one contact force.
     pub contact_steps: u64,
     /// Sum of λh over nodes and steps, force·time.
     pub contact_impulse: f64,
@@ -17,9 +17,9 @@ pub struct RunStatistics {
     pub smallest_multiplier: Option<f64>,
     /// Largest radial amplitude of any wave of an elastic casing, length.
     pub casing_amplitude: Option<f64>,
-    /// Contact forces, counted by nodes and steps, under which tips stick and slide; 0 unless friction tells.
+    /// Number of contact forces, counted by nodes and steps, under which tips stick; 0 unless the law of friction tells sticking from sliding.
     pub sticking: u64,
-    /// See [`Self::sticking`].
+    /// Number of contact forces under which tips slide; see [`Self::sticking`].
     pub sliding: u64,
     /// Work of the complementarity solver.
     pub pivots: PivotStatistics,

@@ -9,7 +9,7 @@
 use super::modal_wheel::ModalWheel;
 
 impl ModalWheel {
-    /// One of the `repeats` equal parts of a full wheel, `repeats` dividing its sectors.
+    /// Reduces a full wheel to one of its `repeats` equal parts, `repeats` dividing its sectors.
     pub fn part(mut self, repeats: usize) -> Self {
         self.harmonics.retain(|harmonic| harmonic.harmonic.is_multiple_of(repeats));
         self.sectors /= repeats;

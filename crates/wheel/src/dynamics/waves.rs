@@ -22,17 +22,17 @@ use rubmap_numerics::hermitian::eigenvalues;
 /// Natural frequencies |ν| of one nodal diameter's waves in the rotating frame, rad/s, ascending.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WaveFrequencies {
-    /// Of waves that travel with the rotation.
+    /// Frequencies of waves that travel with the rotation.
     pub forward: Vec<f64>,
-    /// Of waves that travel against it; the same numbers where the nodal diameter is single.
+    /// Frequencies of waves that travel against the rotation; equal to the forward ones where the nodal diameter is single.
     pub backward: Vec<f64>,
 }
 
-/// Waves of nodal diameter `nodal_diameter` at `speed_rad_s`.
+/// Natural frequencies of the waves of nodal diameter `nodal_diameter` at `speed_rad_s`.
 ///
 /// # Errors
 ///
-/// Those of the modes, and [`ModelError::NoGyroscopicMatrix`].
+/// Errors of the modes, and [`ModelError::NoGyroscopicMatrix`].
 pub fn wave_frequencies(
     wheel: &ReducedWheel,
     nodal_diameter: usize,
@@ -49,7 +49,7 @@ pub fn wave_frequencies(
     Ok(WaveFrequencies { forward, backward })
 }
 
-/// −jS.
+/// Hermitian matrix −jS.
 fn hermitian_form(modes: &ModalHarmonic, speed_rad_s: f64) -> Result<Mat<c64>, ModelError> {
     let n = modes.omega.len();
     let g = modes.gyroscopic.as_ref().ok_or(ModelError::NoGyroscopicMatrix)?;

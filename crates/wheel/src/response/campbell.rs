@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 
 use super::waves::{Branch, Frequencies, Wave, Waves, driven_wave, fold};
 
-/// A natural frequency that equals an engine order: where the linear criterion expects an interaction. With Coriolis forces
-/// that of the backward wave, which alone can stand still in the fixed frame.
+/// Natural frequency that equals an engine order, where the linear criterion expects an interaction. With Coriolis forces it is that of the
+/// backward wave, which alone can stand still in the fixed frame.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Crossing {
@@ -17,14 +17,13 @@ pub struct Crossing {
     pub family: u32,
     /// Superharmonic number n with f = i·n·Ω/2π.
     pub superharmonic: u32,
-    /// Ω in rad/s.
+    /// Speed Ω, rad/s.
     pub speed_rad_s: f64,
     /// Frequency in the rotating frame, Hz (per unit of time of the model).
     pub frequency_hz: f64,
 }
 
-/// A crossing that the scene can drive: f = kΩ/2π with k, a multiple of the lobe count or the order of a force, that aliases
-/// onto i.
+/// Crossing that the scene can drive: f = kΩ/2π with k, a multiple of the lobe count or the order of a force, that aliases onto i.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct DrivenCrossing {
@@ -34,17 +33,17 @@ pub struct DrivenCrossing {
     pub family: u32,
     /// Engine order k.
     pub engine_order: u32,
-    /// Ω in rad/s.
+    /// Speed Ω, rad/s.
     pub speed_rad_s: f64,
     /// Frequency in the rotating frame, Hz.
     pub frequency_hz: f64,
-    /// With Coriolis forces: the wave whose frequency it is, the one that engine order k drives. Absent without them and
+    /// Direction of the travelling wave that has this frequency, the one that engine order k drives. Absent without Coriolis forces and
     /// where the nodal diameter is single.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub wave: Option<Wave>,
 }
 
-/// f_a = |−f + i·n·Ω/2π| of Eq. 11, f in Hz, Ω in rad/s.
+/// Frequency f_a = |−f + i·n·Ω/2π| of Eq. 11, f in Hz, Ω in rad/s.
 pub fn absolute_frequency(
     frequency_hz: f64,
     nodal_diameter: u32,
@@ -54,19 +53,19 @@ pub fn absolute_frequency(
     (f64::from(nodal_diameter * superharmonic) * speed_rad_s / TAU - frequency_hz).abs()
 }
 
-/// The line over speed that a frequency f is to meet: ±f = kΩ/2π − offset.
+/// Line over speed that a frequency f is to meet: ±f = kΩ/2π − offset.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Line {
-    /// k.
+    /// Engine order k.
     pub(super) order: u32,
-    /// 1 or −1, the sign of f.
+    /// Sign of f, 1 or −1.
     pub(super) sign: f64,
-    /// Hz.
+    /// Offset of the line, Hz.
     pub(super) offset: f64,
 }
 
 impl Line {
-    /// Engine order `order`.
+    /// Line of engine order `order`.
     fn engine_order(order: u32) -> Self {
         Self { order, sign: 1.0, offset: 0.0 }
     }
@@ -150,8 +149,8 @@ fn refine(
     Some(low.0)
 }
 
-/// The linear criterion: roots of f_a = 0 for every nodal diameter, the first `families` and each superharmonic number,
-/// in ascending speed.
+/// Crossings of the linear criterion: roots of f_a = 0 for every nodal diameter, the first `families` and each superharmonic number, in
+/// ascending speed.
 pub fn crossings<F: Frequencies>(
     waves: &Waves<'_, F>,
     grid: &[f64],
@@ -181,7 +180,7 @@ pub fn crossings<F: Frequencies>(
     all
 }
 
-/// The engine orders of `lobes` equal lobes up to `highest`.
+/// Multiples of `lobes` up to `highest`: the engine orders of equal lobes.
 pub fn multiples(lobes: u32, highest: u32) -> Vec<u32> {
     if lobes == 0 { Vec::new() } else { (lobes..=highest).step_by(lobes as usize).collect() }
 }
@@ -223,10 +222,10 @@ mod tests {
     use super::*;
     use crate::response::waves::Table;
 
-    /// f² = f0² + BΩ² fitted to the paper's Table 2: per nodal diameter (f0, B) of families 1 and 2.
+    /// Frequencies f² = f0² + BΩ² fitted to the paper's Table 2: per nodal diameter (f0, B) of families 1 and 2.
     struct PaperFit;
 
-    /// (i, j, f0, B). Family (1,1) has one row only, f = 12.0 at Ω = 4.0: with B = 3 like its neighbours f0 is 9.798.
+    /// Fit (i, j, f0, B). Family (1,1) has one row only, f = 12.0 at Ω = 4.0: with B = 3 like its neighbours f0 is 9.798.
     const FIT: [(u32, usize, f64, f64); 9] = [
         (1, 1, 9.798, 3.0),
         (2, 1, 9.749, 3.43),

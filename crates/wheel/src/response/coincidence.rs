@@ -9,23 +9,23 @@ use serde::{Deserialize, Serialize};
 use super::campbell::{Line, roots};
 use super::waves::{Frequencies, Wave, Waves, driven_wave, fold};
 
-/// Where a wave of the wheel meets one of the casing.
+/// Coincidence of a wave of the wheel with one of the casing.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Coincidence {
-    /// n of the casing.
+    /// Nodal diameter n of the casing.
     pub casing_nodal_diameter: u32,
-    /// Its natural frequency, Hz.
+    /// Natural frequency of the casing's wave, Hz.
     pub casing_frequency_hz: f64,
     /// Nodal diameter of the wheel.
     pub nodal_diameter: u32,
     /// Modal family of the wheel, from 1.
     pub family: u32,
-    /// Ω in rad/s.
+    /// Speed Ω, rad/s.
     pub speed_rad_s: f64,
     /// Frequency of the wheel in the rotating frame, Hz.
     pub frequency_hz: f64,
-    /// nΩ is the sum of both frequencies, or their difference.
+    /// Whether nΩ is the sum of both frequencies; otherwise it is their difference.
     pub sum: bool,
 }
 
@@ -76,7 +76,7 @@ mod tests {
     use super::*;
     use crate::response::waves::{Branch, Table};
 
-    /// 100, 110 … Hz at every speed, in every nodal diameter.
+    /// Frequencies 100, 110 … Hz at every speed, in every nodal diameter.
     struct Constant;
 
     impl Frequencies for Constant {

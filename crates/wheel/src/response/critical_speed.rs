@@ -1,32 +1,31 @@
 //! Critical speeds: peaks of the steady response over Ω, and whether the computed speeds resolve them (docs/method.md, Reading
 //! responses).
 
-/// A peak is resolved if the response at the neighbouring speeds is at least this share of it. Evenly sampled, a linear
-/// resonance 1/√(1 + x²) is then seen at |x| < 0.18 half-bandwidths and within 1.5 % of its top.
+/// Share of a peak that the response at the neighbouring speeds must reach for the peak to be resolved. Evenly sampled, a linear resonance
+/// 1/√(1 + x²) is then seen at |x| < 0.18 half-bandwidths and within 1.5 % of its top.
 pub const RESOLVED_SHARE: f64 = 0.9;
 
-/// Speeds as close as this, relative to the peak's, resolve it whatever the response does between them. At the fold of a
+/// Distance between speeds, relative to the peak's, at which they resolve it whatever the response does between them. At the fold of a
 /// backbone curve the response of a wheel that touches its casing jumps: no grid makes the neighbour higher there.
 pub const SHARPNESS: f64 = 5e-4;
 
-/// How much wider one of the intervals beside a resolved peak may be than the other. In a wide one beside a narrow one a
-/// higher peak could hide whose flanks are what was sampled; up to this ratio a linear resonance is within 7 % of its top.
+/// Largest ratio of the two intervals beside a resolved peak. In a wide one beside a narrow one a higher peak could hide whose flanks are
+/// what was sampled; up to this ratio a linear resonance is within 7 % of its top.
 const WIDEST_RATIO: f64 = 3.0;
 
-/// How far apart, relative to its speed, a maximum of solved responses and the speeds beside it have to be: exact responses have an
-/// exact maximum.
+/// Least distance, relative to its speed, between a maximum of solved responses and the speeds beside it: exact responses have an exact maximum.
 pub const ON_BRANCH: f64 = 1e-5;
 
-/// A local maximum of a sampled curve.
+/// Local maximum of a sampled curve.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Peak {
     /// Index of the sample.
     pub index: usize,
-    /// Value there.
+    /// Value at the sample.
     pub height: f64,
     /// Height above the higher of the two valleys that separate it from higher ground (or from the ends).
     pub prominence: f64,
-    /// Whether it is the end of a stretch, so that the curve may rise further beyond.
+    /// Whether the peak is the end of a stretch, so that the curve may rise further beyond.
     pub at_edge: bool,
 }
 
@@ -94,7 +93,7 @@ fn prominence(values: &[f64], left: usize, right: usize) -> f64 {
     height - base
 }
 
-/// How well a sampled curve knows one of its peaks.
+/// Accuracy with which a sampled curve determines one of its peaks.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Resolution {
     /// Distance from the peak's sample to the farther one of its two neighbours: the true peak is no farther away. A
@@ -102,38 +101,38 @@ pub struct Resolution {
     pub error: f64,
     /// Whether the samples resolve the peak; never if one of the neighbours has no value.
     pub resolved: bool,
-    /// Whether the curve ends beside it.
+    /// Whether the curve ends beside the peak.
     pub at_end: bool,
-    /// The speeds that would tell more, with the intervals they are for; none beside the end of the curve, where the peak may lie
-    /// beyond.
+    /// Speeds that would resolve the peak further, with the intervals they are for; none beside the end of the curve, where the peak may
+    /// lie beyond.
     pub wanted: Vec<Wanted>,
-    /// Whether it is a maximum on a branch: its sample and both beside it are of solved responses that follow from each other.
+    /// Whether the peak is a maximum on a branch: its sample and both beside it are of solved responses that follow from each other.
     pub on_branch: bool,
 }
 
-/// A speed that would tell more of a peak.
+/// Speed that would resolve a peak further.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Wanted {
-    /// The speed.
+    /// Speed to compute.
     pub speed: f64,
-    /// Width of the interval that it divides.
+    /// Width of the interval that the speed divides.
     pub width: f64,
 }
 
-/// A sampled curve.
+/// Sampled curve.
 #[derive(Debug, Clone, Copy)]
 pub struct Curve<'a> {
     /// Speeds, ascending.
     pub speeds: &'a [f64],
-    /// Values at them.
+    /// Values at the speeds.
     pub values: &'a [Option<f64>],
-    /// Whether they are of periodic responses that were solved for and last, instead of read from a march.
+    /// Whether the values are of periodic responses that were solved for and last, instead of read from a march.
     pub solved: &'a [bool],
 }
 
-/// What lies beside a peak on one side.
+/// Neighbour of a peak on one side.
 struct Side {
-    /// From the end of the peak's flat top, which is usually one sample, to the next sample.
+    /// Distance from the end of the peak's flat top, which is usually one sample, to the next sample.
     width: f64,
     to: f64,
     interval: (f64, f64),
@@ -142,7 +141,7 @@ struct Side {
 }
 
 impl Resolution {
-    /// Of a peak of `curve`; of equal speeds one counts.
+    /// Resolution of a peak of `curve`; of equal speeds one counts.
     pub fn of(curve: Curve<'_>, peak: &Peak) -> Self {
         let below = curve.side(peak, &mut (0..peak.index).rev());
         let above = curve.side(peak, &mut (peak.index + 1..curve.speeds.len()));
@@ -175,8 +174,8 @@ impl Resolution {
     }
 }
 
-/// The speeds that tell where between its neighbours a smooth curve has its maximum: the summit of the parabola through the three, and where
-/// that is the highest sample, close beside it.
+/// Speeds that locate the maximum of a smooth curve between its neighbours: the summit of the parabola through the three, and where that is
+/// the highest sample, close beside it.
 fn towards_the_top(at: f64, height: f64, [below, above]: [&Side; 2]) -> Vec<Wanted> {
     let close = ON_BRANCH * at;
     let wide = |side: &&&Side| (side.to - at).abs() > close;
@@ -206,7 +205,7 @@ impl Side {
 }
 
 impl Curve<'_> {
-    /// The first sample among `indices`, which lead away from the peak, that is not part of its top; none at the end.
+    /// First sample among `indices`, which lead away from the peak, that is not part of its top; none at the end.
     fn side(&self, peak: &Peak, indices: &mut dyn Iterator<Item = usize>) -> Option<Side> {
         let mut top = self.speeds[peak.index];
         for index in indices {
@@ -227,7 +226,7 @@ impl Curve<'_> {
 mod tests {
     use super::*;
 
-    /// The highest peak of `response` over ascending speeds, with its speed.
+    /// Highest peak of `response` over ascending speeds, with its speed.
     fn highest(speeds: &[f64], response: impl Fn(f64) -> Option<f64>) -> (f64, Resolution) {
         highest_of(speeds, response, false)
     }
@@ -244,12 +243,12 @@ mod tests {
         (speeds[peak.index], Resolution::of(Curve { speeds, values: &values, solved: &solved }, peak))
     }
 
-    /// The intervals that halving is wanted of.
+    /// Intervals to be halved.
     fn halved(of: &Resolution) -> Vec<(f64, f64)> {
         of.wanted.iter().map(|each| (each.speed - 0.5 * each.width, each.speed + 0.5 * each.width)).collect()
     }
 
-    /// A linear resonance at 1000 with a half-bandwidth of 10.
+    /// Linear resonance at 1000 with a half-bandwidth of 10.
     fn resonance(speed: f64) -> Option<f64> {
         Some(1.0 / (1.0 + ((speed - 1000.0) / 10.0).powi(2)).sqrt())
     }
@@ -335,7 +334,7 @@ mod tests {
         assert_eq!(halved(&found), [(980.0, 990.0), (1000.0, 1010.0)]);
     }
 
-    /// Of what is solved for the top is found, of any smooth curve, in a handful of speeds; jumps are no branch.
+    /// Maxima of solved responses are found, of any smooth curve, in a handful of speeds; jumps are no branch.
     #[test]
     fn maxima_of_solved_responses_are_found_to_their_tolerance() {
         let lopsided = |speed: f64| {

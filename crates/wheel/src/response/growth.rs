@@ -1,17 +1,17 @@
 //! Growth rates by least squares.
 
-/// Fewest values that a rate is fitted to.
+/// Least number of values that a rate is fitted to.
 const LEAST: usize = 5;
 
-/// The slope of a line.
+/// Slope of a line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Rate {
     pub(super) value: f64,
-    /// Standard error.
+    /// Standard error of the slope.
     pub(super) error: f64,
 }
 
-/// A rate this many standard errors from another is another.
+/// Number of standard errors from which on two rates differ.
 pub(super) const CLEARLY: f64 = 3.0;
 
 /// Slope of the least-squares line through `points`; none for fewer than five.
@@ -28,24 +28,24 @@ pub(super) fn rate(points: &[(f64, f64)]) -> Option<Rate> {
     Some(Rate { value, error: (left / ((n - 2.0) * xx)).sqrt() })
 }
 
-/// A rate after the transient.
+/// Rate after the transient.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct SettledRate {
     pub(super) rate: Rate,
-    /// Points of the transient, before those that the rate was fitted to.
+    /// Number of points of the transient, before those that the rate was fitted to.
     pub(super) transient: usize,
-    /// Length of what it was fitted to.
+    /// Length of the part that the rate was fitted to.
     pub(super) span: f64,
 }
 
-/// Blocks that a rate is fitted to, if there are so many points.
+/// Number of blocks that a rate is fitted to, if there are so many points.
 const BLOCKS: usize = 8;
 
-/// Slopes of two halves are not told apart where their difference adds less than this to the line over a half.
+/// Change that the difference of two slopes must add to the line over a half for the halves to differ.
 const ALIKE: f64 = 0.1;
 
-/// Rate of the longest part at the end of `points` whose two halves grow alike: what is left when a quarter at a time has been given
-/// to the transient. None if the halves of the last ten still differ.
+/// Rate of the longest part at the end of `points` whose two halves grow alike: the rest after giving a quarter at a time to the transient.
+/// None if the halves of the last ten still differ.
 ///
 /// Neighbouring points are not independent of each other: a response that beats carries the logarithm of a distance up and down over
 /// many of them, and in chaos it wanders. The line therefore goes through the means of eight blocks or more, and its standard error is
@@ -103,7 +103,7 @@ mod tests {
         assert!((steady.rate.value - 0.05).abs() < 1e-12 && steady.rate.error < 1e-12, "{steady:?}");
     }
 
-    /// Ups and downs over many points are no growth: the error of single points, as if they were independent, says so.
+    /// Beats over many points are no growth, though the error of single points, taken as independent, would say so.
     #[test]
     fn beats_are_within_the_error() {
         for phase in 0..20 {
@@ -114,7 +114,7 @@ mod tests {
         }
     }
 
-    /// A line whose slope changes at random: the error is that of the mean of 100 slopes, 0.03, not that of points about a line.
+    /// Line whose slope changes at random: the error is that of the mean of 100 slopes, 0.03, not that of points about a line.
     #[test]
     fn a_growth_that_varies_is_known_no_better_than_that() {
         let mut seed = 1u64;

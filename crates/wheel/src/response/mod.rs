@@ -1,5 +1,4 @@
-//! From histories to engineering results: spectra, nodal diameters, settling and critical speeds (docs/method.md, Reading
-//! responses).
+//! Engineering results from histories: spectra, nodal diameters, settling and critical speeds (docs/method.md, Reading responses).
 
 pub mod campbell;
 pub mod coincidence;

@@ -1,4 +1,4 @@
-//! Can trajectories be compared? The growth of a tiny perturbation, from a run and its twin.
+//! Sensitivity of trajectories: the growth of a tiny perturbation, from a run and its twin, tells whether they can be compared.
 //!
 //! The twin starts from a perturbed state. The distance between the two, relative to the response, is followed from revolution
 //! to revolution. While it is small and after the transient, when both runs move on what attracts them, its growth rate is the largest
@@ -10,37 +10,37 @@ use serde::{Deserialize, Serialize};
 use super::growth::{CLEARLY, Rate, SettledRate, settled_rate};
 use super::settling::Verdict;
 
-/// What a tiny perturbation says of the response: `chaotic` where it grows exponentially after the transient, `quasi_periodic` where
-/// it neither grows nor decays and the response does not repeat, `stable` where it decays, or stays as it is beside a response that
-/// repeats, `undecided` where the run is too short to say.
+/// Growth of a tiny perturbation of the response: `chaotic` where the perturbation grows exponentially after the transient,
+/// `quasi_periodic` where it neither grows nor decays and the response does not repeat, `stable` where it decays, or stays as it is beside
+/// a response that repeats, `undecided` where the run is too short to say.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Growth {
-    /// It grows exponentially after the transient: trajectories depend on round-off, and only statistics can be compared.
+    /// Perturbation that grows exponentially after the transient: trajectories depend on round-off, and only statistics can be compared.
     Chaotic,
-    /// It neither grows nor decays, and the response does not repeat.
+    /// Perturbation that neither grows nor decays, beside a response that does not repeat.
     QuasiPeriodic,
-    /// It decays, or stays as it is beside a response that repeats.
+    /// Perturbation that decays, or stays as it is beside a response that repeats.
     Stable,
-    /// The run is too short to say.
+    /// Run that is too short to say.
     #[default]
     Undecided,
 }
 
-/// What became of a tiny perturbation.
+/// Fate of a tiny perturbation.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Sensitivity {
-    /// What it says of the response.
+    /// Growth of the perturbation.
     #[serde(default)]
     pub growth: Growth,
     /// Growth rate of the distance per revolution after the transient, natural logarithm; negative where it decays. Absent where too few
     /// revolutions lie between round-off and a hundredth of the response, or the transient lasted to their end.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rate_per_revolution: Option<f64>,
-    /// Standard error of the rate, from eight or more blocks of revolutions: of their residuals, or of the slopes from one to the next
-    /// if those vary more.
+    /// Standard error of the rate, from eight or more blocks of revolutions: of their residuals, or of the slopes from one block to the
+    /// next if those vary more.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rate_error: Option<f64>,
     /// First revolution that the rate was fitted to.
@@ -49,32 +49,32 @@ pub struct Sensitivity {
     /// Revolution by whose end the distance had passed a hundredth of the response, for good.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub separated_after_revolutions: Option<u32>,
-    /// Distance in the last revolution, relative to the response.
+    /// Distance between run and twin in the last revolution, relative to the response.
     pub last_distance: f64,
 }
 
 impl Sensitivity {
-    /// The rate and its standard error in words, if there is one.
+    /// Rate and its standard error in words, if there is one.
     pub fn rate_in_words(&self) -> Option<String> {
         let (rate, error, from) = (self.rate_per_revolution?, self.rate_error?, self.rate_from_revolution?);
         Some(format!("e^({rate:.3} ± {error:.3}) a revolution from revolution {from} on"))
     }
 }
 
-/// Trajectories farther apart than this share of the response have separated.
+/// Share of the response from which on trajectories have separated.
 const SEPARATED: f64 = 1e-2;
 
-/// Distances below this share of the response are round-off.
+/// Share of the response below which distances are round-off.
 const ROUND_OFF: f64 = 1e-12;
 
-/// A distance that has changed by this factor has grown, or decayed. Neutral motion changes distances too, but no faster than in
+/// Factor by which a distance has to change to have grown, or decayed. Neutral motion changes distances too, but no faster than in
 /// proportion to time, and an exponential is not told from that over less.
 const GROWN: f64 = 4.0;
 
-/// Revolutions too few for a rate.
+/// Number of revolutions that are too few for a rate.
 const FEW: usize = 10;
 
-/// Revolutions over which a distance that stays small must grow, or stay as it is, before that is believed.
+/// Number of revolutions over which a distance that stays small must grow, or stay as it is, before that is believed.
 const LASTING: f64 = 20.0;
 
 /// Judges a run and its twin, both `[sensor][sample]`, from revolution `from` on; `verdict` is that of the run.
@@ -155,7 +155,7 @@ mod tests {
 
     const SAMPLES: usize = 16;
 
-    /// A harmonic response about a mean, and the same with a perturbation of relative size `at(revolution)`.
+    /// Harmonic response about a mean, and the same with a perturbation of relative size `at(revolution)`.
     fn pair(at: impl Fn(f64) -> f64) -> [Vec<Vec<f64>>; 2] {
         let time = || (0..40 * SAMPLES).map(|j| j as f64 / SAMPLES as f64);
         let run = time().map(|t| 5.0 + (2.0 * TAU * t).sin()).collect();
@@ -207,7 +207,7 @@ mod tests {
         assert!(found.growth == Growth::Stable && found.last_distance == 0.0, "{found:?}");
     }
 
-    /// A map's two coordinates from `start`, one iterate a revolution, and from `start` shifted by `by`.
+    /// Orbits of a map's two coordinates from `start`, one iterate a revolution, and from `start` shifted by `by`.
     fn orbits(
         map: impl Fn([f64; 2]) -> [f64; 2],
         start: [f64; 2],
@@ -220,7 +220,7 @@ mod tests {
         })
     }
 
-    /// Hénon's map has an exponent of 0.4192 an iterate.
+    /// Hénon's map, with an exponent of 0.4192 an iterate.
     #[test]
     fn a_chaotic_map_has_its_exponent() {
         let [run, twin] = orbits(|[x, y]| [1.0 - 1.4 * x * x + y, 0.3 * x], [0.6, 0.2], 1e-10, 100);
@@ -230,8 +230,8 @@ mod tests {
         assert!((rate - 0.4192).abs() < CLEARLY * error && error < 0.05, "{found:?}");
     }
 
-    /// x⁺ = a x (1 − x⁻): beyond a = 2 the fixed point 1 − 1/a gives way to a closed curve on which orbits turn with two
-    /// frequencies. A perturbation grows by √(a − 1) an iterate as long as the orbit spirals outwards from the fixed point, and not at
+    /// Delayed logistic map x⁺ = a x (1 − x⁻): beyond a = 2 the fixed point 1 − 1/a gives way to a closed curve on which orbits turn with
+    /// two frequencies. A perturbation grows by √(a − 1) an iterate as long as the orbit spirals outwards from the fixed point, and not at
     /// all on the curve. At a = 2.27 the curve has broken up into chaos.
     fn delayed(a: f64, count: usize) -> [Vec<Vec<f64>>; 2] {
         let fixed = 1.0 - 1.0 / a;

@@ -1,4 +1,4 @@
-//! Is the response steady? Revolutions are compared, never assumed equal (docs/method.md, Reading responses).
+//! Settling of a response: revolutions are compared, never assumed equal (docs/method.md, Reading responses).
 
 use std::f64::consts::PI;
 
@@ -7,26 +7,28 @@ use serde::{Deserialize, Serialize};
 use super::side_bands::SideBands;
 use rubmap_numerics::spectrum::amplitudes;
 
-/// What the end of a run looks like, revolution by revolution.
+/// State of the response at the end of a run, judged revolution by revolution: `periodic` where it repeats every revolution, `subharmonic`
+/// where it repeats every `ratio` revolutions, `aperiodic` where it is steady in level but never repeats, `not_settled` where it was still
+/// changing when the window began or ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {
-    /// Repeats every revolution.
+    /// Response that repeats every revolution.
     Periodic,
-    /// Repeats every `ratio` revolutions.
+    /// Response that repeats every `ratio` revolutions.
     Subharmonic,
-    /// Steady in level but never repeating.
+    /// Response that is steady in level but never repeats.
     Aperiodic,
-    /// Still changing when the window began or ended.
+    /// Response that was still changing when the window began or ended.
     NotSettled,
 }
 
-/// Steady state, judged by comparing revolutions (docs/method.md, Reading responses).
+/// Steady state of a response, judged by comparing revolutions (docs/method.md, Reading responses).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Settling {
-    /// The verdict.
+    /// Verdict on the response.
     pub verdict: Verdict,
     /// Period in revolutions, for `periodic` (1) and `subharmonic`.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -50,9 +52,9 @@ pub struct Settling {
 }
 
 impl Settling {
-    /// The verdict held against the strongest pair of side bands in the window: an aperiodic response takes its spacing, and one
-    /// that seems to repeat every few revolutions, though its side bands do not, is aperiodic. Side bands of some per cent
-    /// drift by less than the tolerance over a period that they nearly fit.
+    /// Checks the verdict against the strongest pair of side bands in the window: an aperiodic response takes its spacing, and one that
+    /// seems to repeat every few revolutions, though its side bands do not, is aperiodic. Side bands of some per cent drift by less than
+    /// the tolerance over a period that they nearly fit.
     #[must_use]
     pub fn beside(mut self, strongest: Option<&SideBands>) -> Self {
         let Some(pair) = strongest else { return self };
@@ -76,30 +78,30 @@ impl Settling {
     }
 }
 
-/// Revolutions differ by less than this share of the response in a steady state. Spectral leakage of a slower
-/// drift stays an order below engine-order peaks of that share.
+/// Share of the response by which revolutions may differ in a steady state. Spectral leakage of a slower drift stays an order below
+/// engine-order peaks of that share.
 const TOLERANCE: f64 = 1e-2;
 
-/// Side bands are located to this many bins, at worst.
+/// Accuracy to which side bands are located, in bins, at worst.
 const LOCATED: f64 = 0.25;
 
-/// Longest period looked for, in revolutions.
+/// Longest period that is searched, in revolutions.
 const LONGEST_PERIOD: usize = 8;
 
-/// What a steady response may change over the whole window: its level between the halves, or, where it repeats, any
-/// revolution from the last one of its phase. Without it a beat of hundreds of revolutions would pass for periodic.
+/// Largest change of a steady response over the whole window: of its level between the halves, or, where it repeats, of any revolution from
+/// the last one of its phase. Without it a beat of hundreds of revolutions would pass for periodic.
 const LEVEL_TOLERANCE: f64 = 0.1;
 
-/// Sensors whose response is below this share of the largest count as silent.
+/// Share of the largest response below which sensors count as silent.
 const NEGLIGIBLE: f64 = 1e-6;
 
 /// Judges histories (`[sensor][sample]`, whole run) by their last `window` revolutions.
 ///
-/// With x_r the samples of revolution r of one sensor about its mean over the window, a response repeats every m
-/// revolutions from r0 on if ‖x_r − x_{r−m}‖ ≤ 1e-2 max‖x‖ for every sensor and all later r. It is periodic (m = 1) or
-/// subharmonic (2 ≤ m ≤ 8, at most half the window) if that holds through the whole window and no revolution in it differs by
-/// more than a tenth from the last one of its phase, aperiodic if it never repeats but its level is the same in both halves
-/// of the window, and not settled otherwise. `lobes` pass each blade in a revolution; none: nothing to count.
+/// With x_r the samples of revolution r of one sensor about its mean over the window, a response repeats every m revolutions from r0 on if
+/// ‖x_r − x_{r−m}‖ ≤ 1e-2 max‖x‖ for every sensor and all later r. It is periodic (m = 1) or subharmonic (2 ≤ m ≤ 8, at most half the
+/// window) if that holds through the whole window and no revolution in it differs by more than a tenth from the last one of its phase,
+/// aperiodic if it never repeats but its level is the same in both halves of the window, and not settled otherwise. `lobes` pass each blade
+/// in a revolution; without lobes there are no passages to count.
 pub fn judge(
     histories: &[Vec<f64>],
     samples_per_revolution: usize,
@@ -167,7 +169,7 @@ pub fn judge(
     }
 }
 
-/// The fewest passages of `lobes` after which `lines`, which repeat after `most` of them from revolution `start` on, do so.
+/// Fewest passages of `lobes` after which `lines` repeat; they do so after `most` of them from revolution `start` on.
 ///
 /// ‖x(φ + τ) − x(φ)‖² over a revolution is Σ 2a_q² sin²(πqτ) per sample by Parseval, a_q being the line at order q: a change
 /// like that between revolutions, wherever τ falls between the samples.
@@ -191,7 +193,7 @@ fn lobe_passages(
     (1..most).find(|passages| most.is_multiple_of(*passages) && repeats(*passages)).unwrap_or(most)
 }
 
-/// One sensor's history about its mean over the window, revolution by revolution.
+/// History of one sensor about its mean over the window, revolution by revolution.
 struct Line<'a> {
     samples: &'a [f64],
     per_revolution: usize,
@@ -214,7 +216,7 @@ impl<'a> Line<'a> {
         &self.samples[r * self.per_revolution..(r + 1) * self.per_revolution]
     }
 
-    /// ‖x_r − x_s‖
+    /// Distance ‖x_r − x_s‖ of two revolutions.
     fn change(&self, r: usize, s: usize) -> f64 {
         let pairs = self.revolution(r).iter().zip(self.revolution(s));
         pairs.map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()

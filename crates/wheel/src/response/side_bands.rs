@@ -15,13 +15,13 @@ use serde::{Deserialize, Serialize};
 
 use rubmap_numerics::spectrum::amplitudes;
 
-/// A pair of spectral lines at engine orders k ± δ.
+/// Pair of spectral lines at engine orders k ± δ.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct SideBands {
-    /// The integer engine order k in the middle.
+    /// Integer engine order k in the middle.
     pub engine_order: u32,
-    /// δ as a fraction of an engine order, of Ω, at most 1/2; interpolated between the bins of the window.
+    /// Spacing δ as a fraction of an engine order, of Ω, at most 1/2; interpolated between the bins of the window.
     pub spacing: f64,
     /// Width of a bin, 1/`window_revolutions`. Pairs closer than two of them to their middle are not told from it.
     pub resolution: f64,
@@ -34,30 +34,30 @@ pub struct SideBands {
 }
 
 impl SideBands {
-    /// Amplitude of the weaker line: what makes them a pair.
+    /// Amplitude of the weaker line, by which a pair is judged.
     pub fn weaker(&self) -> f64 {
         self.lower.min(self.upper)
     }
 }
 
-/// A line stands clear of the floor, the lower quartile of the bins between the engine orders nearby, if it is this many
-/// times as high: of noise, one bin in 10⁸ is.
+/// Number of times that a line must be as high as the floor, the lower quartile of the bins between the engine orders nearby, to stand
+/// clear of it: of noise, one bin in 10⁸ is.
 const CLEAR: f64 = 8.0;
 
-/// Weaker lines, relative to the strongest, are no part of the picture.
+/// Share of the strongest line below which lines are ignored.
 const SIGNIFICANT: f64 = 1e-3;
 
-/// Two lines are a pair if their distances from the middle agree to this many bins.
+/// Difference, in bins, that the distances of two lines from the middle may have for them to be a pair.
 const SYMMETRIC: f64 = 0.3;
 
-/// An engine order with a Hann window reaches this many bins to either side.
+/// Reach of an engine order with a Hann window to either side, in bins.
 const REACH: usize = 1;
 
-/// Orders reported, those with the strongest pairs.
+/// Largest number of orders reported, those with the strongest pairs.
 const MOST: usize = 4;
 
-/// Pairs about the engine orders 1 … `max_engine_order` in `window`, which is a whole number of `revolutions`: those that
-/// stand clear of the floor, at most one for each order and four together, by ascending order.
+/// Pairs about the engine orders 1 … `max_engine_order` in `window`, which is a whole number of `revolutions`: pairs that stand clear of
+/// the floor, at most one for each order and four together, by ascending order.
 pub fn side_bands(window: &[f64], revolutions: usize, max_engine_order: usize) -> Vec<SideBands> {
     let highest = max_engine_order.min((window.len() / (2 * revolutions)).saturating_sub(1));
     if highest == 0 {
@@ -73,22 +73,22 @@ pub fn side_bands(window: &[f64], revolutions: usize, max_engine_order: usize) -
     pairs
 }
 
-/// `samples` under a Hann window of mean 1: a line on a bin keeps its amplitude.
+/// Samples under a Hann window of mean 1: a line on a bin keeps its amplitude.
 fn hann(samples: &[f64]) -> Vec<f64> {
     let step = TAU / samples.len() as f64;
     samples.iter().enumerate().map(|(n, x)| x * (1.0 - (step * n as f64).cos())).collect()
 }
 
-/// A line beside an engine order.
+/// Spectral line beside an engine order.
 struct Line {
-    /// From the engine order, in bins.
+    /// Distance of the line from the engine order, in bins.
     distance: f64,
     amplitude: f64,
 }
 
 struct Spectrum<'a> {
     amplitude: &'a [f64],
-    /// Bins to an engine order.
+    /// Number of bins to an engine order.
     revolutions: usize,
     least: f64,
 }
@@ -171,7 +171,7 @@ impl Spectrum<'_> {
     }
 }
 
-/// What a bin at distance `offset`, in bins, reads of a line of amplitude 1 under a Hann window.
+/// Amplitude that a bin at distance `offset`, in bins, reads of a line of amplitude 1 under a Hann window.
 fn hann_line(offset: f64) -> f64 {
     if offset.abs() < 1e-9 { 1.0 } else { (PI * offset).sin() / (PI * offset * (1.0 - offset * offset)) }
 }
@@ -186,7 +186,7 @@ mod tests {
         (0..revolutions * SAMPLES).map(|n| x(n as f64 / SAMPLES as f64)).collect()
     }
 
-    /// Uniform in (−1, 1).
+    /// Random number, uniform in (−1, 1).
     fn noise(seed: &mut u64) -> f64 {
         *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (*seed >> 11) as f64 / (1u64 << 52) as f64 - 1.0

@@ -1,4 +1,4 @@
-//! Whole-revolution spectra of sensors and of their nodal diameters (docs/method.md, Reading responses; Eqs 12, 13).
+//! Spectra over whole revolutions, of sensors and of their nodal diameters (docs/method.md, Reading responses; Eqs 12, 13).
 
 use rubmap_numerics::sector_fourier::{SectorFourier, harmonic_count};
 use rubmap_numerics::spectrum::amplitudes;
@@ -9,8 +9,8 @@ pub fn engine_orders(window_revolutions: u32, max_engine_order: u32) -> Vec<f64>
     (0..bins).map(|bin| f64::from(bin) / f64::from(window_revolutions)).collect()
 }
 
-/// Amplitude over `[nodal diameter][bin]` from `[Fourier column][sample]`: the cosine and sine components of a pair
-/// are joined by root sum of squares, so that Σ_i û_i² = Σ_s u_s² at every bin (Parseval).
+/// Amplitudes over `[nodal diameter][bin]` from `[Fourier column][sample]`: the cosine and sine components of a pair are joined by root sum
+/// of squares, so that Σ_i û_i² = Σ_s u_s² at every bin (Parseval).
 pub fn nodal_diameter_amplitudes(
     columns: &[Vec<f64>],
     fourier: &SectorFourier,
@@ -33,7 +33,7 @@ mod tests {
     use super::*;
     use std::f64::consts::TAU;
 
-    /// A pattern of three engine orders turning past seven and ten blades.
+    /// Pattern of three engine orders turning past seven and ten blades.
     #[test]
     fn nodal_diameters_carry_the_whole_response() {
         for sectors in [1, 7, 10] {

@@ -1,4 +1,4 @@
-//! Do the nodal diameters grow that the symmetry of a scene keeps at rest? (docs/method.md, Symmetry)
+//! Symmetry breaking: the growth of nodal diameters that the symmetry of a scene keeps at rest (docs/method.md, Symmetry).
 //!
 //! A run is started from a tiny asymmetry; the amplitude of the nodal diameters that a symmetric run would leave at rest,
 //! √(their energy), is followed from revolution to revolution and fitted by e^{rate·revolutions} as long as it is small.
@@ -7,41 +7,41 @@ use serde::{Deserialize, Serialize};
 
 use super::growth::{CLEARLY, Rate, rate};
 
-/// What became of a tiny asymmetry.
+/// Fate of a tiny asymmetry.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct SymmetryBreaking {
-    /// How often the scene repeats around the wheel.
+    /// Number of times that the scene repeats around the wheel.
     pub repeats: u32,
     /// Whether the asymmetry grew: it left the linear range or its fitted rate is clearly above 0.
     pub grows: bool,
-    /// Growth rate of its amplitude per revolution, natural logarithm; negative where it decays. Absent where too few
+    /// Growth rate of the asymmetry's amplitude per revolution, natural logarithm; negative where it decays. Absent where too few
     /// revolutions lie in the linear range.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rate_per_revolution: Option<f64>,
     /// Standard error of the rate.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rate_error: Option<f64>,
-    /// Revolution by which it had left the linear range (a hundredth of the response), if it did.
+    /// Revolution by which the asymmetry had left the linear range (a hundredth of the response), if it did.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub broken_after_revolutions: Option<u32>,
     /// Share of the broken nodal diameters in the energy at the end.
     pub energy_share: f64,
-    /// The nodal diameters that symmetry keeps at rest.
+    /// Nodal diameters that symmetry keeps at rest.
     pub nodal_diameters: Vec<u32>,
 }
 
-/// An asymmetry with this share of the symmetric response's largest energy is no longer small: a hundredth in amplitude.
+/// Share of the symmetric response's largest energy from which on an asymmetry is no longer small: a hundredth in amplitude.
 const LINEAR: f64 = 1e-4;
 
-/// Energies below this share are round-off.
+/// Share of the energy below which energies are round-off.
 const ROUND_OFF: f64 = 1e-24;
 
-/// Energies that have grown by this factor have grown.
+/// Factor by which energies have to change to have grown.
 const GROWN: f64 = 4.0;
 
-/// Judges `energies[revolution][nodal diameter]` from revolution `from` on (when the casing is fully grown) for a scene that
-/// repeats `repeats` times. Where no symmetric response is there to be small against, all revolutions count.
+/// Judges `energies[revolution][nodal diameter]` from revolution `from` on (when the casing is fully grown) for a scene that repeats
+/// `repeats` times. Where there is no symmetric response to be small against, all revolutions count.
 pub fn judge(energies: &[Vec<f64>], repeats: usize, from: usize) -> SymmetryBreaking {
     let diameters = energies.first().map_or(0, Vec::len);
     let broken: Vec<usize> = (0..diameters).filter(|i| !i.is_multiple_of(repeats)).collect();

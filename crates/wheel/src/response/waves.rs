@@ -1,4 +1,4 @@
-//! Directions of travel, which engine order drives which, and the frequencies of either.
+//! Directions of travel of waves, the engine orders that drive them, and the frequencies of either direction.
 //!
 //! In the rotating frame a field that stands still in the fixed frame and has k periods passes sector s as
 //! cos(k(sα + Ωt)). Where k = i + a·N that is the wave isα + kΩt of nodal diameter i, whose crests move against the rotation; where
@@ -11,9 +11,9 @@ use serde::{Deserialize, Serialize};
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Wave {
-    /// With the rotation.
+    /// Wave that travels with the rotation.
     Forward,
-    /// Against the rotation.
+    /// Wave that travels against the rotation.
     Backward,
 }
 
@@ -47,28 +47,28 @@ pub type Table = Vec<Vec<Vec<f64>>>;
 /// Frequencies on a grid of speeds, and between its points.
 #[derive(Debug, Clone, Copy)]
 pub struct Branch<'a, F> {
-    /// On the grid.
+    /// Frequencies on the grid.
     pub table: &'a Table,
-    /// Anywhere.
+    /// Frequencies at any speed.
     pub frequencies: &'a F,
 }
 
-/// Frequencies of either direction.
+/// Frequencies of both directions of travel.
 #[derive(Debug, Clone, Copy)]
 pub enum Waves<'a, F> {
-    /// The same, without Coriolis forces.
+    /// Equal frequencies in both directions, without Coriolis forces.
     Alike(Branch<'a, F>),
-    /// Split by Coriolis forces.
+    /// Frequencies split by Coriolis forces.
     Split {
-        /// With the rotation.
+        /// Frequencies of waves that travel with the rotation.
         forward: Branch<'a, F>,
-        /// Against it.
+        /// Frequencies of waves that travel against the rotation.
         backward: Branch<'a, F>,
     },
 }
 
 impl<'a, F> Waves<'a, F> {
-    /// Of waves that travel in one direction; of a standing one, which is in both, by either.
+    /// Frequencies of waves that travel in direction `wave`; a standing wave, which is in both, has them of either.
     pub fn of(&self, wave: Wave) -> &Branch<'a, F> {
         match (self, wave) {
             (Self::Alike(branch), _)
@@ -77,7 +77,7 @@ impl<'a, F> Waves<'a, F> {
         }
     }
 
-    /// Whether Coriolis forces split them.
+    /// Whether Coriolis forces split the frequencies.
     pub fn are_split(&self) -> bool {
         matches!(self, Self::Split { .. })
     }

@@ -8,10 +8,10 @@ use crate::resolve::limits;
 use crate::resolved::ResolvedSweep;
 use rubmap_wheel::dynamics::contact::coating::{LEAST_HARDENING, RODS_PER_SECTOR};
 
-/// Rods of a coating, all rows together: the wear map of a result has a number for each.
+/// Largest number of rods of a coating, all rows together: the wear map of a result has a number for each.
 const RODS: u32 = 1 << 20;
 
-/// The coating, and that time steps are fine enough for its rods.
+/// Checks the coating, and that time steps are fine enough for its rods.
 pub(super) fn check(found: &mut Findings, request: &ResolvedSweep, facts: &ModelFacts) {
     let Some(abradable) = &request.scene.abradable else { return };
     found.require(

@@ -7,7 +7,7 @@ use rubmap_wheel::dynamics::contact::coating::{Coating, CoatingError, CoatingMat
 use rubmap_wheel::dynamics::effects::Effects;
 use rubmap_wheel::dynamics::sector::ContactNode;
 
-/// The coating of a scene on a wheel of `sectors`.
+/// Coating of a scene on a wheel of `sectors`.
 pub(crate) fn coating(
     scene: &Scene,
     contact_nodes: &[ContactNode],

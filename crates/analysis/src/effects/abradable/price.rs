@@ -1,10 +1,10 @@
-//! What an abradable coating costs.
+//! Price of an abradable coating.
 
 use crate::calibration::wheel::STEPS;
 use crate::effects::effect::{Price, Sample, SampleOn};
 use rubmap_wheel::dynamics::contact::coating::{Coating, CoatingMaterial};
 
-/// So hard that it is never worn, and so springy that blades are deep in it.
+/// Material so hard that it is never worn, and so springy that blades are deep in it.
 const MATERIAL: CoatingMaterial = CoatingMaterial { modulus: 1e6, yield_stress: 9e5, hardening: 1e6 };
 
 pub(super) const PRICE: Price = Price {

@@ -1,4 +1,4 @@
-//! What a run says of an abradable coating.
+//! Record of the wear of an abradable coating.
 
 use super::result::WearReport;
 use crate::effects::effect::Ran;

@@ -15,8 +15,8 @@ use crate::effects::asked::Plain;
 pub struct Abradable {
     /// Young's modulus E of the coating, force/length². Thermally sprayed aluminium-polyester: some GPa.
     pub modulus: f64,
-    /// Yield stress σ_Y, force/length², from 0 to below the modulus. What a blade must overcome to wear anything at all: some 10
-    /// MPa for coatings made to be rubbed.
+    /// Yield stress σ_Y, force/length², from 0 to below the modulus, which a blade must overcome to wear anything at all: some 10 MPa for coatings
+    /// made to be rubbed.
     pub yield_stress: f64,
     /// Plastic modulus K of linear hardening, force/length²: how much more a rod resists the deeper it is worn. At least a
     /// millionth of the modulus; usually fitted to a rub test, well below the modulus.

@@ -1,10 +1,10 @@
-//! What the blades wore off an abradable coating.
+//! Wear of an abradable coating.
 
 use serde::{Deserialize, Serialize};
 
 use rubmap_wheel::dynamics::contact::coating::WornCoating;
 
-/// What the blades wore off an abradable coating.
+/// Wear of an abradable coating by the blades.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct WearReport {
@@ -29,12 +29,11 @@ impl WearReport {
     }
 }
 
-/// How deep the blades wore an abradable coating.
+/// Wear map: how deep the blades wore an abradable coating.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct WearMap {
-    /// `[rod][contact node]`, length: rods in the direction of rotation from the package's x axis, contact nodes from the
-    /// leading edge.
+    /// Worn depths, `[rod][contact node]`, length: rods in the direction of rotation from the package's x axis, contact nodes from the leading edge.
     pub depths: Vec<Vec<f64>>,
 }
 

@@ -18,20 +18,20 @@ use rubmap_wheel::dynamics::integrate::DIVERGED_SHARE_OF_RADIUS;
 const AT: &str = "/scene/casing";
 const MOST_LOBES: u32 = 100;
 const LEAST_WIDTH_RAD: f64 = 1e-4;
-/// Two equal Gaussians exp(−(φ/w)²) have a valley between them up to this ratio of w to their distance.
+/// Largest ratio of the half-width w to the distance of two equal Gaussians exp(−(φ/w)²) with a valley between them.
 const WIDTH_OVER_DISTANCE: f64 = std::f64::consts::FRAC_1_SQRT_2;
-/// Angles of a measured line.
+/// Largest number of angles of a measured line.
 const MOST_MEASURED: usize = 100_000;
-/// A curve through points that are nearer than this share of the distance of half of the others is made of their errors.
+/// Smallest distance of two points, as a share of the median distance: a curve through nearer points is made of their errors.
 const LEAST_DISTANCE: f64 = 1e-3;
-/// A curve that goes farther beyond its points, as a share of their range, is none of them.
+/// Largest overshoot of a curve beyond its points, as a share of their range: a curve that goes farther does not follow them.
 const MOST_OVERSHOOT: f64 = 0.5;
-/// The square of a larger tilt is no longer a thousandth of it.
+/// Largest tilt, rad: the square of a larger one is more than a thousandth of it.
 const MOST_TILT_RAD: f64 = 1e-3;
 /// Shortest ramp of lobes that stand inside the blade.
 pub(crate) const LEAST_RAMP_REVOLUTIONS: f64 = 0.05;
 
-/// Clearance and shape.
+/// Checks clearance and shape.
 pub(super) fn check(found: &mut Findings, request: &ResolvedSweep, facts: &ModelFacts) {
     let Some(casing) = &request.scene.casing else { return };
     let valid = |length: f64| length == 0.0 || limits::LENGTH.contains(&length.abs());
@@ -109,7 +109,7 @@ pub(super) fn check(found: &mut Findings, request: &ResolvedSweep, facts: &Model
     }
 }
 
-/// A height of a shape that is asked for at `pointer`, and the angle beside it.
+/// Checks a height of a shape that is asked for at `pointer`.
 fn check_height(found: &mut Findings, height: f64, pointer: &str, facts: &ModelFacts) {
     let size = height.abs();
     found.require(
@@ -128,7 +128,7 @@ fn check_angle(found: &mut Findings, angle_rad: f64, pointer: &str) {
     );
 }
 
-/// Shares at the contact nodes of what is asked for at `pointer`.
+/// Checks the shares at the contact nodes of what is asked for at `pointer`.
 pub(crate) fn check_along_chord(
     found: &mut Findings,
     along: Option<&[f64]>,
@@ -184,7 +184,7 @@ fn check_waves(found: &mut Findings, waves: &[Wave], facts: &ModelFacts) {
     }
 }
 
-/// Tables that curves go through.
+/// Checks tables that curves go through.
 fn check_measured(found: &mut Findings, measured: &Measured, facts: &ModelFacts) {
     let at = "/scene/casing/measured";
     let Measured { angles_rad, chord, heights, curves: _ } = measured;
@@ -244,7 +244,7 @@ fn check_measured(found: &mut Findings, measured: &Measured, facts: &ModelFacts)
             &at,
             format!("one height for each of the {} angles, not {}", angles_rad.len(), heights.len()),
         );
-        // Of thousands, the smallest and the largest stand for all.
+        // The smallest and the largest of thousands of heights stand for all.
         let shown = || (0..heights.len()).filter(|&index| heights[index] != 0.0);
         let size = |&a: &usize, &b: &usize| heights[a].abs().total_cmp(&heights[b].abs());
         for index in [shown().min_by(size), shown().max_by(size)].into_iter().flatten() {
@@ -284,7 +284,7 @@ fn check_tilt(found: &mut Findings, tilt: &Tilt, facts: &ModelFacts) {
     );
 }
 
-/// The number of lobes that is asked for at `pointer` of a request.
+/// Checks the number of lobes that is asked for at `pointer` of a request.
 pub(crate) fn check_lobe_count(found: &mut Findings, count: u32, pointer: &str) {
     found.require(
         (1..=MOST_LOBES).contains(&count),
@@ -293,7 +293,7 @@ pub(crate) fn check_lobe_count(found: &mut Findings, count: u32, pointer: &str) 
     );
 }
 
-/// Steps wider than a lobe would pass it by, with numbers that look fine.
+/// Checks that steps resolve every lobe: wider ones would pass it by, with numbers that look fine.
 pub(crate) fn check_steps(found: &mut Findings, request: &ResolvedSweep) {
     let AutoOr::Fixed(steps) = request.integration.steps_per_revolution else { return };
     if found.refused(AT) || request.scene.touched_shape().is_none_or(Shape::is_circular) {
@@ -310,7 +310,7 @@ pub(crate) fn check_steps(found: &mut Findings, request: &ResolvedSweep) {
     );
 }
 
-/// Without a ramp a restriction inside the blade would hit it as a step: forces scale as 1/h, nothing converges.
+/// Checks the ramp: without one a restriction inside the blade would hit it as a step, forces scale as 1/h, and nothing converges.
 pub(crate) fn check_ramp(found: &mut Findings, request: &ResolvedSweep) {
     if found.refused(AT) {
         return;

@@ -1,4 +1,4 @@
-//! The casing in the terms of the physics.
+//! Casing in the terms of the physics.
 
 use std::f64::consts::TAU;
 
@@ -14,9 +14,9 @@ use rubmap_wheel::dynamics::integrate::MAX_TABLE_VALUES;
 use rubmap_wheel::dynamics::reduction::ReducedWheel;
 use rubmap_wheel::dynamics::sector::ContactNode;
 
-/// The casing of a scene with contact, with these clearances; a casing that nothing touches does not exist for the integration.
+/// Casing of a scene with contact, with these clearances; a casing that nothing touches does not exist for the integration.
 ///
-/// What presses into the tips grows with the shape: the run begins with the gap closed.
+/// Casings that press into the tips grow with the shape: the run begins with the gap closed.
 pub(crate) fn casing(
     reduced: &ReducedWheel,
     request: &ResolvedSweep,
@@ -52,8 +52,8 @@ pub(crate) fn running_clearance(
     Ok(Some(clearance))
 }
 
-/// Clearance of every contact node over the window: that of [`running_clearance`], and what a change of clearances leaves of it; none where
-/// nothing could run.
+/// Clearance of every contact node over the window: that of [`running_clearance`], with what a change of clearances leaves of it; none where nothing
+/// could run.
 pub(crate) fn lasting_clearance(
     sector: &ReducedSector,
     request: &ResolvedSweep,
@@ -72,12 +72,12 @@ pub(crate) fn clearance_given(contact_nodes: &[ContactNode], request: &ResolvedS
     clearances(request, &places(contact_nodes).0)
 }
 
-/// Positions and normals.
+/// Positions and normals of contact nodes.
 fn places(contact_nodes: &[ContactNode]) -> (Vec<[f64; 3]>, Vec<[f64; 3]>) {
     contact_nodes.iter().map(|node| (node.position, node.normal)).unzip()
 }
 
-/// Angles at which heights are told.
+/// Number of angles at which heights are reported.
 const ANGLES: u32 = 720;
 
 /// Heights of the casing before contact nodes at these positions `[r, θ, z]` in the order of the chord, with these normals, `[node][angle]`
@@ -91,12 +91,12 @@ pub fn heights(
     Some((0..positions.len()).map(|node| around(&restriction, node)).collect())
 }
 
-/// Heights before a contact node.
+/// Heights of the casing before a contact node.
 fn around(restriction: &Restriction, node: usize) -> Vec<f64> {
     (0..ANGLES).map(|i| restriction.height(TAU * f64::from(i) / f64::from(ANGLES), node)).collect()
 }
 
-/// Heights of the casing before one of the contact nodes, as of [`heights`]; empty where there are none.
+/// Heights of the casing before one of the contact nodes, as in [`heights`]; empty where there are none.
 pub(crate) fn heights_before(
     contact_nodes: &[ContactNode],
     node: usize,

@@ -1,4 +1,4 @@
-//! Curves through measured heights, once they are made.
+//! Curves through measured heights, stored once they are made.
 
 use std::ops::Deref;
 use std::sync::{Arc, OnceLock};
@@ -10,16 +10,16 @@ use rubmap_wheel::dynamics::casing::PeriodicSpline;
 #[derive(Debug, Clone, Default)]
 pub struct Curves(Arc<Made>);
 
-/// Results of a table, each made when it is first asked for: of tables that were not checked yet only how often they repeat.
+/// Results of a table, each made when it is first asked for; of a table that was not checked yet, only how often it repeats.
 #[derive(Debug, Default)]
 pub struct Made {
     /// Curve of every line.
     pub(super) lines: OnceLock<Vec<PeriodicSpline>>,
     /// Angle and height of the largest and of the smallest height of every line.
     pub(super) extremes: OnceLock<Vec<[(f64, f64); 2]>>,
-    /// Width that steps have to see, rad.
+    /// Width that steps have to resolve, rad.
     pub(super) narrowest_rad: OnceLock<f64>,
-    /// How often all lines repeat around the circumference.
+    /// Number of times that all lines repeat around the circumference.
     pub(super) repeats: OnceLock<u32>,
 }
 

@@ -11,30 +11,30 @@ use rubmap_wheel::dynamics::casing::{
     self, ALIKE, PeriodicSpline, arc_lengths, narrowest_rad, points_repeat,
 };
 
-/// Filled heights that are listed.
+/// Largest number of filled heights that are listed.
 const MOST_LISTED: usize = 100;
-/// Heights that a table may come to when the angles of its lines are put together.
+/// Largest number of heights that a table may have once the angles of its lines are put together.
 const MOST_HEIGHTS: usize = 200_000;
 
 impl Measured {
-    /// Angles of a line, at least.
+    /// Smallest number of angles of a line.
     pub(crate) const LEAST_ANGLES: usize = 8;
-    /// Most from one angle to the next, a quarter of a turn.
+    /// Largest distance from one angle to the next, rad: a quarter of a turn.
     pub(crate) const WIDEST_GAP_RAD: f64 = 1.000_001 * FRAC_PI_2;
 
-    /// How often all lines repeat around the circumference; 0 of what is the same all around.
+    /// Number of times that all lines repeat around the circumference; 0 for lines that are the same all around.
     pub(super) fn repeats(&self) -> u32 {
         let repeats = |heights: &Vec<f64>| points_repeat(&self.angles_rad, heights) as u32;
         *self.curves.repeats.get_or_init(|| self.heights.iter().map(repeats).fold(0, gcd))
     }
 
-    /// A curve for every line.
+    /// Curves of all lines.
     pub(super) fn curves(&self) -> &[PeriodicSpline] {
         let line = |heights: &Vec<f64>| PeriodicSpline::new(&self.angles_rad, heights);
         self.curves.lines.get_or_init(|| self.heights.iter().map(line).collect())
     }
 
-    /// Width that steps have to see, rad.
+    /// Width that steps have to resolve, rad.
     pub(super) fn narrowest_rad(&self) -> f64 {
         *self.curves.narrowest_rad.get_or_init(|| narrowest_rad(self.curves()))
     }
@@ -45,7 +45,7 @@ impl Measured {
         self.curves.extremes.get_or_init(|| self.curves().iter().map(extremes).collect())
     }
 
-    /// With contact nodes at positions `[r, θ, z]`: each on its own line, or between the two beside it.
+    /// Places contact nodes at positions `[r, θ, z]`: each on its own line, or between the two beside it.
     pub(super) fn at(&self, positions: &[[f64; 3]]) -> casing::Measured {
         let Some(chord) = &self.chord else { return casing::Measured::at_each(self.curves().to_vec()) };
         let arc = arc_lengths(positions);
@@ -55,7 +55,7 @@ impl Measured {
             let next = chord.partition_point(|&line| line <= place);
             let (before, after) = (next.saturating_sub(1), next.min(chord.len() - 1));
             let width = chord[after] - chord[before];
-            // Before the first line and behind the last there is but one.
+            // Before the first line and behind the last there is only one line.
             let share = if width > 0.0 && next > 0 { (place - chord[before]) / width } else { 0.0 };
             (before, after, share)
         };
@@ -66,13 +66,13 @@ impl Measured {
 /// Heights along one line around the circumference, at angles of its own.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeasuredLine {
-    /// Share of the chord, or contact node.
+    /// Place of the line: share of the chord, or contact node.
     pub place: f64,
-    /// `(angle in rad, height)`, in any order and any turn.
+    /// Points of the line, `(angle in rad, height)`, in any order and any turn.
     pub points: Vec<(f64, f64)>,
 }
 
-/// Why lines make no shape.
+/// Reason for which lines make no shape.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum LineError {
     /// Lines whose angles are too many together.
@@ -81,15 +81,15 @@ pub enum LineError {
          same angles, or at fewer"
     )]
     Many {
-        /// Lines.
+        /// Number of lines.
         lines: usize,
-        /// Angles of all of them, times the lines.
+        /// Number of heights: the angles of all lines, times the lines.
         heights: usize,
     },
-    /// Too few points.
+    /// Too few points on a line.
     #[error("has {points} heights; a curve needs {} at least", Measured::LEAST_ANGLES)]
     Few {
-        /// How many.
+        /// Number of points.
         points: usize,
     },
     /// A gap that no curve can be laid across.
@@ -99,25 +99,25 @@ pub enum LineError {
         to_rad.to_degrees()
     )]
     Gap {
-        /// Last angle before it.
+        /// Last angle before the gap, rad.
         from_rad: f64,
-        /// First angle behind it.
+        /// First angle behind the gap, rad.
         to_rad: f64,
     },
     /// Two heights at one angle.
     #[error("has two heights at {:.6} degrees, {first} and {second}; leave one out", angle_rad.to_degrees())]
     Twice {
-        /// Where.
+        /// Angle of both heights, rad.
         angle_rad: f64,
-        /// One.
+        /// First of the two heights.
         first: f64,
-        /// The other.
+        /// Second of the two heights.
         second: f64,
     },
 }
 
-/// A table over the angles of all lines: heights that a line does not have are taken from its own curve. `each_node`: places are
-/// contact nodes, 0, 1, …, otherwise shares of the chord, ascending. Errors that are about a line come with its index.
+/// Puts lines together into a table over the angles of all lines: heights that a line does not have are taken from its own curve. `each_node`: places
+/// are contact nodes, 0, 1, …, otherwise shares of the chord, ascending. Errors that are about a line come with its index.
 pub fn measured_casing(
     lines: &[MeasuredLine],
     each_node: bool,
@@ -156,7 +156,7 @@ pub fn measured_casing(
     Ok(MeasuredCasing { survey: MeasuredSurvey::of(&measured), measured, filled, filled_count })
 }
 
-/// Within one turn, ascending, every angle once.
+/// Sorts the points of a line within one turn, ascending, every angle once.
 fn sorted(line: &MeasuredLine) -> Result<Vec<(f64, f64)>, LineError> {
     let mut points: Vec<(f64, f64)> = line
         .points

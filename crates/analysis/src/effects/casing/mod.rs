@@ -1,4 +1,4 @@
-//! The casing around the wheel.
+//! Casing around the wheel.
 
 use self::shape::Shape;
 use crate::effects::effect::{Acts, Break, Chain, Check, Effect, Repeats};

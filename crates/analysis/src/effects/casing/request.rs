@@ -1,4 +1,4 @@
-//! The casing, as it is asked for.
+//! Casing, as it is asked for.
 
 use serde::{Deserialize, Serialize};
 
@@ -14,7 +14,7 @@ pub struct Casing {
     /// Lobes of the restriction; absent: the casing is circular.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lobes: Option<Lobes>,
-    /// Lobes and hollows of their own.
+    /// Single lobes and hollows, each of its own.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[cfg_attr(feature = "schema", schema(max_items = 100))]
     pub single_lobes: Vec<SingleLobe>,
@@ -22,31 +22,31 @@ pub struct Casing {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[cfg_attr(feature = "schema", schema(max_items = 100))]
     pub waves: Vec<Wave>,
-    /// A measured shape.
+    /// Measured shape.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub measured: Option<Measured>,
-    /// A casing whose axis leans; one whose axis is displaced is an `orbit` that does not whirl.
+    /// Tilt: a casing whose axis leans. A casing whose axis is displaced is an `orbit` that does not whirl.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tilt: Option<Tilt>,
 }
 
-/// Clearance in the model's unit of length: `leading` and `trailing` (linear in the arc length through the contact
-/// nodes), or `values`, one per contact node. Negative where the casing is pressed into the tips: that grows over the ramp.
+/// Clearance in the model's unit of length: `leading` and `trailing` (linear in the arc length through the contact nodes), or `values`, one per
+/// contact node. Negative where the casing is pressed into the tips; the pressing grows over the ramp.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Clearance {
-    /// At the leading edge (contact node 0).
+    /// Clearance at the leading edge (contact node 0).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub leading: Option<f64>,
-    /// At the trailing edge (last contact node).
+    /// Clearance at the trailing edge (last contact node).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub trailing: Option<f64>,
-    /// One value per contact node.
+    /// Clearances, one per contact node.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schema(max_items = 8192))]
     pub values: Option<Vec<f64>>,
-    /// In which state of the wheel they are.
+    /// State of the wheel in which the clearances are given.
     #[serde(default, skip_serializing_if = "ClearanceState::is_running")]
     pub given: ClearanceState,
 }
@@ -56,11 +56,11 @@ pub struct Clearance {
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum ClearanceState {
-    /// Turning, at every speed the same.
+    /// Turning wheel: clearances are the same at every speed.
     #[default]
     Running,
-    /// At rest: at every speed they are smaller by as much as the tips have grown under the centrifugal load, by the static solution
-    /// with the same K(Ω). The package must have its elements.
+    /// Wheel at rest: at every speed clearances are smaller by as much as the tips have grown under the centrifugal load, by the static solution with
+    /// the same K(Ω). The package must have its elements.
     Cold,
 }
 
@@ -85,7 +85,7 @@ pub struct Lobes {
     /// Angle of the first lobe from the package's x axis, rad.
     #[serde(default)]
     pub phase_rad: f64,
-    /// Share of the height at each contact node; absent: all of it all along the chord.
+    /// Share of the height at each contact node; absent: the whole height all along the chord.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schema(max_items = 8192))]
     pub along_chord: Option<Vec<f64>>,
@@ -96,24 +96,24 @@ pub struct Lobes {
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
 pub struct SingleLobe {
-    /// Angle of its crest from the package's x axis, rad.
+    /// Angle of the crest from the package's x axis, rad.
     pub angle_rad: f64,
     /// Height A, in the model's unit of length.
     pub amplitude: f64,
     /// Half-width w, rad; at most π/√2.
     pub width_rad: f64,
-    /// Share of the height at each contact node; absent: all of it all along the chord.
+    /// Share of the height at each contact node; absent: the whole height all along the chord.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schema(max_items = 8192))]
     pub along_chord: Option<Vec<f64>>,
 }
 
-/// A cos(order (φ − phase)) in the fixed frame.
+/// Wave A cos(order (φ − phase)) in the fixed frame.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Wave {
-    /// Waves around the circumference.
+    /// Number of waves around the circumference.
     #[cfg_attr(feature = "schema", schema(minimum = 1, maximum = 100))]
     pub order: u32,
     /// Height A of a crest, in the model's unit of length.
@@ -121,14 +121,14 @@ pub struct Wave {
     /// Angle of a crest from the package's x axis, rad.
     #[serde(default)]
     pub phase_rad: f64,
-    /// Share of the height at each contact node; absent: all of it all along the chord.
+    /// Share of the height at each contact node; absent: the whole height all along the chord.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schema(max_items = 8192))]
     pub along_chord: Option<Vec<f64>>,
 }
 
-/// Measured heights inward of the casing of revolution, on lines around the circumference: periodic cubic splines around, linear from
-/// line to line along the chord. Every point counts; what stands out of them is said in the plan.
+/// Measured heights inward of the casing of revolution, on lines around the circumference: periodic cubic splines around, linear from line to line
+/// along the chord. Every point counts; the plan says what stands out of them.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
@@ -136,21 +136,21 @@ pub struct Measured {
     /// Angles from the package's x axis, rad, ascending within one turn, none farther than a quarter of a turn from the next.
     #[cfg_attr(feature = "schema", schema(min_items = 8, max_items = 100_000))]
     pub angles_rad: Vec<f64>,
-    /// Place of every line along the chord, the share of the arc length through the contact nodes: 0 at the leading edge, 1 at the
-    /// trailing edge, ascending. Nodes before the first line and behind the last have the heights of these. Absent: a line for every
-    /// contact node, its own.
+    /// Place of every line along the chord, the share of the arc length through the contact nodes: 0 at the leading edge, 1 at the trailing edge,
+    /// ascending. Nodes before the first line have its heights, nodes behind the last line those of the last. Absent: a line for every contact node,
+    /// its own.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schema(min_items = 1, max_items = 8192))]
     pub chord: Option<Vec<f64>>,
-    /// `[line][angle]`, in the model's unit of length; outward of the casing of revolution if negative.
+    /// Heights, `[line][angle]`, in the model's unit of length; negative outward of the casing of revolution.
     pub heights: Vec<Vec<f64>>,
-    /// Curves through them, once made.
+    /// Curves through the heights, once made.
     #[serde(skip)]
     #[cfg_attr(feature = "schema", schema(ignore))]
     pub curves: Curves,
 }
 
-/// A leaning axis, to first order in its angle.
+/// Tilt: a leaning axis, to first order in its angle.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]

@@ -1,4 +1,4 @@
-//! The casing with its alternatives told apart.
+//! Casing, its alternatives resolved.
 
 use super::request::{self, ClearanceState};
 use super::shape::Shape;
@@ -18,12 +18,12 @@ pub struct Casing {
 pub enum Clearance {
     /// Linear in the arc length from contact node 0 to the last.
     AlongChord {
-        /// At contact node 0.
+        /// Clearance at contact node 0.
         leading: f64,
-        /// At the last contact node.
+        /// Clearance at the last contact node.
         trailing: f64,
     },
-    /// One value per contact node.
+    /// Clearances, one per contact node.
     Each(Vec<f64>),
 }
 
@@ -46,7 +46,7 @@ impl Asked for Option<request::Casing> {
 }
 
 impl Casing {
-    /// Whether it may be pressed into tips.
+    /// Whether the casing may be pressed into tips.
     pub(crate) fn may_press(&self) -> bool {
         self.given == ClearanceState::Cold || self.clearance.smallest() < 0.0
     }
@@ -71,7 +71,7 @@ impl Clearance {
         }
     }
 
-    /// As it is asked for, in that state.
+    /// Clearance as it is asked for, in that state of the wheel.
     fn given(self, given: ClearanceState) -> request::Clearance {
         let (leading, trailing, values) = match self {
             Self::AlongChord { leading, trailing } => (Some(leading), Some(trailing), None),
@@ -80,7 +80,7 @@ impl Clearance {
         request::Clearance { leading, trailing, values, given }
     }
 
-    /// The smallest number that was given.
+    /// Smallest clearance that was given.
     pub(crate) fn smallest(&self) -> f64 {
         match self {
             Self::AlongChord { leading, trailing } => leading.min(*trailing),

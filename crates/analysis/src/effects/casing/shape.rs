@@ -1,4 +1,4 @@
-//! What stands inward of a casing of revolution.
+//! Shape of a casing: what stands inward of its surface of revolution.
 
 use std::f64::consts::TAU;
 
@@ -7,7 +7,7 @@ use num_integer::gcd;
 use super::request::{self, Lobes, Measured, SingleLobe, Tilt, Wave};
 use rubmap_wheel::dynamics::casing::{self, Part, Profile, Restriction};
 
-/// Shapes whose heights add up.
+/// Shape of a casing: parts whose heights add up.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Shape {
     pub(crate) lobes: Option<Lobes>,
@@ -18,7 +18,7 @@ pub struct Shape {
 }
 
 impl Shape {
-    /// That of a casing as it is asked for.
+    /// Reads the shape of a casing that is asked for.
     pub fn of(casing: &request::Casing) -> Self {
         let request::Casing { clearance: _, lobes, single_lobes, waves, measured, tilt } = casing.clone();
         Self { lobes, single_lobes, waves, measured, tilt }
@@ -29,7 +29,7 @@ impl Shape {
         *self == Self::default()
     }
 
-    /// How often it repeats around the circumference; none of a circular casing.
+    /// Number of times that the shape repeats around the circumference; none for a circular casing.
     pub fn repeats(&self) -> Option<u32> {
         let measured = self.measured.as_ref().map_or(0, Measured::repeats);
         let tilted = u32::from(self.leans().is_some());
@@ -37,14 +37,14 @@ impl Shape {
         (repeats > 0).then_some(repeats)
     }
 
-    /// The width that steps have to see, rad; none of a circular casing.
+    /// Width that steps have to resolve, rad; none for a circular casing.
     pub(crate) fn narrowest_rad(&self) -> Option<f64> {
         let measured = self.measured.as_ref().map(Measured::narrowest_rad);
         let narrowest = measured.into_iter().fold(self.lobes_and_waves().narrowest_rad(), f64::min);
         narrowest.is_finite().then_some(narrowest)
     }
 
-    /// No height is larger, wherever along the chord; infinite where a tilt makes it a matter of the nodes.
+    /// Upper bound of the height, wherever along the chord; infinite where a tilt makes it depend on the nodes.
     pub(crate) fn highest(&self) -> f64 {
         if self.leans().is_some() {
             return f64::INFINITY;
@@ -52,7 +52,7 @@ impl Shape {
         let (alike, shared): (Vec<Part>, Vec<Part>) =
             self.lobes_and_waves().parts.into_iter().partition(|part| part.along_chord.is_none());
         let alike = if alike.is_empty() { 0.0 } else { Restriction { parts: alike }.highest(1) };
-        // What has shares is highest wherever they are, inward or outward.
+        // A part with shares counts with its largest height at any of them, inward or outward.
         let shared = shared.into_iter().map(|Part { profile, along_chord }| {
             let part = Part { profile, along_chord: None };
             let (low, high) = Restriction { parts: vec![part] }.extremes(1);
@@ -65,8 +65,8 @@ impl Shape {
         alike + shared.sum::<f64>() + measured.sum::<f64>()
     }
 
-    /// Length in which it does what a lobe does between two valleys, rad: of equal lobes alone their distance, otherwise eight times what
-    /// steps have to see, as of a wave; none of a circular casing.
+    /// Length in which the shape does what a lobe does between two valleys, rad: for equal lobes alone their distance, otherwise eight times the
+    /// width that steps have to resolve, as for a wave; none for a circular casing.
     pub(crate) fn period_rad(&self) -> Option<f64> {
         match &self.lobes {
             Some(lobes) if *self == (Self { lobes: self.lobes.clone(), ..Self::default() }) => {
@@ -76,12 +76,12 @@ impl Shape {
         }
     }
 
-    /// A tilt that is one.
+    /// Tilt of the casing, if its angle is not 0.
     fn leans(&self) -> Option<&Tilt> {
         self.tilt.as_ref().filter(|tilt| tilt.angle_rad != 0.0)
     }
 
-    /// For contact nodes at `positions`, `[r, θ, z]` in the order of the chord, with `normals`; none of a circular casing.
+    /// Restriction for contact nodes at `positions`, `[r, θ, z]` in the order of the chord, with `normals`; none for a circular casing.
     pub(crate) fn restriction(&self, positions: &[[f64; 3]], normals: &[[f64; 3]]) -> Option<Restriction> {
         let Restriction { mut parts } = self.lobes_and_waves();
         if let Some(measured) = &self.measured {
@@ -91,7 +91,7 @@ impl Shape {
         (!parts.is_empty()).then_some(Restriction { parts })
     }
 
-    /// Lobes and waves.
+    /// Restriction by lobes and waves alone.
     fn lobes_and_waves(&self) -> Restriction {
         let lobes = self.lobes.iter().map(|lobes| Part {
             profile: Profile::Lobes(casing::Lobes {
@@ -102,7 +102,7 @@ impl Shape {
             }),
             along_chord: lobes.along_chord.clone(),
         });
-        // Together as far as they share their part of the chord: only so it is seen where they repeat.
+        // Lobes are put together as far as they share their part of the chord: only so it is seen where they repeat.
         let mut single: Vec<Part> = Vec::new();
         for lobe in self.single_lobes.iter().filter(|lobe| is_there(lobe.amplitude, &lobe.along_chord)) {
             let one = casing::Lobe {
@@ -130,7 +130,7 @@ impl Shape {
     }
 }
 
-/// Whether a part has a height anywhere: one that has none would have its symmetry all the same.
+/// Whether a part has a height anywhere: a part without one would count with its symmetry all the same.
 fn is_there(amplitude: f64, along_chord: &Option<Vec<f64>>) -> bool {
     amplitude != 0.0 && along_chord.as_ref().is_none_or(|along| along.iter().any(|share| *share != 0.0))
 }
@@ -181,7 +181,7 @@ mod tests {
         SingleLobe { angle_rad, amplitude, width_rad: 0.3, along_chord }
     }
 
-    /// The same two lobes as lobes, one by one, and measured: to the bit but for their sum, and to the error of the interpolation.
+    /// Two lobes, as lobes, one by one, and measured, are the same: to the bit but for their sum, and to the error of the interpolation.
     #[test]
     fn lobes_are_the_same_however_they_are_said() {
         let lobes = Lobes { count: 2, amplitude: 0.4, width_rad: 0.3, phase_rad: 0.1, along_chord: None };
@@ -256,7 +256,7 @@ mod tests {
         assert_eq!(shape(one_is_higher).repeats(), Some(1));
         let tilt = Some(Tilt { angle_rad: 1e-4, towards_rad: 0.0, about_z: 0.0 });
         assert_eq!(Shape { tilt, ..shape(four([&None; 4])) }.repeats(), Some(1));
-        // What has no height breaks nothing.
+        // Parts without height break no symmetry.
         let wave = |amplitude: f64, along_chord| Wave { order: 3, amplitude, phase_rad: 0.0, along_chord };
         let flat = vec![wave(0.0, None), wave(0.1, Some(vec![0.0; 5]))];
         let upright = Some(Tilt { angle_rad: 0.0, towards_rad: 0.0, about_z: 0.0 });

@@ -6,10 +6,10 @@ use super::shape::Shape;
 use crate::effects::effect::WantedSteps;
 use crate::resolved::Scene;
 
-/// `"auto"` takes this many steps over the half-width of a lobe.
+/// Number of steps over the half-width of a lobe that `"auto"` takes.
 const AUTO_STEPS_PER_WIDTH: f64 = 10.0;
 
-/// Fewer steps over the half-width of a lobe would pass it by.
+/// Smallest number of steps over the half-width of a lobe: fewer would pass it by.
 const LEAST_STEPS_PER_WIDTH: f64 = 2.0;
 
 pub(super) fn wanted_steps(scene: &Scene) -> WantedSteps {
@@ -19,12 +19,12 @@ pub(super) fn wanted_steps(scene: &Scene) -> WantedSteps {
     )
 }
 
-/// The smallest number of steps per revolution that sees the lobes of a scene.
+/// Smallest number of steps per revolution that resolves the lobes of a scene.
 pub(super) fn least_steps(scene: &Scene) -> f64 {
     steps(scene, LEAST_STEPS_PER_WIDTH)
 }
 
-/// Steps per revolution of which so many fall on the narrowest lobe, wave or measured point that may be touched.
+/// Steps per revolution that put `per_width` of them on the narrowest lobe, wave or measured point that may be touched.
 fn steps(scene: &Scene, per_width: f64) -> f64 {
     let narrowest = scene.touched_shape().and_then(Shape::narrowest_rad);
     narrowest.map_or(0.0, |width| (per_width * TAU / width).ceil())

@@ -1,4 +1,4 @@
-//! What stands out of measured heights.
+//! Survey of measured heights: outliers, gaps and overshoots.
 
 use std::f64::consts::TAU;
 
@@ -7,27 +7,27 @@ use super::result::{AngularGap, FoundShape, MeasuredSurvey, Outlier, Overshoot};
 use super::shape::Shape;
 use rubmap_wheel::dynamics::casing::ALIKE;
 
-/// Said of every measured shape.
+/// Interpolation of every measured shape, in words.
 const INTERPOLATION: &str =
     "around: periodic cubic splines through all points; along the chord: linear from line to line";
 
-/// A height is an outlier if it is so many times farther off than half of its line, in standard deviations of normal noise,
+/// Least distance of an outlier from the curve of its neighbours, in standard deviations of normal noise, by the median of the line.
 const DEVIATIONS: f64 = 8.0;
-/// by more than this share of the range of the line,
+/// Least distance of an outlier from the curve of its neighbours, as a share of the range of the line.
 const SHARE_OF_RANGE: f64 = 1e-3;
-/// and if without it its neighbours are no farther off than this share of it.
+/// Largest distance of an outlier's neighbours from their curves once it is left out, as a share of its own distance.
 const LEFT_OF_NEIGHBOURS: f64 = 0.3;
-/// The standard deviation of normal noise over the median of its absolute values.
+/// Standard deviation of normal noise over the median of its absolute values.
 const DEVIATION_OVER_MEDIAN: f64 = 1.4826;
-/// A gap is wider than so many times the median distance of angles.
+/// Least width of a gap, as a multiple of the median distance of angles.
 const GAP_OVER_MEDIAN: f64 = 3.0;
-/// Overshoots below this share of the range of the line are those of any crest between two points.
+/// Share of the range of the line below which an overshoot is that of any crest between two points.
 const SEEN_OVERSHOOT: f64 = 0.01;
-/// What is listed.
+/// Largest number of outliers, and of gaps, that are listed.
 const MOST_LISTED: usize = 100;
 
 impl FoundShape {
-    /// Of a casing with a shape; none of a circular one.
+    /// Describes the shape of a casing; none for a circular one.
     pub(crate) fn of(shape: &Shape) -> Option<Self> {
         let highest = shape.highest();
         Some(Self {
@@ -40,7 +40,7 @@ impl FoundShape {
 }
 
 impl MeasuredSurvey {
-    /// Of heights that were checked.
+    /// Surveys heights that were checked.
     pub fn of(measured: &Measured) -> Self {
         let Measured { angles_rad, heights, .. } = measured;
         let mut outliers: Vec<Outlier> = (heights.iter().enumerate())
@@ -68,7 +68,7 @@ fn range(values: &[f64]) -> (f64, f64) {
     values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &v| (low.min(v), high.max(v)))
 }
 
-/// Those of one line, of five heights at least.
+/// Outliers of one line, of five heights at least.
 fn outliers(line: u32, angles_rad: &[f64], heights: &[f64]) -> Vec<Outlier> {
     let n = heights.len();
     let weights: Vec<[f64; 4]> = (0..n).map(|i| weights(angles_rad, i)).collect();
@@ -95,7 +95,7 @@ fn outliers(line: u32, angles_rad: &[f64], heights: &[f64]) -> Vec<Outlier> {
     (0..n).filter(stands_alone).map(found).collect()
 }
 
-/// Two before, at 0 and 1, and two behind, at 3 and 4, of what is at 2.
+/// Places of the neighbours of a point at place 2: two before it, at 0 and 1, and two behind it, at 3 and 4.
 const NEIGHBOURS: [usize; 4] = [0, 1, 3, 4];
 
 /// Weights of the neighbours of point `i` in the cubic through them (Lagrange).
@@ -125,7 +125,7 @@ fn gaps(angles_rad: &[f64]) -> Vec<AngularGap> {
     gaps
 }
 
-/// Where the curve of every line goes farthest beyond its heights, by nothing if that is round-off, and their range.
+/// Overshoot of the curve of every line where it goes farthest beyond the heights, 0 if that is round-off, and the range of the heights.
 pub(super) fn overshoots(measured: &Measured) -> Vec<(Overshoot, f64)> {
     let of = |(line, heights): (usize, &Vec<f64>)| {
         let ([top, bottom], (low, high)) = (measured.extremes()[line], range(heights));
@@ -138,7 +138,7 @@ pub(super) fn overshoots(measured: &Measured) -> Vec<(Overshoot, f64)> {
     measured.heights.iter().enumerate().map(of).collect()
 }
 
-/// The largest, if it is more than that of a crest.
+/// Largest overshoot, if it is more than that of a crest.
 fn overshoot(measured: &Measured) -> Option<Overshoot> {
     let seen =
         overshoots(measured).into_iter().filter(|(overshoot, range)| overshoot.by > SEEN_OVERSHOOT * range);
@@ -181,7 +181,7 @@ mod tests {
         }
     }
 
-    /// Where they are, what they should have been, on even and uneven angles, the first and the last included.
+    /// Wrong heights are found at their places, with the right ones as expected, on even and uneven angles, the first and the last included.
     #[test]
     fn wrong_heights_are_found() {
         for uneven in [0.0, 0.3] {
@@ -207,7 +207,7 @@ mod tests {
         let survey = MeasuredSurvey::of(&measured(360, |angle| if angle < 2.0 { 0.3 } else { 0.1 }));
         assert_eq!(survey.outlier_count, 0, "{survey:?}");
         let overshoot = survey.overshoot.unwrap();
-        // Of a cubic spline at a step, a little more than a tenth of it.
+        // A cubic spline overshoots a step by a little more than a tenth of it.
         assert!((0.018..0.03).contains(&overshoot.by), "{overshoot:?}");
     }
 

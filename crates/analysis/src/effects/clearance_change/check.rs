@@ -10,7 +10,7 @@ use crate::resolved::ResolvedSweep;
 
 const AT: &str = "/scene/clearance_change";
 const MOST_POINTS: usize = 1000;
-/// Decimal numbers that are 0.05 apart may be so much less.
+/// Round-off by which decimal numbers that are 0.05 apart may be less.
 const ROUND_OFF: f64 = 1e-9;
 
 pub(super) fn check(found: &mut Findings, request: &ResolvedSweep, facts: &ModelFacts) {

@@ -15,7 +15,7 @@ pub(super) fn convert(scene: &Scene, _: &Surroundings<'_>) -> Converted {
     Ok(change(scene).map(|change| Box::new(change) as Box<dyn Physics>))
 }
 
-/// That of a scene.
+/// Change of clearances of a scene, if it names one.
 pub(crate) fn change(scene: &Scene) -> Option<ClearanceChange> {
     let asked = scene.clearance_change.as_ref()?;
     Some(ClearanceChange {

@@ -11,24 +11,24 @@ use crate::effects::asked::Plain;
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
 pub struct ClearanceChange {
-    /// Where it passes through.
+    /// Points that the change passes through.
     #[cfg_attr(feature = "schema", schema(min_items = 1, max_items = 1000))]
     pub course: Vec<ClearanceAt>,
-    /// Share of the change at every contact node, from -1 to 1; absent: all of it.
+    /// Share of the change at every contact node, from -1 to 1; absent: the whole change at all of them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schema(max_items = 8192))]
     pub along_chord: Option<Vec<f64>>,
 }
 
-/// A point of the course.
+/// Point of a change of clearances.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
 pub struct ClearanceAt {
-    /// When, in revolutions from the start: ascending, 0.05 at least from one to the next and to the first.
+    /// Time of the point in revolutions from the start: ascending, 0.05 at least from one point to the next and to the first.
     pub revolutions: f64,
-    /// By how much all clearances are larger then, in the model's unit of length; negative where they are smaller. What goes beyond them
-    /// presses into the tips.
+    /// Change of all clearances at that time, in the model's unit of length: positive where they are larger, negative where they are smaller. A
+    /// change beyond the clearance presses the casing into the tips.
     pub change: f64,
 }
 

@@ -3,7 +3,7 @@
 use crate::model::ModelFacts;
 use crate::resolve::findings::Findings;
 
-/// Coriolis forces that are asked for at `pointer` of a request.
+/// Checks Coriolis forces that are asked for at `pointer` of a request.
 pub(crate) fn check(found: &mut Findings, coriolis: bool, pointer: &str, facts: &ModelFacts) {
     found.require(
         !coriolis || facts.gyroscopic,

@@ -8,8 +8,7 @@ pub(crate) mod price;
 mod record;
 pub mod request;
 
-/// `"auto"` takes this many steps over a period of the highest engine order of the forces: their amplitude is then right to
-/// two parts in a thousand.
+/// Steps that `"auto"` takes over a period of the highest engine order of the forces: their amplitude is then right to two parts in a thousand.
 const AUTO_STEPS_PER_PERIOD: f64 = 40.0;
 
 pub(crate) const EFFECT: Effect = Effect {

@@ -1,9 +1,9 @@
-//! What forces at engine orders cost: no more than other effects that act on the modes.
+//! Price of forces at engine orders: no more than that of other effects that act on the modes.
 
 use rubmap_wheel::dynamics::direction::Direction;
 use rubmap_wheel::dynamics::excitation::EngineOrderExcitation;
 
-/// A force whose cost is measured.
+/// Force whose cost is measured.
 pub(crate) fn sample() -> Vec<EngineOrderExcitation> {
     vec![EngineOrderExcitation {
         order: 4,

@@ -1,4 +1,4 @@
-//! What a run says of forces at engine orders.
+//! Record of the work of forces at engine orders.
 
 use crate::effects::effect::Ran;
 use crate::result::Point;

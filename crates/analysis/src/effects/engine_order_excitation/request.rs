@@ -5,8 +5,8 @@ use serde::{Deserialize, Serialize};
 use crate::effects::asked::Plain;
 use crate::request::sensor::Component;
 
-/// Force A cos(k(φ + Ωt) + phase) on contact nodes of every sector, φ being the sector's angle: what a wheel feels that turns through
-/// a steady field of k periods. It grows over `ramp_revolutions`, like the restriction.
+/// Force A cos(k(φ + Ωt) + phase) on contact nodes of every sector, φ being the sector's angle, as a wheel feels it that turns through a steady field
+/// of k periods. The force grows over `ramp_revolutions`, like the restriction.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
@@ -21,7 +21,7 @@ pub struct EngineOrderExcitation {
     pub component: Component,
     /// Amplitude A, force.
     pub amplitude: f64,
-    /// Phase, rad.
+    /// Phase of the force, rad.
     #[serde(default)]
     pub phase_rad: f64,
 }

@@ -10,7 +10,7 @@ use crate::resolve::limits;
 use crate::resolved::ResolvedSweep;
 
 const MOST_WAVES: u32 = 50;
-/// Natural frequencies, rad/s.
+/// Range of natural frequencies, rad/s.
 const OMEGA: std::ops::RangeInclusive<f64> = 1e-3..=1e9;
 
 pub(super) fn check(found: &mut Findings, request: &ResolvedSweep, _: &ModelFacts) {

@@ -9,7 +9,7 @@ use crate::resolved::Scene;
 use rubmap_wheel::dynamics::effects::Effects;
 use rubmap_wheel::dynamics::flexible_casing::{CasingWave, FlexibleCasing, Ring};
 
-/// The casing's waves; of a ring or as given.
+/// Waves of the casing, of a ring or as given.
 pub(crate) fn flexible_casing(casing: &resolved::FlexibleCasing) -> FlexibleCasing {
     let given = |mode: &CasingMode| CasingWave {
         nodal_diameter: mode.nodal_diameter,

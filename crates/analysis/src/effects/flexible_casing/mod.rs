@@ -1,4 +1,4 @@
-//! An elastic casing.
+//! Elastic casing.
 
 use crate::effects::effect::{Acts, Break, Chain, Check, Effect, Repeats};
 

@@ -1,4 +1,4 @@
-//! What an elastic casing costs.
+//! Price of an elastic casing.
 
 use super::convert::flexible_casing;
 use crate::calibration::wheel::SPEED;

@@ -1,4 +1,4 @@
-//! What a run says of an elastic casing.
+//! Record of the amplitude and the energies of an elastic casing.
 
 use crate::effects::effect::Ran;
 use crate::result::Point;

@@ -1,4 +1,4 @@
-//! An elastic casing with its alternatives told apart.
+//! Elastic casing, its alternatives resolved.
 
 use super::request::{self, CasingMode, Ring};
 use crate::effects::asked::Asked;
@@ -11,12 +11,12 @@ pub struct FlexibleCasing {
     pub(crate) damping_ratio: f64,
 }
 
-/// Where the waves of an elastic casing come from.
+/// Source of the waves of an elastic casing.
 #[derive(Debug, Clone, PartialEq)]
 pub enum WavesOf {
-    /// In-plane bending of a ring, computed.
+    /// Ring, whose in-plane bending waves are computed.
     Ring(Ring),
-    /// As given.
+    /// Modes as given.
     Modes(Vec<CasingMode>),
 }
 

@@ -6,11 +6,11 @@ use crate::request::SchemeChoice;
 use crate::resolve::findings::Findings;
 use crate::resolved::ResolvedSweep;
 
-/// The coefficient in a request, and the law.
+/// JSON pointers to the coefficient in a request, and to the law.
 pub(super) const AT: &str = "/scene/friction/coefficient";
 const LAW: &str = "/scene/friction/law";
 
-/// What can be said of friction before a wheel is reduced; whether it jams is found out at every speed.
+/// Checks what can be said of friction before a wheel is reduced; whether it jams is found out at every speed.
 pub(super) fn check(found: &mut Findings, request: &ResolvedSweep, _: &ModelFacts) {
     let Some(friction) = &request.scene.friction else { return };
     found.require((0.0..=1.0).contains(&friction.coefficient), AT, "a friction coefficient lies in [0, 1]");

@@ -9,7 +9,7 @@ use rubmap_wheel::dynamics::direction::Direction;
 use rubmap_wheel::dynamics::effects::{Effects, Friction, FrictionLaw};
 use rubmap_wheel::dynamics::sector::ContactNode;
 
-/// What [`Friction`] borrows.
+/// Coefficient, law and directions of friction, which [`Friction`] borrows.
 pub(super) struct Rubbing {
     coefficient: f64,
     law: FrictionLaw,

@@ -1,4 +1,4 @@
-//! What friction costs, by either law.
+//! Prices of friction, by either law.
 
 use super::convert::Rubbing;
 use super::request::{Friction, FrictionLaw};

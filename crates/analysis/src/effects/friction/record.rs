@@ -1,4 +1,4 @@
-//! What a run says of friction.
+//! Record of friction.
 
 use crate::effects::effect::Ran;
 use crate::result::Point;

@@ -17,24 +17,24 @@ pub struct Friction {
     /// Coefficient μ, 0 to 1. Metal sliding on metal at tip speed is reported between 0.1 and 0.3; 0 is no friction.
     #[cfg_attr(feature = "schema", schema(minimum = 0, maximum = 1))]
     pub coefficient: f64,
-    /// How it acts.
+    /// Law by which friction acts.
     #[serde(default, skip_serializing_if = "FrictionLaw::is_sliding")]
     pub law: FrictionLaw,
 }
 
-/// How friction acts on a tip.
+/// Law by which friction acts on a tip.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum FrictionLaw {
-    /// Tips always slide forwards: their speed is far above that of their vibration. The force on a blade is −λ(n + μt), t being the
-    /// direction of rotation along the casing. Cheap. Left out is that the vibration turns the sliding: across the rotation friction
-    /// opposes it as a damper of μλ/rΩ would, which can decide whether a lightly damped response settles.
+    /// Sliding: tips always slide forwards, for their speed is far above that of their vibration. The force on a blade is −λ(n + μt), t being the
+    /// direction of rotation along the casing. Cheap. Left out is that the vibration turns the sliding: across the rotation friction opposes it as a
+    /// damper of μλ/rΩ would, which can decide whether a lightly damped response settles.
     #[default]
     Sliding,
-    /// Coulomb's disc in the contact plane: tips stick, or slide in any direction, by the velocity of rotation and vibration together.
-    /// Solved in every step to round-off. With the schemes `exact_modal` and `central_differences`; not with a coating; speeds are
-    /// marched (`integration.steady` says so), and branches cannot be followed.
+    /// Disc: Coulomb's disc in the contact plane; tips stick, or slide in any direction, by the velocity of rotation and vibration together. Solved
+    /// in every step to round-off. With the schemes `exact_modal` and `central_differences`; not with a coating; speeds are marched
+    /// (`integration.steady` says so), and branches cannot be followed.
     Disc,
 }
 

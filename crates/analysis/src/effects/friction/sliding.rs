@@ -1,4 +1,4 @@
-//! Whether a wheel can slide along its casing with the friction asked for.
+//! Check whether a wheel can slide along its casing with the friction asked for.
 
 use std::f64::consts::TAU;
 
@@ -12,8 +12,8 @@ use rubmap_wheel::dynamics::contact::friction::SlidingFlexibility;
 use rubmap_wheel::dynamics::schemes::Scheme;
 use rubmap_wheel::dynamics::schemes::massless_boundary::residual_flexibility;
 
-/// Checks the contact operator of a scheme and its step (docs/method.md, Contact and Friction) before it runs, an elastic casing's
-/// and Coriolis forces' share apart, which only help or are small; a scene without friction passes.
+/// Checks the contact operator of a scheme and its step (docs/method.md, Contact and Friction) before it runs, without the shares of an elastic
+/// casing and of Coriolis forces, which only help or are small; a scene without friction passes.
 pub(super) fn check(run: &AboutToRun<'_>) -> Result<(), NotRunnable> {
     let AboutToRun { request, wheel, contact_nodes, scheme, steps_per_revolution } = *run;
     let Some(friction) = &request.scene.friction else { return Ok(()) };

@@ -1,4 +1,4 @@
-//! The state that the wheel starts from.
+//! State that the wheel starts from.
 
 use crate::effects::effect::{Acts, Chain, Check, Effect, Repeats};
 

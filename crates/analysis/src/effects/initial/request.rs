@@ -1,10 +1,10 @@
-//! The state to start from, as it is asked for.
+//! State to start from, as it is asked for.
 
 use serde::{Deserialize, Serialize};
 
 use crate::effects::asked::Plain;
 
-/// One mode that moves when the run starts: of the wheel without mistuning and Coriolis forces, which make several waves of it.
+/// Mode that moves when the run starts: one of the wheel without mistuning and Coriolis forces, which make several waves of it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
@@ -17,22 +17,22 @@ pub struct Initial {
     /// Largest displacement component of any contact node, length; within the clearances, for blades that stood inside the
     /// casing would be thrown out of it at once.
     pub amplitude: f64,
-    /// Standing, or travelling with or against the rotation (pairs only).
+    /// Wave of the mode: standing, or travelling with or against the rotation (pairs only).
     #[serde(default)]
     pub wave: InitialWave,
 }
 
-/// How an initial mode moves.
+/// Wave of an initial mode.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum InitialWave {
-    /// Released at rest from its amplitude.
+    /// Standing wave, released at rest from its amplitude.
     #[default]
     Standing,
-    /// Travelling with the rotation.
+    /// Wave that travels with the rotation.
     Forward,
-    /// Travelling against the rotation.
+    /// Wave that travels against the rotation.
     Backward,
 }
 

@@ -1,4 +1,4 @@
-//! The mode that moves when a run starts.
+//! Mode that moves when a run starts.
 
 use std::f64::consts::TAU;
 
@@ -15,7 +15,7 @@ use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
 use rubmap_wheel::dynamics::schemes::{Scheme, exact_modal};
 use rubmap_wheel::dynamics::sector::ContactNode;
 
-/// The mode that a scene starts with, if it names one.
+/// Mode that a scene starts with, if it names one.
 pub(crate) fn initial_mode(
     request: &ResolvedSweep,
     wheel: &ModalWheel,
@@ -46,7 +46,7 @@ pub(crate) fn initial_mode(
     Ok(Some(mode))
 }
 
-/// A mode that the scheme does not carry would be gone at once.
+/// Checks that the scheme carries the mode: otherwise it would be gone at once.
 fn check_integrated(
     initial: &Initial,
     omega: f64,
@@ -66,7 +66,7 @@ fn check_integrated(
     }
 }
 
-/// Blades that stand inside the casing would be thrown out in the first step, with energies that grow as 1/h².
+/// Checks that no blade starts inside the casing: it would be thrown out in the first step, with energies that grow as 1/h².
 fn check_reach(
     initial: &Initial,
     mode: &InitialMode,

@@ -6,7 +6,7 @@ use crate::resolved::Scene;
 use rubmap_wheel::dynamics::effects::Effects;
 use rubmap_wheel::dynamics::mistuning::normal_deviations;
 
-/// δ of every sector.
+/// Relative stiffness deviation δ of every sector.
 pub(super) struct Deviations(pub(super) Vec<f64>);
 
 impl Physics for Deviations {

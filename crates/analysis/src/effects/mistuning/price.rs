@@ -1,4 +1,4 @@
-//! What mistuning costs.
+//! Price of mistuning.
 
 use super::convert::Deviations;
 use crate::effects::effect::{Price, Sample, SampleOn};

@@ -1,4 +1,4 @@
-//! What a run says of mistuning.
+//! Record of the work of mistuning.
 
 use crate::effects::effect::Ran;
 use crate::result::Point;

@@ -1,4 +1,4 @@
-//! Mistuning with its alternatives told apart.
+//! Mistuning, its alternatives resolved.
 
 use super::request;
 use crate::effects::asked::Asked;
@@ -7,13 +7,13 @@ use crate::error::Violation;
 /// Relative stiffness deviations of the sectors.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Mistuning {
-    /// δ of every sector.
+    /// Given deviations: δ of every sector.
     Given(Vec<f64>),
-    /// Normally distributed.
+    /// Normally distributed deviations.
     Drawn {
-        /// Standard deviation.
+        /// Standard deviation of δ.
         spread: f64,
-        /// The same seed gives the same wheel.
+        /// Seed of the distribution; the same seed gives the same wheel.
         seed: u64,
     },
 }

@@ -5,7 +5,7 @@ use crate::resolve::findings::{Findings, between, check_reach};
 use crate::resolve::limits;
 use crate::resolved::ResolvedSweep;
 
-/// The whirl is prescribed and its inertia left out: that of a shaft's own slow whirl.
+/// Largest whirl ratio, in either direction: the whirl is prescribed and its inertia left out, as for a shaft's own slow whirl.
 const MOST_WHIRL_RATIO: f64 = 2.0;
 
 pub(super) fn check(found: &mut Findings, request: &ResolvedSweep, facts: &ModelFacts) {

@@ -17,7 +17,7 @@ pub(crate) const EFFECT: Effect = Effect {
     chain: Chain::Moves(Break {
         what: "orbit",
         when: |request| {
-            // A march that ends by itself may do so after any of them.
+            // A march that ends by itself may do so after any number of revolutions.
             let revolutions = match request.integration.revolutions {
                 AutoOr::Fixed(revolutions) => f64::from(revolutions),
                 AutoOr::Auto => 1.0,

@@ -1,8 +1,8 @@
-//! What an orbit costs: no more than having an effect at all.
+//! Price of an orbit: no more than that of having an effect at all.
 
 use rubmap_wheel::dynamics::orbit::Orbit;
 
-/// An orbit whose cost is measured.
+/// Orbit whose cost is measured.
 pub(crate) fn sample() -> Orbit {
     Orbit { radius: 0.05, whirl_ratio: 0.4, phase_rad: 0.0 }
 }

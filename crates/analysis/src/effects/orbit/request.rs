@@ -4,8 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::effects::asked::Plain;
 
-/// The wheel's axis circles about the casing's: the gap at angle φ in the fixed frame shrinks by
-/// radius·cos(φ − `whirl_ratio`·Ωt − phase), and by as much less as the node's normal is not radial. Grows over the ramp.
+/// Orbit of the wheel's axis about the casing's: the gap at angle φ in the fixed frame shrinks by radius·cos(φ − `whirl_ratio`·Ωt − phase), and by as
+/// much less as the node's normal is not radial. The orbit grows over the ramp.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]

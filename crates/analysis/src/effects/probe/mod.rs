@@ -1,4 +1,4 @@
-//! The asymmetry that a probe of the symmetry starts from.
+//! Asymmetry that a probe of the symmetry starts from.
 
 use crate::effects::effect::{Acts, Chain, Check, Effect, Repeats};
 
@@ -13,7 +13,7 @@ pub(crate) const EFFECT: Effect = Effect {
     acts: Acts::Elsewhere,
     repeats: Repeats::Everywhere,
     chain: Chain::GoesOn,
-    // The check of the symmetry begins with it.
+    // The check of the symmetry begins with that of the probe.
     check: Check::Never,
     steps: None,
     at_speed: None,

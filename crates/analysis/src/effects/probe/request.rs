@@ -1,17 +1,17 @@
-//! The asymmetry to start from, as it is asked for.
+//! Asymmetry to start from, as it is asked for.
 
 use serde::{Deserialize, Serialize};
 
 use crate::effects::asked::Plain;
 
-/// The asymmetry that `symmetry: probe` starts from.
+/// Asymmetry that `symmetry: probe` starts from.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct Probe {
-    /// Its displacement relative to the smallest clearance, 1e-12 to 1e-3.
+    /// Displacement of the asymmetry relative to the smallest clearance, 1e-12 to 1e-3.
     pub amplitude: f64,
-    /// Seed of its phases.
+    /// Seed of the phases of the asymmetry.
     pub seed: u64,
 }
 

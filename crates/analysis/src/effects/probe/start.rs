@@ -10,7 +10,7 @@ use rubmap_wheel::dynamics::initial::{InitialMode, InitialWave};
 use rubmap_wheel::dynamics::mistuning::normal_numbers;
 use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
 
-/// The lowest mode of every nodal diameter that the symmetry of the scene keeps at rest, at a phase of its own.
+/// Lowest mode of every nodal diameter that the symmetry of the scene keeps at rest, at a phase of its own.
 pub(crate) fn asymmetry(
     request: &ResolvedSweep,
     wheel: &ModalWheel,
@@ -23,7 +23,7 @@ pub(crate) fn asymmetry(
     modes
 }
 
-/// The lowest mode of every nodal diameter, standing, at a phase of its own.
+/// Lowest mode of every nodal diameter, standing, at a phase of its own.
 pub(crate) fn lowest_modes(wheel: &ModalWheel, amplitude: f64, seed: u64) -> Vec<InitialMode> {
     let phases = normal_numbers(seed).take(wheel.harmonics.len());
     let mode = |(index, phase): (usize, f64)| {
@@ -33,8 +33,8 @@ pub(crate) fn lowest_modes(wheel: &ModalWheel, amplitude: f64, seed: u64) -> Vec
     phases.enumerate().map(mode).collect()
 }
 
-/// The length that an asymmetry is small against: the smallest clearance, or the restriction where that is zero; 1 without
-/// a casing, where all motion is linear.
+/// Length that an asymmetry is small against: the smallest clearance, or the restriction where that is zero; 1 without a casing, where all motion is
+/// linear.
 pub(crate) fn wheel_reach(casing: Option<&Casing>) -> f64 {
     let Some(casing) = casing else { return 1.0 };
     let smallest = casing.clearance.iter().copied().fold(f64::INFINITY, f64::min);

@@ -1,4 +1,4 @@
-//! Checks of the symmetry, held against all other effects.
+//! Checks of the symmetry against all other effects.
 
 use super::repeats::repeats;
 use super::request::Symmetry;
@@ -10,7 +10,7 @@ use crate::model::ModelFacts;
 use crate::resolve::findings::Findings;
 use crate::resolved::ResolvedSweep;
 
-/// What exact symmetry and the probe of it ask of the rest.
+/// Checks what exact symmetry and the probe of it ask of the rest of the request.
 pub(crate) fn check(found: &mut Findings, request: &ResolvedSweep, facts: &ModelFacts) {
     let scene = &request.scene;
     probe::check::check(found, scene);

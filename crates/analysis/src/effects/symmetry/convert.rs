@@ -1,11 +1,11 @@
-//! What a probe of the symmetry asks of a simulation.
+//! Probe of the symmetry in the terms of the physics.
 
 use super::request::Symmetry;
 use crate::effects::physics::{Converted, Physics, Surroundings};
 use crate::resolved::Scene;
 use rubmap_wheel::dynamics::effects::Effects;
 
-/// The energies of the nodal diameters tell what grows.
+/// Request for the energies of the nodal diameters, which show what grows.
 struct Energies;
 
 impl Physics for Energies {

@@ -1,4 +1,4 @@
-//! The part of the wheel that is simulated.
+//! Part of the wheel that is simulated.
 
 use super::effect::{Acts, Break, Chain, Check, Effect, Repeats};
 use request::Symmetry;
@@ -21,7 +21,7 @@ pub(crate) const EFFECT: Effect = Effect {
         when: |request| request.scene.symmetry == Symmetry::Probe,
         why: "its asymmetry is one of the start",
     }),
-    // Held against all other effects, when each has been checked.
+    // The symmetry is held against all other effects, when each has been checked.
     check: Check::Never,
     steps: None,
     at_speed: None,

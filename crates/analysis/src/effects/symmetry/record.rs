@@ -1,4 +1,4 @@
-//! What became of the symmetry.
+//! Record of what became of the symmetry.
 
 use super::request::Symmetry;
 use crate::effects::effect::Ran;

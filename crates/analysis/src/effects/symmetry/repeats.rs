@@ -1,4 +1,4 @@
-//! The rotational symmetry of a scene.
+//! Rotational symmetry of a scene.
 
 use num_integer::gcd;
 
@@ -9,7 +9,7 @@ use crate::resolved::Scene;
 use rubmap_numerics::sector_fourier::harmonic_count;
 
 impl FoundSymmetry {
-    /// That of `scene` around `sectors` sectors.
+    /// Finds the symmetry of `scene` around `sectors` sectors.
     pub(crate) fn of(scene: &Scene, sectors: u32) -> Self {
         let repeats = repeats(scene, sectors);
         let (moving, resting) =
@@ -18,7 +18,7 @@ impl FoundSymmetry {
     }
 }
 
-/// [`FoundSymmetry::repeats`].
+/// Number of times that `scene` repeats around the wheel: [`FoundSymmetry::repeats`].
 pub(crate) fn repeats(scene: &Scene, sectors: u32) -> u32 {
     let times = named(scene).flat_map(|effect| match effect.repeats {
         Repeats::Everywhere => Vec::new(),

@@ -1,20 +1,20 @@
-//! The part of the wheel that is simulated, as it is asked for.
+//! Part of the wheel that is simulated, as it is asked for.
 
 use serde::{Deserialize, Serialize};
 
 use crate::effects::asked::Plain;
 
-/// Which part of the wheel is simulated.
+/// Part of the wheel that is simulated.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Symmetry {
-    /// All of it.
+    /// Whole wheel.
     #[default]
     Full,
-    /// The sub-wheel that the scene repeats; refused where it does not repeat.
+    /// Sub-wheel that the scene repeats; refused where it does not repeat.
     Exact,
-    /// All of it, started from a tiny asymmetry; the result says whether and how fast what the symmetry forbids grows.
+    /// Whole wheel, started from a tiny asymmetry; the result says whether and how fast what the symmetry forbids grows.
     Probe,
 }
 

@@ -1,4 +1,4 @@
-//! The 20-node serendipity hexahedron with full, 3 × 3 × 3 integration.
+//! 20-node serendipity hexahedron with full, 3 × 3 × 3 integration.
 
 use nalgebra::Vector3;
 
@@ -6,7 +6,7 @@ use super::hexahedron::Hexahedron;
 use rubmap_solid::natural::Natural;
 use rubmap_solid::shape::hexahedron;
 
-/// A 20-node hexahedron, nodes in the order of [`EDGES`](super::EDGES), functions as [`hexahedron::quadratic`] has them.
+/// 20-node hexahedron, nodes in the order of [`EDGES`](super::EDGES), shape functions of [`hexahedron::quadratic`].
 #[derive(Debug, Clone)]
 pub struct Hex20([[f64; 3]; 20]);
 

@@ -1,4 +1,4 @@
-//! The 8-node hexahedron with incompatible modes (Wilson; Taylor, Beresford and Wilson, IJNME 10, 1976).
+//! 8-node hexahedron with incompatible modes (Wilson; Taylor, Beresford and Wilson, IJNME 10, 1976).
 
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 
@@ -9,7 +9,7 @@ use rubmap_solid::gauss::{GaussPoint, gauss_points};
 use rubmap_solid::natural::Natural;
 use rubmap_solid::shape::hexahedron;
 
-/// An 8-node hexahedron with incompatible modes.
+/// 8-node hexahedron with incompatible modes.
 ///
 /// Displacement `u = Σ N_a u_a + Σ P_b α_b` with the trilinear `N_a` and P = 1−ξ², 1−η², 1−ζ². The bubble
 /// gradients are taken with the Jacobian of the element's centre, `∂P_b/∂x = (det J₀ / det J) J₀⁻ᵀ ∂P_b/∂ξ`, so

@@ -1,4 +1,4 @@
-//! What all hexahedra share: geometry, stiffness, stress and mass from displacement functions.
+//! Common part of all hexahedra: geometry, stiffness, stress and mass from displacement functions.
 
 use nalgebra::{Matrix3, SVector, Vector3};
 
@@ -7,36 +7,36 @@ use crate::impeller::material::{Material, Stress};
 use rubmap_solid::gauss::{GaussPoint, gauss_points};
 use rubmap_solid::natural::{CORNERS, Natural};
 
-/// A hexahedron of N nodes at known Cartesian positions.
+/// Hexahedron of N nodes at known Cartesian positions.
 ///
-/// Integrals are sensible where det J > 0, which [`Self::smallest_jacobian`] checks.
+/// Integrals are valid where det J > 0, which [`Self::smallest_jacobian`] checks.
 pub trait Hexahedron<const N: usize>: From<[[f64; 3]; N]> {
-    /// Gauss points in each direction at which stiffness is integrated and stress is evaluated.
+    /// Number of Gauss points in each direction at which stiffness is integrated and stress is evaluated.
     const STRESS_POINTS: usize;
 
     /// Positions of the nodes.
     fn positions(&self) -> &[[f64; 3]; N];
 
-    /// `N_a(ξ)`.
+    /// Shape functions `N_a(ξ)`.
     fn shape_functions(xi: Natural) -> [f64; N];
 
-    /// `∂N_a/∂ξ`.
+    /// Derivatives `∂N_a/∂ξ` of the shape functions.
     fn shape_derivatives(xi: Natural) -> [Vector3<f64>; N];
 
-    /// `J_ij = ∂x_i/∂ξ_j`.
+    /// Jacobian matrix `J_ij = ∂x_i/∂ξ_j`.
     fn jacobian(&self, xi: Natural) -> Matrix3<f64> {
         let derivatives = Self::shape_derivatives(xi);
         self.positions().iter().zip(&derivatives).map(|(&x, dn)| Vector3::from(x) * dn.transpose()).sum()
     }
 
-    /// Smallest det J over the corners and the points of integration; NaN if any is.
+    /// Smallest det J over the corners and the integration points; NaN if any is NaN.
     fn smallest_jacobian(&self) -> f64 {
         let gauss = gauss_points(3).iter().map(|point| point.xi);
         let least = |least: f64, det: f64| if det < least || det.is_nan() { det } else { least };
         CORNERS.into_iter().chain(gauss).map(|xi| self.jacobian(xi).determinant()).fold(f64::INFINITY, least)
     }
 
-    /// `∇N_a` in x, y, z, and det J.
+    /// Gradients `∇N_a` in x, y, z, and det J.
     fn gradients(&self, xi: Natural) -> ([Vector3<f64>; N], f64) {
         let (turn, determinant) = inverse_transpose(&self.jacobian(xi));
         (Self::shape_derivatives(xi).map(|dn| turn * dn), determinant)
@@ -71,7 +71,7 @@ pub trait Hexahedron<const N: usize>: From<[[f64; 3]; N]> {
         mass
     }
 
-    /// Geometric stiffness `k_ab = ∫ ∇N_a · σ · ∇N_b dV`, `stresses` as [`Self::stresses`] gives them.
+    /// Geometric stiffness `k_ab = ∫ ∇N_a · σ · ∇N_b dV`, with the `stresses` of [`Self::stresses`].
     fn geometric_stiffness(&self, stresses: &[Stress]) -> NodalMatrix<N> {
         let mut k = NodalMatrix::<N>::zeros();
         for (point, s) in gauss_points(Self::STRESS_POINTS).iter().zip(stresses) {
@@ -90,7 +90,7 @@ pub trait Hexahedron<const N: usize>: From<[[f64; 3]; N]> {
     }
 }
 
-/// Elastic stiffness of displacement functions known by their gradients at weighted points.
+/// Elastic stiffness of displacement functions given by their gradients at weighted points.
 pub(super) fn elastic_blocks<const F: usize>(
     points: impl Iterator<Item = ([Vector3<f64>; F], f64)>,
     material: &Material,
@@ -116,7 +116,7 @@ pub(super) fn elastic_blocks<const F: usize>(
     products
 }
 
-/// J⁻ᵀ and det J; a singular J gives zeros and 0 (meshes are checked before anything is integrated).
+/// Inverse transpose J⁻ᵀ and det J; zeros and 0 for a singular J (meshes are checked before anything is integrated).
 pub(super) fn inverse_transpose(j: &Matrix3<f64>) -> (Matrix3<f64>, f64) {
     (j.try_inverse().unwrap_or_default().transpose(), j.determinant())
 }

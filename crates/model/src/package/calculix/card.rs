@@ -2,9 +2,9 @@
 
 use super::text::normal;
 
-/// A keyword line.
+/// Keyword line, also called card.
 pub(super) struct Card {
-    /// `*NSET`, in capitals, without blanks.
+    /// Keyword such as `*NSET`, in capitals, without blanks.
     pub(super) keyword: String,
     /// Parameters as written.
     parameters: Vec<String>,

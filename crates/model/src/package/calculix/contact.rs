@@ -12,24 +12,24 @@ use super::model::Normals;
 use super::text::{self, TextLines};
 use rubmap_solid::frame::{AxisFrame, distance};
 
-/// A contact node in the making.
+/// Contact node in the making.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactPoint {
-    /// Node number.
+    /// Number of the node.
     pub node: u64,
-    /// (r, θ, z) about the axis.
+    /// Position (r, θ, z) about the axis.
     pub position: [f64; 3],
     /// Outward unit normal (r, θ, z).
     pub normal: [f64; 3],
 }
 
-/// How far, in lengths of the tip, a contact node may be from a meridional curve given.
+/// Largest distance of a contact node from a given meridional curve, in lengths of the tip.
 const OFF_CURVE: f64 = 0.1;
 
-/// Radii of the two ends that differ by less than this part of the tip's length name no leading edge.
+/// Least difference of the radii of the two ends, as a part of the tip's length, that identifies the leading edge.
 const SAME_RADIUS: f64 = 1e-2;
 
-/// Nodes of one line in order from its end at the smaller radius.
+/// Nodes of one line in order from the end at the smaller radius.
 pub(super) fn in_chord_order(
     nodes: &[(u64, [f64; 3])],
     frame: &AxisFrame,
@@ -65,7 +65,7 @@ pub(super) fn in_chord_order(
     Ok(chain)
 }
 
-/// `count` of the nodes, as evenly spaced along the line as its nodes allow; all if there are fewer.
+/// Selection of `count` of the nodes, as evenly spaced along the line as its nodes allow; all if there are fewer.
 pub(super) fn spread(nodes: Vec<(u64, [f64; 3])>, count: usize) -> Vec<(u64, [f64; 3])> {
     if count >= nodes.len() || count == 0 {
         return nodes;
@@ -155,8 +155,8 @@ pub(super) fn with_normals(
     Ok(points.iter().zip(&found).map(point).collect())
 }
 
-/// Tangent, of any length, at the point of the curve next to `at`: that of the parabola over arc length through the
-/// three nearest points of the curve.
+/// Tangent, of any length, at the point of the curve nearest to `at`: that of the parabola over arc length through the three nearest points
+/// of the curve.
 fn tangent(curve: &[[f64; 2]], at: [f64; 2]) -> [f64; 2] {
     let away = |k: &usize| apart(curve[*k], at);
     let nearest = (0..curve.len()).min_by(|a, b| away(a).total_cmp(&away(b))).unwrap_or(0);
@@ -193,7 +193,7 @@ fn distance_to(curve: &[[f64; 2]], at: [f64; 2]) -> f64 {
     curve.windows(2).map(from_piece).fold(f64::INFINITY, f64::min)
 }
 
-/// Rows `node, nx, ny, nz` of Cartesian normals of any length.
+/// Normals from rows `node, nx, ny, nz` of Cartesian normals of any length.
 fn from_table(
     path: &Path,
     points: &[(u64, [f64; 3])],
@@ -216,7 +216,7 @@ fn from_table(
     Ok(contact)
 }
 
-/// Comma-separated numbers; a first line that is no numbers is a header.
+/// Reads rows of comma-separated numbers; a first line without numbers is a header.
 fn read_rows<const N: usize>(path: &Path, expected: &'static str) -> Result<Vec<[f64; N]>, CalculixError> {
     let mut lines = TextLines::open(path)?;
     let mut rows = Vec::new();

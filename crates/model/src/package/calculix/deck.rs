@@ -1,4 +1,4 @@
-//! What an import needs of a CalculiX deck: nodes, node sets, and the cyclic symmetry it states.
+//! Parts of a CalculiX deck that an import needs: nodes, node sets, and the cyclic symmetry it states.
 //!
 //! Cards and set names are read as CalculiX does: capitals and blanks do not matter, a card ending in a comma goes on
 //! on the next line, `*INCLUDE` may be nested. Cards that say nothing about these things are skipped.
@@ -15,7 +15,7 @@ use crate::package::quote::quoted;
 /// Deepest nesting of `*INCLUDE`.
 const DEEPEST_INCLUDE: usize = 20;
 
-/// The content of a deck, as far as it matters here.
+/// Content of a deck, as far as an import needs it.
 #[derive(Debug, Default)]
 pub(super) struct Deck {
     /// Positions by node number.
@@ -26,13 +26,13 @@ pub(super) struct Deck {
     surfaces: BTreeMap<String, Vec<u64>>,
     /// Slave and master surface of each cyclic tie.
     ties: BTreeMap<String, (String, String)>,
-    /// N and the two points on the axis of `*CYCLIC SYMMETRY MODEL`.
+    /// Cyclic symmetry of `*CYCLIC SYMMETRY MODEL`: N and the two points on the axis.
     pub(super) cyclic: Option<Cyclic>,
     /// Elements and materials.
     pub(super) solids: Solids,
 }
 
-/// `*CYCLIC SYMMETRY MODEL`.
+/// Cyclic symmetry as stated by `*CYCLIC SYMMETRY MODEL`.
 #[derive(Debug)]
 pub(super) struct Cyclic {
     pub(super) sectors: usize,
@@ -41,7 +41,7 @@ pub(super) struct Cyclic {
     pub(super) axis: [[f64; 3]; 2],
 }
 
-/// What the data lines that follow belong to.
+/// Block to which the data lines that follow belong.
 enum Block {
     Nodes { set: Option<String> },
     Set { name: String, generate: bool },
@@ -53,7 +53,7 @@ enum Block {
 }
 
 impl Deck {
-    /// Reads `path` and all it includes.
+    /// Reads `path` and all files it includes.
     pub(super) fn read(path: &Path) -> Result<Self, CalculixError> {
         let mut deck = Self::default();
         let mut block = Block::Skip;
@@ -61,7 +61,7 @@ impl Deck {
         Ok(deck)
     }
 
-    /// The two faces of the cyclic tie, in no particular order, if the deck has one of node surfaces.
+    /// Two faces of the cyclic tie, in no particular order, if the deck has one of node surfaces.
     pub(super) fn tied_faces(&self) -> Option<[&[u64]; 2]> {
         let named = self.cyclic.as_ref().and_then(|cyclic| self.ties.get(&cyclic.tie));
         let (slave, master) = named.or_else(|| self.ties.values().next())?;
@@ -221,7 +221,7 @@ impl Deck {
     }
 }
 
-/// Appends what is not there yet.
+/// Appends the nodes that are not there yet.
 fn append(to: &mut Vec<u64>, found: Vec<u64>) {
     let mut seen: BTreeSet<u64> = to.iter().copied().collect();
     to.extend(found.into_iter().filter(|node| seen.insert(*node)));

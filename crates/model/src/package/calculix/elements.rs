@@ -1,4 +1,4 @@
-//! The mesh of a deck as the element table of a package.
+//! Mesh of a deck as the element table of a package.
 
 use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
@@ -10,7 +10,7 @@ use super::solids::{DeckElement, Solids};
 use super::strengths::Strengths;
 use crate::package::raw::{ManifestMesh, RawElement};
 
-/// The element table of all elements that `keep` keeps, and their materials by the element sets of their sections.
+/// Element table of all elements that `keep` accepts, and their materials by the element sets of their sections.
 pub(super) fn table(
     solids: &Solids,
     strengths: &Strengths,
@@ -22,7 +22,7 @@ pub(super) fn table(
     if solids.elements.is_empty() {
         return Err(NoMesh::NoElements);
     }
-    // Of two sections of one element, the later holds.
+    // If an element has two sections, the later one holds.
     let mut section_of: HashMap<u64, (&str, &str)> = HashMap::new();
     for (set, material) in &solids.sections {
         let members = solids.sets.get(set).into_iter().flatten();

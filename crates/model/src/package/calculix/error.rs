@@ -1,142 +1,142 @@
-//! What can be wrong with CalculiX files, each problem with the place and what to do.
+//! Problems of CalculiX files, each with the place and what to do.
 
 use std::path::PathBuf;
 
 use crate::package::error::PackageError;
 
-/// Files that cannot become a package.
+/// Error of files that cannot become a package.
 #[derive(Debug, thiserror::Error)]
 pub enum CalculixError {
-    /// The operating system could not read a file.
+    /// Error of the operating system, which could not read a file.
     #[error("{}: {source}", .path.display())]
     Io {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// The system's error.
+        /// Error reported by the system.
         source: std::io::Error,
     },
-    /// A line of a file.
+    /// Line of a file with a problem.
     #[error("{}, line {line}: {problem}", .path.display())]
     Line {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// Line, from 1.
+        /// Number of the line, from 1.
         line: u64,
-        /// What is wrong there.
+        /// Problem of the line.
         problem: LineProblem,
     },
-    /// What the files say together.
+    /// Contradiction between the files.
     #[error(transparent)]
     Model(#[from] ModelProblem),
-    /// What the checks of every package found.
+    /// Problem found by the checks of every package.
     #[error(transparent)]
     Package(#[from] PackageError),
 }
 
-/// What is wrong with a line.
+/// Problem of a line.
 #[derive(Debug, thiserror::Error)]
 pub enum LineProblem {
-    /// A word that is not the number its place asks for.
+    /// Word that is not the number expected in its place.
     #[error("\"{text}\" is not {expected}")]
     NotA {
-        /// The word.
+        /// Word found.
         text: String,
-        /// Such as `a node number`.
+        /// Expected kind of number, such as `a node number`.
         expected: &'static str,
     },
-    /// Too few or too many words.
+    /// Line with too few or too many words.
     #[error("expected {expected}")]
     Words {
-        /// The form of the line.
+        /// Expected form of the line.
         expected: &'static str,
     },
-    /// A node at two places.
+    /// Node with two positions.
     #[error("node {node} was at another place before; keep one of the two definitions")]
     NodeMoved {
-        /// Its number.
+        /// Number of the node.
         node: u64,
     },
-    /// A set used before it is defined.
+    /// Set used before it is defined.
     #[error("the set {set} is not defined before this line")]
     UnknownSet {
-        /// Its name.
+        /// Name of the set.
         set: String,
     },
-    /// A card whose effect on the matrices cannot be undone here.
+    /// Card whose effect on the matrices cannot be undone here.
     #[error(
         "{card} is not supported: DOF of transformed nodes are not in global directions; export the matrices without it"
     )]
     Card {
-        /// The keyword.
+        /// Keyword of the card.
         card: String,
     },
-    /// Includes that include themselves.
+    /// Includes nested too deeply, such as files that include themselves.
     #[error("*INCLUDE goes deeper than {limit} files; does a file include itself?")]
     TooDeep {
-        /// The limit.
+        /// Deepest nesting allowed.
         limit: usize,
     },
-    /// A row of a matrix that the DOF list does not have.
+    /// Row or column of a matrix that the DOF list does not have.
     #[error("entry ({row}, {column}) is outside the {size} rows that {} lists", .dof_file.display())]
     OutOfRange {
-        /// Row.
+        /// Row of the entry, from 1.
         row: u64,
-        /// Column.
+        /// Column of the entry, from 1.
         column: u64,
-        /// Lines of the DOF list.
+        /// Number of lines of the DOF list.
         size: usize,
-        /// The `.dof` file.
+        /// Path of the `.dof` file.
         dof_file: PathBuf,
     },
-    /// A value that is no finite number.
+    /// Value that is not a finite number.
     #[error("entry ({row}, {column}) is not a finite number")]
     NotFinite {
-        /// Row.
+        /// Row of the entry, from 1.
         row: u64,
-        /// Column.
+        /// Column of the entry, from 1.
         column: u64,
     },
-    /// A position given twice.
+    /// Position of a matrix that is given twice.
     #[error(
         "entry ({row}, {column}) is given twice; *FREQUENCY, SOLVER=MATRIXSTORAGE writes it once: export again"
     )]
     Repeated {
-        /// Row.
+        /// Row of the entry, from 1.
         row: u64,
-        /// Column.
+        /// Column of the entry, from 1.
         column: u64,
     },
-    /// The same DOF on two lines.
+    /// DOF that is listed on two lines.
     #[error("DOF {node}.{component} is listed twice")]
     DofRepeated {
-        /// Node.
+        /// Number of the node.
         node: u64,
-        /// Component.
+        /// Component of the node.
         component: u8,
     },
 }
 
-/// What is wrong with the files taken together.
+/// Problem of the files taken together.
 #[derive(Debug, thiserror::Error)]
 pub enum ModelProblem {
-    /// A file of strengths that is none.
+    /// File of strengths that cannot be read as such.
     #[error("{}: {message}; strengths are {{\"name of a material or element set\": {{\"yield_strength\": …, \"ultimate_strength\": …, \
              \"fatigue_strength\": {{\"amplitude\": …, \"source\": \"…\"}}}}}}", .file.display())]
     Strengths {
-        /// The file.
+        /// Path of the file of strengths.
         file: PathBuf,
-        /// The JSON reader's words.
+        /// Message of the JSON reader.
         message: String,
     },
-    /// Strengths of something that the mesh has not.
+    /// Strength of a material or set that the mesh does not have.
     #[error("strengths are given of {name}, which is no material or element set of a *SOLID SECTION; there are: {}", .known.join(", "))]
     StrengthOfNothing {
-        /// The name.
+        /// Name in the file of strengths.
         name: String,
-        /// Those there are.
+        /// Names that the mesh has.
         known: Vec<String>,
     },
-    /// Nothing says how many sectors there are.
+    /// Number of sectors that is given nowhere.
     #[error("the deck has no *CYCLIC SYMMETRY MODEL card: give the number of sectors with --sectors")]
     SectorsUnknown,
     /// Axis of length zero.
@@ -144,57 +144,57 @@ pub enum ModelProblem {
         "the axis has no direction: its two points in *CYCLIC SYMMETRY MODEL are the same, or --axis ends in zeros"
     )]
     AxisWithoutDirection,
-    /// Nothing says which nodes are a face.
+    /// Cyclic face whose nodes are given nowhere.
     #[error(
         "which nodes are the {face} cyclic face? The deck has no cyclic *TIE of node surfaces: name a node set with {option}"
     )]
     FaceUnknown {
-        /// `low` or `high`.
+        /// Name of the face: `low` or `high`.
         face: &'static str,
-        /// The option.
+        /// Option that names the nodes of the face.
         option: &'static str,
     },
-    /// No such node set.
+    /// Node set that does not exist.
     #[error("the deck defines no node set {set}; it has {}", listed(.known, *.more))]
     NoSuchSet {
-        /// The name asked for.
+        /// Name asked for.
         set: String,
-        /// Names there are, shortened.
+        /// Names of existing sets, shortened.
         known: Vec<String>,
-        /// How many more there are.
+        /// Number of further existing sets.
         more: usize,
     },
-    /// A set without nodes.
+    /// Set without nodes.
     #[error("the node set {set} is empty")]
     EmptySet {
-        /// Its name.
+        /// Name of the set.
         set: String,
     },
-    /// A node of a set that has no coordinates.
+    /// Node of a set or a file that has no coordinates.
     #[error(
         "node {node} of {place} has no coordinates in the deck; is this the deck the matrices were exported from?"
     )]
     NoCoordinates {
-        /// Its number.
+        /// Number of the node.
         node: u64,
-        /// Set or file.
+        /// Set or file that names the node.
         place: String,
     },
-    /// Faces of different size.
+    /// Faces with different numbers of nodes.
     #[error("the low face has {low} nodes and the high face {high}; mesh the two faces alike (periodic)")]
     FaceSizes {
-        /// Nodes of the low face.
+        /// Number of nodes of the low face.
         low: usize,
-        /// Nodes of the high face.
+        /// Number of nodes of the high face.
         high: usize,
     },
-    /// A low node without partner.
+    /// Low node without partner.
     #[error(
         "low {copy}; {}mesh the two faces alike (periodic), and check --sectors and --axis",
         if *.swapped { "the face named high was taken as the low one, which fits better; " } else { "" }
     )]
     NoPartner {
-        /// Node, and what is nearest to where it should be.
+        /// Low node, with the nearest node to where its partner should be.
         copy: NoCopy,
         /// Whether the node is one of the face that was named high.
         swapped: bool,
@@ -204,7 +204,7 @@ pub enum ModelProblem {
         "node {node} is free but lies on the axis, a point that all sectors share; clamp it with *BOUNDARY or give the hub a bore"
     )]
     FreeOnAxis {
-        /// Node.
+        /// Number of the node.
         node: u64,
     },
     /// Two free nodes one sector apart that the faces do not pair.
@@ -217,23 +217,23 @@ pub enum ModelProblem {
         low: u64,
         /// Node on the high side.
         high: u64,
-        /// N.
+        /// Number of sectors N.
         sectors: usize,
     },
-    /// Face nodes that were eliminated by a tie.
+    /// Face node that was eliminated by a tie.
     #[error(
         "node {node} of the {face} face has no DOF in {}, its partner {partner} has: the cyclic tie was active when the \
          matrices were exported. Remove *TIE and *CYCLIC SYMMETRY MODEL from the exporting deck",
         .dof_file.display()
     )]
     TieActive {
-        /// The node without DOF.
+        /// Node without DOF.
         node: u64,
-        /// `low` or `high`.
+        /// Face of the node: `low` or `high`.
         face: &'static str,
-        /// Its partner.
+        /// Partner of the node.
         partner: u64,
-        /// The `.dof` file.
+        /// Path of the `.dof` file.
         dof_file: PathBuf,
     },
     /// Matrix files with different numbers of entries.
@@ -243,13 +243,13 @@ pub enum ModelProblem {
         .file.display(), .other.display()
     )]
     CutShort {
-        /// The file with the fewest.
+        /// File with the fewest entries.
         file: PathBuf,
-        /// Its entries.
+        /// Number of entries of `file`.
         entries: u64,
-        /// The file with the most.
+        /// File with the most entries.
         other: PathBuf,
-        /// Its entries.
+        /// Number of entries of `other`.
         more: u64,
     },
     /// Matrices at speed over other DOF than those at rest.
@@ -258,62 +258,62 @@ pub enum ModelProblem {
         .file.display(), .rest.display()
     )]
     OtherDofs {
-        /// The `.dof` file at speed.
+        /// Path of the `.dof` file at speed.
         file: PathBuf,
-        /// The `.dof` file at rest.
+        /// Path of the `.dof` file at rest.
         rest: PathBuf,
-        /// A node that one of the two lacks.
+        /// Node of a DOF that one of the two files lacks.
         node: u64,
-        /// Its component.
+        /// Component of that DOF.
         component: u8,
     },
-    /// Contact nodes that are no line from one edge to the other.
+    /// Contact nodes that do not form a line from one edge to the other.
     #[error("contact nodes cannot be put in order from leading to trailing edge: {reason}")]
     ContactOrder {
-        /// Why, and what to do.
+        /// Reason why they have no order, and what to do.
         reason: NoOrder,
     },
-    /// A contact node without a normal.
+    /// Contact node without a normal.
     #[error("{}: node {node} of the contact set has no normal there", .file.display())]
     NoNormal {
-        /// The node.
+        /// Number of the node.
         node: u64,
-        /// The table of normals.
+        /// Path of the table of normals.
         file: PathBuf,
     },
-    /// A contact node far from the curve.
+    /// Contact node far from the meridional curve.
     #[error(
         "contact node {node} is {distance:.3e} away from the meridional curve (r, z), more than a tenth of the tip's length; is \
          the curve given in the unit and the axis of the deck?"
     )]
     OffCurve {
-        /// The node.
+        /// Number of the node.
         node: u64,
-        /// Distance.
+        /// Distance of the node from the curve.
         distance: f64,
     },
-    /// A whole wheel of one or two sectors.
+    /// Whole wheel of one or two sectors, which cannot be cut.
     #[error(
         "a wheel of {sectors} sectors cannot be cut (a sector would be its neighbour's neighbour on both sides); export one sector with its ties \
          inactive, or import a wheel of one sector without --wheel"
     )]
     WheelTooSmall {
-        /// N.
+        /// Number of sectors N.
         sectors: usize,
     },
-    /// A node of the wheel that has no copy one sector further.
+    /// Node of the wheel that has no copy one sector further.
     #[error(
         "the wheel is not cyclic: {0}; make the wheel by copying one meshed sector, and check --sectors and --axis"
     )]
     WheelMesh(NoCopy),
-    /// The low face does not separate sectors.
+    /// Low face that does not separate the sectors.
     #[error(
         "the low face does not cut the wheel into sectors: without its copies {parts} parts remain instead of {sectors}; the low set must hold all nodes between two sectors"
     )]
     WheelParts {
-        /// Connected parts found.
+        /// Number of connected parts found.
         parts: usize,
-        /// N.
+        /// Number of sectors N.
         sectors: usize,
     },
     /// Sectors that differ.
@@ -324,18 +324,18 @@ pub enum ModelProblem {
         .file.display()
     )]
     WheelMatrix {
-        /// The matrix file.
+        /// Path of the matrix file.
         file: PathBuf,
-        /// The node.
+        /// Number of the node.
         node: u64,
-        /// Its copy one sector further.
+        /// Copy of the node one sector further.
         copy: u64,
         /// Difference over the largest force.
         difference: f64,
-        /// What would have been accepted.
+        /// Largest difference that is accepted.
         tolerance: f64,
     },
-    /// No contact node in the sector cut out.
+    /// Sector cut out without any contact node inside.
     #[error(
         "no node of the contact set {set} is inside the sector that follows the low face; choose both of one sector"
     )]
@@ -345,7 +345,7 @@ pub enum ModelProblem {
     },
 }
 
-/// Names, or `none`.
+/// List of names, or `none`.
 fn listed(known: &[String], more: usize) -> String {
     match (known, more) {
         ([], _) => "none".to_owned(),
@@ -354,42 +354,42 @@ fn listed(known: &[String], more: usize) -> String {
     }
 }
 
-/// Why contact nodes have no order, or no curve for their normals.
+/// Reason why contact nodes have no order, or no curve for their normals.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum NoOrder {
-    /// No end is the leading edge.
+    /// Ends that do not tell which is the leading edge.
     #[error(
         "both ends of the set are at the same radius; write the set in order and say --contact-order set"
     )]
     SameRadius,
-    /// From one end, the nearest nodes do not lead to the other.
+    /// Nodes whose chain of nearest neighbours does not lead from one end to the other.
     #[error(
         "its nodes are no single line along the tip; choose one line of nodes (mid-thickness or one side of the blade), \
          or write the set in order and say --contact-order set"
     )]
     NoLine,
-    /// A meridional curve of one or two points.
+    /// Meridional curve of one or two points.
     #[error("the meridional curve has fewer than three points")]
     ShortCurve,
-    /// One or two contact nodes.
+    /// One or two contact nodes, too few for a curve.
     #[error("fewer than three nodes have no curve to take normals from; give --normals or --meridian")]
     FewNodes,
 }
 
-/// A node that has no node where the turn by one sector takes it.
+/// Node without a node where the turn by one sector takes it.
 #[derive(Debug, thiserror::Error)]
 #[error(
     "node {node} turned by 2π/{sectors} has no node within {tolerance:.2e} (the nearest is {nearest}, {distance:.2e} away)"
 )]
 pub struct NoCopy {
-    /// The node.
+    /// Number of the node.
     pub node: u64,
-    /// N.
+    /// Number of sectors N.
     pub sectors: usize,
-    /// What would have been accepted.
+    /// Largest distance that is accepted.
     pub tolerance: f64,
-    /// The nearest candidate.
+    /// Nearest candidate.
     pub nearest: u64,
-    /// Its distance.
+    /// Distance of the nearest candidate.
     pub distance: f64,
 }

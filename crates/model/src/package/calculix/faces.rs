@@ -1,4 +1,4 @@
-//! The two cyclic faces: which nodes they are, and which node belongs to which.
+//! Cyclic faces: the nodes of each, and their pairs.
 
 use std::collections::{HashMap, HashSet};
 use std::f64::consts::TAU;
@@ -13,8 +13,8 @@ use crate::package::check::slits::{self, Unpaired};
 use crate::package::raw::RawDof;
 use rubmap_solid::frame::AxisFrame;
 
-/// Nodes of the low and of the high face; the latter empty for a whole wheel, both for a single blade whose faces
-/// nothing names: one sector has no neighbour.
+/// Nodes of the low and of the high face. The high face is empty for a whole wheel; both are empty for a single blade whose faces are not
+/// named: one sector has no neighbour.
 pub(super) fn faces(
     model: &CalculixModel,
     deck: &Deck,
@@ -34,8 +34,8 @@ pub(super) fn faces(
     Ok((low, if model.whole_wheel { Vec::new() } else { high()? }))
 }
 
-/// Pairs of low and high nodes, and whether the faces were given the other way round. Of faces that fit neither way, the
-/// problem of the way they fit better.
+/// Pairs of low and high nodes, and whether the faces were given the other way round. For faces that fit neither way, the problem of the
+/// way that fits better.
 pub(super) fn pair(
     low: &[u64],
     high: &[u64],
@@ -74,11 +74,11 @@ pub(super) fn pair(
     Err(ModelProblem::NoPartner { copy, swapped })
 }
 
-/// Faces that do not fit one way.
+/// Mismatch of the faces in one order.
 struct Unfit {
     /// Number of nodes without a partner.
     without: usize,
-    /// First of them.
+    /// First node without a partner.
     first: NoCopy,
 }
 
@@ -102,7 +102,7 @@ pub(super) fn check_all_paired(
     }
 }
 
-/// Both nodes of a pair must have DOF, or none.
+/// Requires that either both nodes of a pair have DOF, or none.
 pub(super) fn check_ties(pairs: &[[u64; 2]], dofs: &DofList) -> Result<(), ModelProblem> {
     let free: HashSet<u64> = dofs.dofs.iter().map(|dof| dof.node).collect();
     for &[low, high] in pairs {
@@ -162,7 +162,7 @@ mod tests {
         }
     }
 
-    /// Near the axis, a turn the wrong way round misses by little.
+    /// Node near the axis, which a turn in the wrong direction misses by little.
     #[test]
     fn a_node_near_the_axis_does_not_decide_which_turn_fits_better() {
         let mut places = planes(5.1);

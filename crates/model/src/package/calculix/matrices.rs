@@ -1,4 +1,4 @@
-//! `.dof`, `.sti` and `.mas` as `*FREQUENCY, SOLVER=MATRIXSTORAGE` writes them.
+//! Files `.dof`, `.sti` and `.mas` as `*FREQUENCY, SOLVER=MATRIXSTORAGE` writes them.
 //!
 //! `.dof` has one line `node.direction` for each matrix row; the matrices have one line `row column value` for each
 //! stored entry of one triangle, zeros included.
@@ -14,7 +14,7 @@ use crate::package::quote::quoted;
 use crate::package::raw::{RawDof, RawMatrix};
 use crate::package::symmetric::{self, Mirror};
 
-/// The DOF of each matrix row, and the file that said so.
+/// DOF of each matrix row, and the file they were read from.
 #[derive(Debug)]
 pub(super) struct DofList {
     pub(super) path: PathBuf,
@@ -51,7 +51,7 @@ impl DofList {
         Ok(Self { path: path.to_owned(), dofs })
     }
 
-    /// The place in `rest` of each DOF of this list.
+    /// Position in `rest` of each DOF of this list.
     pub(super) fn places_in(&self, rest: &Self) -> Result<Vec<u32>, ModelProblem> {
         let places: HashMap<_, _> =
             (rest.dofs.iter().zip(0..)).map(|(d, k)| ((d.node, d.component), k)).collect();
@@ -73,8 +73,8 @@ impl DofList {
     }
 }
 
-/// Reads a matrix over the rows of `dofs`, each moved to its place in `places` if given; and the number of entries its
-/// file holds, zeros included.
+/// Reads a matrix over the rows of `dofs`, each moved to its position in `places` if given; returns it with the number of entries in its
+/// file, zeros included.
 pub(super) fn read(
     path: &Path,
     dofs: &DofList,

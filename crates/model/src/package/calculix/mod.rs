@@ -1,4 +1,4 @@
-//! From CalculiX to a package: the mesh of an `.inp` deck and the matrices of `*FREQUENCY, SOLVER=MATRIXSTORAGE`.
+//! Import from CalculiX to a package: the mesh of an `.inp` deck and the matrices of `*FREQUENCY, SOLVER=MATRIXSTORAGE`.
 //!
 //! ```text
 //! deck.inp ─▶ nodes, sets, tie ──┐
@@ -46,16 +46,16 @@ use sets::set;
 use solids::DeckElement;
 use strengths::Strengths;
 
-/// What an import found out, for the user to compare with what they know.
+/// Findings of an import, for the user to compare with what they know.
 #[derive(Debug, Clone)]
 pub struct ImportSummary {
     /// Whether low and high face were given the other way round.
     pub faces_swapped: bool,
     /// Contact nodes in their order.
     pub contact: Vec<ContactPoint>,
-    /// Of a whole wheel: how much its sectors differ, relative to the largest force, at worst over all matrices.
+    /// Largest difference of the sectors of a whole wheel, relative to the largest force, over all matrices.
     pub sectors_differ: Option<f64>,
-    /// Why the package has no mesh, if it has none.
+    /// Reason why the package has no mesh, if it has none.
     pub no_mesh: Option<NoMesh>,
 }
 
@@ -168,7 +168,7 @@ pub fn import(model: &CalculixModel) -> Result<(RawPackage, ImportSummary), Calc
     Ok((package, summary))
 }
 
-/// Refuses a wheel whose sectors have different numbers of elements, not counting those that are held.
+/// Refuses a wheel whose sectors have different numbers of elements, without elements that cannot move.
 fn even(
     kept: (ManifestMesh, Vec<RawElement>),
     deck: &Deck,
@@ -184,7 +184,7 @@ fn manifest_contact(point: &ContactPoint, frame: &AxisFrame) -> ManifestContact 
     ManifestContact { node: point.node, normal: local.tr_mul(&Vector3::from(point.normal)).into() }
 }
 
-/// `job` with `.sti` and the like appended; a job may have dots in its name.
+/// Appends an extension such as `.sti` to `job`, whose name may have dots.
 fn extended(job: &Path, extension: &str) -> PathBuf {
     let mut name = job.as_os_str().to_owned();
     name.push(extension);
@@ -200,7 +200,8 @@ fn axis(model: &CalculixModel, deck: &Deck) -> Axis {
     model.axis.clone().or_else(stated).unwrap_or_else(z)
 }
 
-/// CalculiX writes every matrix of a mesh with the same entries: a file with fewer is cut short.
+/// Requires the same number of entries in all matrix files: CalculiX writes every matrix of a mesh with the same entries, so that a file
+/// with fewer is cut short.
 fn require_whole(files: &[PathBuf], read: &[(RawMatrix, u64)]) -> Result<(), ModelProblem> {
     let held = || files.iter().zip(read.iter().map(|&(_, held)| held));
     let (Some((short, fewest)), Some((long, most))) =

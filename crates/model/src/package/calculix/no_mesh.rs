@@ -1,81 +1,81 @@
-//! Why an import leaves the mesh out.
+//! Reasons why an import leaves the mesh out.
 
-/// Why the package has no mesh, and so no stress.
+/// Reason why the package has no mesh, and so no stress.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum NoMesh {
-    /// No `*ELEMENT`.
+    /// Deck without `*ELEMENT`.
     #[error("the deck has no elements")]
     NoElements,
-    /// A type that is not known.
+    /// Element type that is not known.
     #[error("elements of type {kind} are not known")]
     Type {
-        /// The type.
+        /// Type in the deck.
         kind: String,
     },
-    /// An element number that is given twice.
+    /// Element number that is given twice.
     #[error("element {element} is defined twice")]
     Twice {
-        /// Its number.
+        /// Number of the element.
         element: u64,
     },
-    /// An element without section.
+    /// Element without section.
     #[error("element {element} is in no *SOLID SECTION")]
     NoSection {
-        /// Its number.
+        /// Number of the element.
         element: u64,
     },
-    /// A section of a material that the deck does not define.
+    /// Section of a material that the deck does not define.
     #[error("the deck has no *MATERIAL, NAME={material}")]
     NoMaterial {
-        /// Its name.
+        /// Name of the material.
         material: String,
     },
-    /// A material that is not isotropic.
+    /// Material that is not isotropic.
     #[error(
         "the elasticity of material {material} is of type {kind}; only isotropic materials have stress here"
     )]
     Anisotropic {
-        /// Its name.
+        /// Name of the material.
         material: String,
-        /// The type of `*ELASTIC`.
+        /// Type of `*ELASTIC`.
         kind: String,
     },
-    /// Constants that change with temperature.
+    /// Material constants that change with temperature.
     #[error("material {material} depends on temperature; give it constants of one temperature")]
     Temperature {
-        /// Its name.
+        /// Name of the material.
         material: String,
     },
-    /// A constant that is lacking.
+    /// Material constant that is missing.
     #[error("material {material} has no {card}")]
     Lacking {
-        /// Its name.
+        /// Name of the material.
         material: String,
-        /// `*ELASTIC` or `*DENSITY`.
+        /// Missing card: `*ELASTIC` or `*DENSITY`.
         card: &'static str,
     },
-    /// A wheel whose elements cannot be told apart by sector.
+    /// Element of a wheel that cannot be assigned to a sector.
     #[error(
         "which sector element {element} belongs to cannot be told: none of its nodes is free and inside a sector"
     )]
     WhichSector {
-        /// Its number.
+        /// Number of the element.
         element: u64,
     },
-    /// A wheel whose sectors have different numbers of elements.
+    /// Wheel whose sectors have different numbers of elements.
     #[error("one sector has {sector} elements, and the wheel {wheel}, which is not {sectors} times as many")]
     Uneven {
-        /// Elements kept.
+        /// Number of elements of the sector.
         sector: usize,
-        /// Elements of the deck that can move.
+        /// Number of elements of the deck that can move.
         wheel: usize,
-        /// N.
+        /// Number of sectors N.
         sectors: usize,
     },
-    /// What the checks of every package say of the mesh.
+    /// Mesh that the checks of every package refuse.
     #[error("{message}")]
     Refused {
-        /// Their words.
+        /// Message of the checks.
         message: String,
     },
 }

@@ -5,10 +5,10 @@ use super::error::ModelProblem;
 use super::text::normal;
 use crate::package::quote::quoted;
 
-/// Node sets that an error lists.
+/// Largest number of node sets that an error lists.
 const MOST_NAMED: usize = 20;
 
-/// The nodes of the set `name`, of which there must be some.
+/// Nodes of the set `name`, at least one.
 pub(super) fn set<'a>(deck: &'a Deck, name: &str) -> Result<&'a [u64], ModelProblem> {
     match deck.sets.get(&normal(name)) {
         None => {

@@ -1,6 +1,6 @@
 //! Elements, element sets, materials and sections of a deck.
 //!
-//! Nothing here stops an import: what cannot be used is noted, and the package then has no mesh.
+//! Nothing here stops an import: the first unusable part is noted, and the package then has no mesh.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -12,7 +12,7 @@ use super::no_mesh::NoMesh;
 use super::text::{self, normal};
 use crate::package::quote::quoted;
 
-/// What a deck says of its elements.
+/// Elements, sets, materials and sections of a deck.
 #[derive(Debug, Default)]
 pub(super) struct Solids {
     /// Elements by number.
@@ -23,31 +23,31 @@ pub(super) struct Solids {
     pub(super) materials: BTreeMap<String, DeckMaterial>,
     /// Element set and material of each `*SOLID SECTION`.
     pub(super) sections: Vec<(String, String)>,
-    /// The first thing that cannot be used.
+    /// First part that cannot be used.
     pub(super) unusable: Option<NoMesh>,
-    /// Name of the material that cards belong to.
+    /// Name of the material to which cards belong.
     material: String,
 }
 
-/// An element.
+/// Element of a deck.
 #[derive(Debug)]
 pub(super) struct DeckElement {
     pub(super) kind: ElementKind,
     pub(super) nodes: Box<[u64]>,
 }
 
-/// A material.
+/// Material of a deck.
 #[derive(Debug, Default)]
 pub(super) struct DeckMaterial {
-    /// The type of `*ELASTIC`, if it is not isotropic.
+    /// Type of `*ELASTIC`, if it is not isotropic.
     pub(super) anisotropic: Option<String>,
-    /// E and ν, per temperature.
+    /// Young's modulus E and Poisson's ratio ν, per temperature.
     pub(super) elastic: Vec<[f64; 2]>,
     /// Density, per temperature.
     pub(super) density: Vec<f64>,
 }
 
-/// What the data lines that follow belong to.
+/// Block to which the data lines that follow belong.
 pub(super) enum SolidBlock {
     Elements { kind: ElementKind, set: Option<String>, numbers: Vec<u64> },
     Set { name: String, generate: bool },
@@ -56,7 +56,7 @@ pub(super) enum SolidBlock {
 }
 
 impl Solids {
-    /// What follows a card, if it is about elements or materials and has data.
+    /// Block that a card begins, if it is about elements or materials and has data.
     pub(super) fn start(&mut self, card: &Card) -> Option<SolidBlock> {
         match &card.keyword[..] {
             "*ELEMENT" => {
@@ -91,7 +91,7 @@ impl Solids {
         }
     }
 
-    /// A data line.
+    /// Reads a data line of `block`.
     pub(super) fn data(&mut self, words: &[&str], block: &mut SolidBlock) -> Result<(), LineProblem> {
         match block {
             SolidBlock::Elements { kind, set, numbers } => {

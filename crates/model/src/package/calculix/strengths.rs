@@ -1,4 +1,4 @@
-//! Strengths, which decks do not have: a JSON file of them by material or element set.
+//! Strengths of materials, which decks do not have: a JSON file of them by material or element set.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -10,7 +10,7 @@ use super::error::{CalculixError, ModelProblem};
 use super::text::normal;
 use crate::package::quote::{bounded_message, quoted};
 
-/// What a material bears, as far as it is known.
+/// Strengths of a material, as far as they are known.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Strength {
@@ -27,7 +27,7 @@ struct Strength {
 pub(super) struct Strengths(BTreeMap<String, Strength>);
 
 impl Strengths {
-    /// Reads `path`; none without one.
+    /// Reads the strengths in `path`; none without a path.
     pub(super) fn read(path: Option<&Path>) -> Result<Self, CalculixError> {
         let Some(path) = path else { return Ok(Self::default()) };
         let text =
@@ -41,7 +41,7 @@ impl Strengths {
         Ok(Self(read.into_iter().map(|(name, strength)| (normal(&name), strength)).collect()))
     }
 
-    /// Gives a material what is said of its set, or else of itself.
+    /// Gives a material the strengths listed for its set, or else for the material itself.
     pub(super) fn give(&self, set: &str, material: &str, to: &mut Material) {
         if let Some(strength) = self.0.get(set).or_else(|| self.0.get(material)) {
             to.yield_strength = strength.yield_strength;
@@ -50,7 +50,7 @@ impl Strengths {
         }
     }
 
-    /// A name that is none of `names`.
+    /// Refuses strengths under a name that is not among `names`.
     pub(super) fn check(&self, names: &[&str]) -> Result<(), ModelProblem> {
         match self.0.keys().find(|name| !names.contains(&name.as_str())) {
             None => Ok(()),
@@ -62,5 +62,5 @@ impl Strengths {
     }
 }
 
-/// Names that an error lists.
+/// Largest number of names that an error lists.
 const MOST_NAMED: usize = 20;

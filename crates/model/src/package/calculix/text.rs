@@ -7,7 +7,7 @@ use super::error::{CalculixError, LineProblem};
 use crate::package::lines::{Fault, Lines};
 use crate::package::quote::quoted;
 
-/// A text file line by line, its name and line number at hand for errors.
+/// Text file read line by line, with its name and line number for errors.
 pub(super) struct TextLines {
     path: PathBuf,
     lines: Lines<File>,
@@ -18,7 +18,7 @@ impl TextLines {
         Ok(Self { path: path.to_owned(), lines: Lines::new(open(path)?) })
     }
 
-    /// The next line as bytes without its end.
+    /// Next line as bytes without its end.
     pub(super) fn next_bytes(&mut self) -> Result<Option<&[u8]>, CalculixError> {
         let path = &self.path;
         let too_long = |_| LineProblem::Words { expected: "lines of text; is this a text file?" };
@@ -28,12 +28,12 @@ impl TextLines {
         })
     }
 
-    /// The next line as text; bytes that are none (in comments) are replaced.
+    /// Next line as text; bytes that are not text (in comments) are replaced.
     pub(super) fn next(&mut self) -> Result<Option<String>, CalculixError> {
         Ok(self.next_bytes()?.map(|line| String::from_utf8_lossy(line).into_owned()))
     }
 
-    /// The error for a problem on the line read last.
+    /// Error for a problem on the line read last.
     pub(super) fn fault(&self, problem: LineProblem) -> CalculixError {
         CalculixError::Line { path: self.path.clone(), line: self.lines.number(), problem }
     }
@@ -44,22 +44,22 @@ fn open(path: &Path) -> Result<File, CalculixError> {
     File::open(path).map_err(|source| CalculixError::Io { path: PathBuf::from(path), source })
 }
 
-/// A node number.
+/// Parses a node number.
 pub(super) fn node(word: &str) -> Result<u64, LineProblem> {
     number(word, "a node number")
 }
 
-/// An integer from 0.
+/// Parses an integer from 0.
 pub(super) fn number(word: &str, expected: &'static str) -> Result<u64, LineProblem> {
     word.parse().map_err(|_| LineProblem::NotA { text: quoted(word), expected })
 }
 
-/// A name as CalculiX compares it.
+/// Normal form of a name, as CalculiX compares names.
 pub(super) fn normal(name: &str) -> String {
     name.chars().filter(|c| !c.is_whitespace()).flat_map(char::to_uppercase).collect()
 }
 
-/// A finite real number, in Fortran's spellings too: `1.5D+3`, `1.5+3`.
+/// Parses a finite real number, in Fortran's spellings too: `1.5D+3`, `1.5+3`.
 pub(super) fn real(word: &str, expected: &'static str) -> Result<f64, LineProblem> {
     let fortran = || {
         let word = word.replace(['d', 'D'], "e");

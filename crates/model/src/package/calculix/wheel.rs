@@ -1,4 +1,4 @@
-//! Cutting one sector out of the matrices of a whole wheel.
+//! Cut of one sector out of the matrices of a whole wheel.
 //!
 //! Which nodes belong to which sector is read off geometry and pattern: the turn by 2π/N maps nodes onto nodes, and
 //! without the N copies of the low face the pattern of the stiffness falls apart into the insides of the N sectors. The
@@ -23,10 +23,10 @@ use crate::package::check::slits::on_axis;
 use crate::package::raw::{RawDof, RawMatrix};
 use rubmap_solid::frame::AxisFrame;
 
-/// Sectors may differ by this much of the largest force: meshes copied with six digits stay well below.
+/// Largest difference of the sectors, relative to the largest force: meshes copied with six digits stay well below.
 const CYCLIC_TOLERANCE: f64 = 1e-3;
 
-/// Which nodes of a wheel are the sector.
+/// Nodes and DOF of the sector in a wheel.
 pub(super) struct Cut<'a> {
     wheel: &'a DofList,
     sectors: usize,
@@ -35,7 +35,7 @@ pub(super) struct Cut<'a> {
     pub(super) pairs: Vec<[u64; 2]>,
     /// Nodes of the low and of the high face.
     faces: [HashSet<u64>; 2],
-    /// Nodes of the sector, the high face not among them.
+    /// Nodes of the sector, without those of the high face.
     pub(super) own: HashSet<u64>,
     /// DOF of the sector: own ones in the order of the wheel, then those of the high face.
     pub(super) dofs: Vec<RawDof>,
@@ -43,7 +43,7 @@ pub(super) struct Cut<'a> {
     row_of: Vec<Option<u32>>,
     /// First row of the high face.
     high_from: u32,
-    /// The node one sector further of each node.
+    /// Copy of each node one sector further.
     next: HashMap<u64, u64>,
 }
 
@@ -154,7 +154,7 @@ impl Cut<'_> {
         }
     }
 
-    /// The sector's part of a matrix of the wheel, and how much the sectors differ.
+    /// Sector's part of a matrix of the wheel, and the difference of the sectors.
     pub(super) fn sector(&self, file: &Path, matrix: &RawMatrix) -> Result<(RawMatrix, f64), ModelProblem> {
         let difference = self.check_cyclic(file, matrix)?;
         let mut entries = Vec::new();
@@ -169,7 +169,7 @@ impl Cut<'_> {
         Ok((RawMatrix { size: self.dofs.len(), entries }, difference))
     }
 
-    /// Y T x against T Y x, with T the turn of the wheel by one sector and x any displacement without symmetry.
+    /// Difference of Y T x and T Y x, with T the turn of the wheel by one sector and x any displacement without symmetry.
     fn check_cyclic(&self, file: &Path, matrix: &RawMatrix) -> Result<f64, ModelProblem> {
         let dofs = self.wheel;
         let mut state = 1_u64;
@@ -206,7 +206,7 @@ impl Cut<'_> {
     }
 }
 
-/// A · x.
+/// Product A · x.
 pub(super) fn times(matrix: &RawMatrix, x: &[f64]) -> Vec<f64> {
     let mut y = vec![0.0; matrix.size];
     for &(row, column, value) in &matrix.entries {
@@ -218,7 +218,7 @@ pub(super) fn times(matrix: &RawMatrix, x: &[f64]) -> Vec<f64> {
     y
 }
 
-/// The vector of each node, with zeros for clamped components.
+/// Vector at each node, with zeros for clamped components.
 fn by_node(dofs: &DofList, x: &[f64]) -> HashMap<u64, Vector3<f64>> {
     let mut vectors = HashMap::new();
     for (dof, value) in dofs.dofs.iter().zip(x) {

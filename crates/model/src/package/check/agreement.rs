@@ -1,8 +1,8 @@
-//! The matrices and the elements of a package are of the same material.
+//! Agreement of the matrices with the elements of a package: both must be of the same material.
 //!
-//! Where all nodes around are free, two uniform strains and a translation leave forces that hang together with E, ν and ρ by geometry
-//! alone: in every formulation that passes a patch test, whatever its integration or modes inside. Nodes are judged by their median, which
-//! springs, supports and point masses at some of them do not move.
+//! At a node whose neighbours are all free, the forces under two uniform strains and a translation depend on E, ν and ρ by geometry alone:
+//! in every formulation that passes a patch test, whatever its integration or internal modes. Sets are judged by the median of their nodes,
+//! which springs, supports and point masses at some of them do not change.
 
 use faer::sparse::SparseColMat;
 use rubmap_solid::mesh::SectorMesh;
@@ -14,25 +14,26 @@ use super::materials::pointer;
 use crate::package::error::{ManifestProblem, PackageError};
 use crate::package::raw::Manifest;
 
-/// What a matrix may be, times what the elements say. Generated wheels of both orders agree to 1e-11, so the room is for elements that fail
-/// the patch test where they are crooked (C3D8I) and for a modulus at another temperature; wrong units are off by a thousand and more.
+/// Accepted ratio of a matrix to the value that follows from the elements. Generated wheels of both orders agree to 1e-11, so the range is
+/// for distorted elements that fail the patch test (C3D8I) and for a modulus at another temperature; wrong units are off by a thousand and
+/// more.
 const AGREEING: std::ops::RangeInclusive<f64> = 0.8..=1.25;
 
-/// Forces of neighbouring elements are in balance below this share of them: within one material but for its surface.
+/// Share of the forces of neighbouring elements below which they are in balance: inside one material, away from its surface.
 const IN_BALANCE: f64 = 0.1;
 
-/// What the nodes of one set found, each as a share of what its elements say.
+/// Ratios at the nodes of one set, matrix over elements.
 #[derive(Default)]
 struct Found {
     of_shape: Vec<f64>,
     of_volume: Vec<f64>,
     mass: Vec<f64>,
-    /// Sums of the matrix and of the elements.
+    /// Total mass from the matrix and from the elements.
     total_mass: [f64; 2],
 }
 
-/// Holds the first stiffness and the mass matrix against the elements. Sets without a free node of their own are judged
-/// where they meet others.
+/// Compares the first stiffness matrix and the mass matrix with the elements. Sets without a free node of their own are judged where they
+/// meet others.
 pub(crate) fn check(
     sector: &SectorModel,
     mesh: &SectorMesh,
@@ -70,7 +71,8 @@ fn stiffness(mesh: &SectorMesh, set: usize, found: &Found, file: &str) -> Result
     Err(PackageError::manifest(format!("{}/{field}", pointer(&set.name)), problem))
 }
 
-/// Lumping moves mass between neighbouring nodes, which the total does not see; a point mass is in the total, and not in the median.
+/// Refuses the mass of a set if its total and the median of its nodes are both off, to the same side. Lumping moves mass between
+/// neighbouring nodes, which the total does not see; a point mass is in the total, and not in the median.
 fn mass(mesh: &SectorMesh, set: usize, found: &Found, file: &str) -> Result<(), PackageError> {
     let [of_matrix, of_elements] = found.total_mass;
     let Some(median) = median(&found.mass) else { return Ok(()) };
@@ -89,7 +91,7 @@ fn mass(mesh: &SectorMesh, set: usize, found: &Found, file: &str) -> Result<(), 
     Err(PackageError::manifest(format!("{}/density", pointer(&set.name)), problem))
 }
 
-/// What the nodes of every set found; the last is of those where sets meet.
+/// Ratios of every set; the last entry is for nodes where sets meet.
 fn compare(sector: &SectorModel, mesh: &SectorMesh, layout: &Layout, elements: &UniformStrain) -> Vec<Found> {
     let dofs = |node: usize| {
         let rows = layout.rows_of_node[node];
@@ -132,7 +134,7 @@ fn compare(sector: &SectorModel, mesh: &SectorMesh, layout: &Layout, elements: &
     found
 }
 
-/// The set of each own node whose elements have free nodes only, or the number of sets where several meet.
+/// Set of each own node whose elements have free nodes only, or the number of sets where several meet.
 fn groups(mesh: &SectorMesh, layout: &Layout) -> Vec<Option<usize>> {
     let low = |node: u32| match layout.low_of[node as usize] {
         NONE => node as usize,
@@ -154,7 +156,7 @@ fn groups(mesh: &SectorMesh, layout: &Layout) -> Vec<Option<usize>> {
     groups.into_iter().zip(free).map(|(group, free)| group.filter(|_| free)).collect()
 }
 
-/// (Y0 + Y1 + Y1ᵀ) x: what a sector of the whole wheel bears if all of them move alike.
+/// Product (Y0 + Y1 + Y1ᵀ) x: forces on a sector of the whole wheel if all sectors move alike.
 pub(crate) fn times(matrix: &CyclicMatrix, x: &[f64]) -> Vec<f64> {
     let mut y = vec![0.0; x.len()];
     let mut add = |part: &SparseColMat<usize, f64>, both: bool| {
@@ -170,7 +172,7 @@ pub(crate) fn times(matrix: &CyclicMatrix, x: &[f64]) -> Vec<f64> {
     y
 }
 
-/// The middle one; of an even number the lower of two.
+/// Median; of an even number of values the lower of the two in the middle.
 fn median(values: &[f64]) -> Option<f64> {
     let mut values = values.to_vec();
     let middle = values.len().checked_sub(1)? / 2;

@@ -1,4 +1,4 @@
-//! The contact nodes: known, free, inside the sector, each once, with unit normals.
+//! Checks of the contact nodes: known, free, inside the sector, each once, with unit normals.
 
 use nalgebra::Vector3;
 
@@ -7,10 +7,10 @@ use super::tables::NodeIndex;
 use crate::package::error::{ManifestProblem, PackageError};
 use crate::package::raw::RawPackage;
 
-/// A normal may be this far from unit length: exporters print few digits. It is then made a unit vector.
+/// Largest difference of a normal from unit length: exporters print few digits. The normal is then made a unit vector.
 const NORMAL_TOLERANCE: f64 = 1e-3;
 
-/// The contact nodes and their normals, normalised, in the package's frame.
+/// Checks the contact nodes; returns them and their normals, normalised, in the package's frame.
 pub(super) fn check(
     package: &RawPackage,
     index: &NodeIndex,

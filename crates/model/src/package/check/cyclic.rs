@@ -1,4 +1,4 @@
-//! The cyclic faces: one partner each, at the place the turn by 2π/N puts it, with the same free components.
+//! Checks of the cyclic faces: one partner for each node, at the position where the turn by 2π/N puts it, with the same free components.
 
 use std::f64::consts::TAU;
 
@@ -10,10 +10,10 @@ use crate::package::error::{ManifestProblem, PackageError, TurnFit};
 use crate::package::raw::{Frame, Manifest, RawPackage};
 use rubmap_solid::frame::{AxisFrame, Basis, distance};
 
-/// A clamped direction may be this far (rad) from the one it should be: an axis direction of few digits.
+/// Largest angle (rad) of a clamped direction from its image under the turn: an axis direction of few digits.
 const DIRECTION_TOLERANCE: f64 = 1e-6;
 
-/// `(high_of, low_of)`: partners by node, or [`NONE`].
+/// Checks the cyclic faces; returns `(high_of, low_of)`, partners by node, or [`NONE`].
 pub(super) fn check(
     package: &RawPackage,
     frame: &AxisFrame,
@@ -31,7 +31,7 @@ pub(super) fn check(
     Ok((high_of, low_of))
 }
 
-/// `(high_of, low_of)` as `sector.json` states them.
+/// Partners `(high_of, low_of)` as `sector.json` states them.
 pub(crate) fn partners(
     manifest: &Manifest,
     nodes: usize,
@@ -64,8 +64,8 @@ pub(crate) fn partners(
     Ok((high_of, low_of))
 }
 
-/// Holds every high node against its low node turned by +2π/N. Of pairs that fit neither turn, the turn that they fit better
-/// is the one whose worst pair is reported.
+/// Compares every high node with its low node turned by +2π/N. For pairs that fit neither turn, the worst pair of the better-fitting turn
+/// is reported.
 fn check_places(
     package: &RawPackage,
     frame: &AxisFrame,

@@ -1,4 +1,4 @@
-//! The element table: every element once, of known nodes and a material, and whole.
+//! Checks of the element table: every element once, of known nodes and a material, and with positive Jacobian.
 
 use std::collections::HashMap;
 
@@ -11,7 +11,7 @@ use crate::package::content::SourceLines;
 use crate::package::error::{ManifestProblem, PackageError, TableProblem};
 use crate::package::raw::{ManifestMesh, RawElement, RawNode};
 
-/// The elements of the table, by places in the node table, and their sets, in the order of their names.
+/// Checks the element table; returns the elements, with nodes as positions in the node table, and their sets in the order of their names.
 pub(crate) fn check(
     mesh: &ManifestMesh,
     elements: &[RawElement],

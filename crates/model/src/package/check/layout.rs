@@ -1,13 +1,13 @@
-//! What the checks leave behind: which row of a package is what.
+//! Layout of a checked package: the role of each of its rows.
 
 use crate::package::error::Components;
 use rubmap_solid::frame::AxisFrame;
 use rubmap_solid::mesh::SectorMesh;
 
-/// No such row or node.
+/// Marker of a row or node that does not exist.
 pub(crate) const NONE: u32 = u32::MAX;
 
-/// Which row of a checked package is what. Nodes are indices into the node table, rows into the DOF table.
+/// Layout of a checked package: the role of each row. Nodes are indices into the node table, rows into the DOF table.
 #[derive(Debug)]
 pub(crate) struct Layout {
     pub(crate) frame: AxisFrame,
@@ -15,28 +15,28 @@ pub(crate) struct Layout {
     pub(crate) node_of_row: Vec<u32>,
     /// Rows of each node's three components, or [`NONE`].
     pub(crate) rows_of_node: Vec<[u32; 3]>,
-    /// The high node of each low node, or [`NONE`].
+    /// High node of each low node, or [`NONE`].
     pub(crate) high_of: Vec<u32>,
-    /// The low node of each high node, or [`NONE`].
+    /// Low node of each high node, or [`NONE`].
     pub(crate) low_of: Vec<u32>,
     /// Rows that stay, in package order: all but those of high nodes.
     pub(crate) own_rows: Vec<u32>,
-    /// Position among the own DOF of each row; of a high row, that of its low counterpart.
+    /// Position among the own DOF of each row; for a row of a high node, that of its low counterpart.
     pub(crate) own_of_row: Vec<u32>,
     /// Nodes of the contact list.
     pub(crate) contact: Vec<u32>,
     /// Contact normals, of length 1, in the package's frame.
     pub(crate) normals: Vec<[f64; 3]>,
-    /// The elements, if the package has them.
+    /// Elements, if the package has them.
     pub(crate) mesh: Option<SectorMesh>,
 }
 
-/// The components of a node that the DOF table has.
+/// Components of a node that the DOF table has.
 pub(super) fn components(rows: &[u32; 3]) -> Components {
     Components(rows.map(|row| row != NONE))
 }
 
-/// The rows that stay, in package order, and the place among them of every row: of a high row, that of its low counterpart.
+/// Rows that stay, in package order, and the position among them of every row: for a row of a high node, that of its low counterpart.
 pub(crate) fn own_of_rows(
     node_of_row: &[u32],
     rows_of_node: &[[u32; 3]],

@@ -1,9 +1,9 @@
-//! The mass of the assembled wheel must be able to carry modes: positive on the diagonal, and nowhere negative by more
-//! than round-off.
+//! Check of the mass of the assembled wheel, which must be able to carry modes: positive on the diagonal, and nowhere negative by more than
+//! round-off.
 //!
-//! Three looks, from cheap to conclusive: the diagonal and the 2 × 2 minors of Y0 (a principal submatrix of the
-//! wheel's mass) name the entries to blame; then the elimination that a reduction begins with. The last is done as long as it
-//! is quick; beyond, the reduction itself refuses.
+//! Three checks, from cheap to conclusive: the diagonal and the 2 × 2 minors of Y0 (a principal submatrix of the wheel's mass) name the
+//! entries at fault; then the elimination with which a reduction begins. The last is done as long as it is quick; beyond that, the
+//! reduction itself refuses.
 
 use faer::sparse::SparseColMat;
 
@@ -11,7 +11,7 @@ use crate::package::error::{MatrixProblem, PackageError};
 use rubmap_wheel::dynamics::reduction::mass::{NegativeMass, ROUND_OFF, check_mass};
 use rubmap_wheel::dynamics::sector::SectorModel;
 
-/// Multiplications that an upload may wait for: some seconds.
+/// Largest number of multiplications that an upload may wait for: some seconds.
 const MOST_WORK: f64 = 1e11;
 
 /// Checks `sector.mass`; `rows` and `nodes` name the package row and node id of each own DOF.

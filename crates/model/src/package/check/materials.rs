@@ -22,7 +22,7 @@ const DENSEST: f64 = 1e6;
 /// Smallest density that a package may have, kg/m³: a hundredth of air.
 const LIGHTEST: f64 = 1e-2;
 
-/// More sets than any wheel has materials.
+/// Largest number of element sets, more than any wheel has materials.
 const MOST_SETS: usize = 1000;
 
 /// Checks names, constants and strengths.

@@ -1,4 +1,4 @@
-//! The matrices against the DOF table; what a file reader has seen already is seen again for packages made in memory.
+//! Checks of the matrices against the DOF table; those of the file readers are repeated for packages made in memory.
 
 use crate::package::error::{ArchiveProblem, ManifestProblem, MatrixProblem, PackageError};
 use crate::package::raw::{RawMatrix, RawPackage};

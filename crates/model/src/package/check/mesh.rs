@@ -1,4 +1,4 @@
-//! The elements as a whole: what moves has elements, all hang together without overlap, and the cyclic faces are meshed alike.
+//! Checks of the whole mesh: elements at everything that moves, one connected body without overlap, cyclic faces meshed alike.
 
 use std::collections::{HashMap, HashSet};
 use std::f64::consts::TAU;
@@ -25,7 +25,7 @@ pub(crate) struct Faces<'a> {
     pub(crate) low_of: &'a [u32],
 }
 
-/// The mesh of a package that has one.
+/// Checks and makes the mesh of a package that has one.
 pub(crate) fn check(
     package: &RawPackage,
     lines: &SourceLines,
@@ -55,7 +55,7 @@ pub(crate) fn check(
     Ok(Some(mesh))
 }
 
-/// The mesh, with the pairs of clamped nodes, which a package need not name.
+/// Mesh with the pairs of clamped nodes, which a package need not name.
 #[expect(clippy::too_many_arguments, reason = "what the tables and the checks before have found")]
 pub(crate) fn made(
     manifest: &Manifest,
@@ -100,7 +100,7 @@ pub(crate) fn made(
     })
 }
 
-/// Refuses more nodes without element than any export leaves over: every mesh that is asked for would carry them.
+/// Refuses more nodes without element than any export leaves: every mesh that is requested would carry them.
 fn check_spare_nodes(mesh: &SectorMesh) -> Result<(), PackageError> {
     let used: HashSet<u32> = mesh.elements.iter().flat_map(|element| &element.nodes).copied().collect();
     let spare = mesh.nodes.len() - used.len();
@@ -111,7 +111,7 @@ fn check_spare_nodes(mesh: &SectorMesh) -> Result<(), PackageError> {
     Err(PackageError::manifest("/nodes", problem))
 }
 
-/// Nodes with degrees of freedom and contact nodes have elements.
+/// Requires elements at nodes with degrees of freedom and at contact nodes.
 fn has_all_that_moves(
     package: &RawPackage,
     stated: &ManifestMesh,
@@ -141,7 +141,7 @@ fn has_all_that_moves(
     Ok(())
 }
 
-/// All elements are one body, over the cyclic faces.
+/// Requires that all elements are one body, across the cyclic faces.
 fn hangs_together(stated: &ManifestMesh, mesh: &SectorMesh, lines: &SourceLines) -> Result<(), PackageError> {
     let mut above: Vec<u32> = (0..mesh.nodes.len() as u32).collect();
     fn top(above: &mut [u32], mut node: u32) -> u32 {
@@ -172,7 +172,7 @@ fn hangs_together(stated: &ManifestMesh, mesh: &SectorMesh, lines: &SourceLines)
     })
 }
 
-/// Each element face on a cyclic face has its copy on the other.
+/// Requires that each element face on a cyclic face has a copy on the other.
 fn repeats(stated: &ManifestMesh, mesh: &SectorMesh, lines: &SourceLines) -> Result<(), PackageError> {
     let low_of: HashMap<u32, u32> = mesh.cyclic.iter().map(|&(low, high)| (high, low)).collect();
     let faces = skin(mesh).faces;

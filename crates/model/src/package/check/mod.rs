@@ -1,7 +1,7 @@
-//! Every check of docs/package.md on a parsed package, each with its own error.
+//! Checks of docs/package.md on a parsed package, each with its own error.
 //!
-//! The order is that of understanding: what `sector.json` says by itself, the tables, the matrices, then the
-//! cyclic faces and the contact nodes. [`mass`] and [`agreement`] come last, on the finished sector.
+//! The order is that of understanding: what `sector.json` says by itself, the tables, the matrices, then the cyclic faces and the contact
+//! nodes. [`mass`] and [`agreement`] come last, on the finished sector.
 
 pub(super) mod agreement;
 mod contact;
@@ -22,7 +22,7 @@ use super::error::PackageError;
 use super::raw::RawPackage;
 use layout::{Layout, own_of_rows};
 
-/// Checks the elements of a package and what they have to do with its tables.
+/// Checks the elements of a package and their relation to its tables.
 pub(super) fn mesh_alone(package: &RawPackage) -> Result<(), PackageError> {
     let lines = SourceLines::default();
     let frame = statement::check(&package.manifest)?;

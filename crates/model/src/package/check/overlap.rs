@@ -1,4 +1,5 @@
-//! No two elements fill the same space: each set of nodes is one element, and a face lies between two at most, one on either side.
+//! Check that no two elements fill the same space: each set of nodes is one element, and a face lies between two at most, one on either
+//! side.
 
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
@@ -9,14 +10,14 @@ use rubmap_solid::topology::Topology;
 use crate::package::content::SourceLines;
 use crate::package::error::{PackageError, TableProblem};
 
-/// Rows of the elements at a face, and which way round the first sees it turn.
+/// Rows of the elements at a face, and the sense in which the first sees its corners turn.
 struct Shared {
     first: u32,
     second: Option<u32>,
     upwards: bool,
 }
 
-/// Refuses what is listed twice, with the numbers of the elements.
+/// Refuses elements and faces that are listed twice, with the numbers of the elements.
 pub(crate) fn check(file: &str, mesh: &SectorMesh, lines: &SourceLines) -> Result<(), PackageError> {
     let wrong = |row: usize, problem| {
         Err(PackageError::Table { file: file.to_owned(), line: lines.of_element(row), problem })
@@ -57,7 +58,7 @@ pub(crate) fn check(file: &str, mesh: &SectorMesh, lines: &SourceLines) -> Resul
     Ok(())
 }
 
-/// The corners of a face in ascending order (of a triangle the last twice), and which way round they turn: the elements on both sides of a
+/// Corners of a face in ascending order (of a triangle the last twice), and the sense in which they turn: the elements on both sides of a
 /// face see it turn differently.
 fn seen(corners: impl Iterator<Item = u32>) -> ([u32; 4], bool) {
     let corners: Vec<u32> = corners.collect();

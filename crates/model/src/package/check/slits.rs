@@ -1,15 +1,15 @@
-//! Free nodes that miss their cyclic pair: a slit between sectors, or a hub whose sectors each have an axis of their own.
+//! Free nodes without a cyclic pair: a slit between sectors, or a hub whose sectors each have an axis of their own.
 
 use super::super::by_place::Places;
 use rubmap_solid::frame::{AxisFrame, distance};
 use std::f64::consts::TAU;
 
-/// Free node of a sector that no cyclic pair holds, where one must.
+/// Free node of a sector that needs a cyclic pair and has none.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Unpaired {
     /// Node on the axis of a wheel of several sectors.
     OnAxis {
-        /// Node id.
+        /// Id of the node.
         node: u64,
     },
     /// Two nodes one sector apart that are not a pair.
@@ -50,7 +50,7 @@ pub(crate) fn find(
     })
 }
 
-/// Whether a place is one with the axis, or with its own copy in the next sector.
+/// Whether a position coincides with the axis, or with its own copy in the next sector.
 pub(crate) fn on_axis(position: [f64; 3], frame: &AxisFrame, sectors: usize, tolerance: f64) -> bool {
     let own_copy = frame.turn_point(position, TAU / sectors as f64);
     frame.coordinates(position)[0].min(distance(position, own_copy)) <= tolerance

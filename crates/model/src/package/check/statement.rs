@@ -1,4 +1,4 @@
-//! What `sector.json` says by itself.
+//! Checks of `sector.json` by itself.
 
 use super::materials;
 use crate::package::error::{ManifestProblem, PackageError};
@@ -6,10 +6,10 @@ use crate::package::raw::{LONGEST_NAME, Manifest};
 use crate::package::units;
 use rubmap_solid::frame::AxisFrame;
 
-/// Wheels with more sectors are typing errors; the sector Fourier basis grows with the square.
+/// Largest number of sectors. More are typing errors; the sector Fourier basis grows with the square.
 const MOST_SECTORS: usize = 1000;
 
-/// More contact nodes along one chord than any blade needs; the reduced matrices grow with the square.
+/// Largest number of contact nodes, more than any blade needs along one chord; the reduced matrices grow with the square.
 const MOST_CONTACT_NODES: usize = 200;
 
 /// Lowest and highest of highest speeds that are accepted, rad/s.

@@ -1,4 +1,4 @@
-//! The tables: every node once, every DOF once, every DOF of a known node.
+//! Checks of the tables: every node once, every DOF once, every DOF of a known node.
 
 use std::collections::HashMap;
 
@@ -7,7 +7,7 @@ use crate::package::content::SourceLines;
 use crate::package::error::{PackageError, TableProblem};
 use crate::package::raw::{RawDof, RawNode};
 
-/// Place of each node id in the node table.
+/// Position of each node id in the node table.
 pub(crate) type NodeIndex = HashMap<u64, u32>;
 
 /// Indexes the rows of the node table in `file`.
@@ -36,7 +36,7 @@ pub(crate) fn node_index(
     Ok(index)
 }
 
-/// The node of each row of the DOF table in `file`, and the rows of each node's components.
+/// Node of each row of the DOF table in `file`, and the rows of each node's components.
 pub(crate) fn rows(
     file: &str,
     dofs: &[RawDof],

@@ -1,117 +1,117 @@
-//! Problems of `sector.json` and of what it claims about the rest.
+//! Problems of `sector.json`, alone and against the rest of the package.
 
 use std::fmt;
 
-/// What is wrong with a field of `sector.json`.
+/// Problem of a field of `sector.json`.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ManifestProblem {
-    /// A file that is named, or `sector.json` itself, is not in the archive.
+    /// File that is named, or `sector.json` itself, and is missing in the archive.
     #[error("the archive holds no file {file}{}", match .found_in {
         Some(folder) => format!("; there is one in the folder \"{folder}\": zip the files, not their folder"),
         None => "; add it under exactly this name".to_owned(),
     })]
     FileMissing {
-        /// The file that is missing.
+        /// Name of the missing file.
         file: String,
-        /// A folder in which a file of this name does exist.
+        /// Folder in which a file of this name does exist.
         found_in: Option<String>,
     },
-    /// Not JSON, or a value of the wrong type.
+    /// Text that is not JSON, or a value of the wrong type.
     #[error("{message} (line {line}, column {column})")]
     Syntax {
-        /// The JSON reader's words.
+        /// Message of the JSON reader.
         message: String,
-        /// Line, from 1.
+        /// Number of the line, from 1.
         line: usize,
-        /// Column, from 1.
+        /// Number of the column, from 1.
         column: usize,
     },
-    /// Larger than any manifest.
+    /// Manifest that is too large.
     #[error("the file is larger than {limit_bytes} bytes")]
     TooLarge {
-        /// Configured limit.
+        /// Largest number of bytes, as configured.
         limit_bytes: u64,
     },
-    /// N = 0.
+    /// Number of sectors N = 0.
     #[error("a wheel has at least one sector")]
     NoSectors,
-    /// More than the service can take.
+    /// Count above what the service can take.
     #[error("at most {limit} {what} are supported")]
     TooMany {
-        /// Of what.
+        /// Kind of things that are too many.
         what: &'static str,
-        /// How many are allowed.
+        /// Largest number of them.
         limit: usize,
     },
-    /// A text longer than any name.
+    /// Text that is too long for a name.
     #[error("the text has more than {limit} characters")]
     TextTooLong {
-        /// Characters allowed.
+        /// Largest number of characters.
         limit: usize,
     },
-    /// Empty unit name.
+    /// Unit with an empty name.
     #[error("the unit has no name")]
     UnitUnnamed,
-    /// A unit of time without a known length in seconds.
+    /// Unit of time without a known length in seconds.
     #[error(
         "the unit of time \"{unit}\" is not known, so speeds in rad/s cannot be compared with the matrices: use s, ms or us"
     )]
     TimeUnknown {
-        /// The name given.
+        /// Name of the unit, as given.
         unit: String,
     },
-    /// A known unit of another quantity.
+    /// Known unit of another quantity.
     #[error("\"{unit}\" is not a unit of {quantity}")]
     UnitOfOtherQuantity {
-        /// The name given.
+        /// Name of the unit, as given.
         unit: String,
-        /// What it should measure.
+        /// Quantity that it should measure.
         quantity: &'static str,
     },
-    /// force ≠ mass·length/time².
+    /// Inconsistent units: force ≠ mass·length/time².
     #[error(
         "the units are not consistent: force must be mass·length/time², but 1 {mass}·{length}/{time}² is {factor} \
          {force}; {}",
         mass_hint(*.fitting, .length, .force, .time)
     )]
     UnitsInconsistent {
-        /// Mass unit.
+        /// Name of the mass unit.
         mass: String,
-        /// Length unit.
+        /// Name of the length unit.
         length: String,
-        /// Time unit.
+        /// Name of the time unit.
         time: String,
-        /// Force unit.
+        /// Name of the force unit.
         force: String,
         /// Size of the derived force in the force unit given.
         factor: f64,
-        /// The mass unit that would fit, if one has a name.
+        /// Mass unit that would fit, if one has a name.
         fitting: Option<&'static str>,
     },
-    /// A number that is not finite.
+    /// Number that is not finite.
     #[error("the value is not a finite number")]
     NotFinite,
     /// Axis without direction.
     #[error("the axis direction has length zero; give the direction about which rotation is positive")]
     AxisWithoutDirection,
-    /// Neither one nor three speeds.
+    /// Number of speeds other than one and three.
     #[error("{count} speeds are given; a package has one (0) or three (0, Ω1/2, Ω1)")]
     SpeedCount {
-        /// Number given.
+        /// Number of speeds given.
         count: usize,
     },
-    /// First speed not zero.
+    /// First speed that is not zero.
     #[error("the first speed is {value} rad/s; the first stiffness matrix must be the one at rest (0)")]
     SpeedsNotFromZero {
-        /// Value given.
+        /// Speed given, rad/s.
         value: f64,
     },
-    /// Speeds out of order.
+    /// Speeds that are not ascending.
     #[error("the speeds are not ascending: {value} rad/s follows {previous} rad/s")]
     SpeedsNotAscending {
-        /// The speed before.
+        /// Speed before, rad/s.
         previous: f64,
-        /// The speed that is not larger.
+        /// Speed that is not larger, rad/s.
         value: f64,
     },
     /// Speeds that no polynomial tells apart.
@@ -142,37 +142,37 @@ pub enum ManifestProblem {
         "{matrices} stiffness matrices are named for {speeds} speeds; name one per speed, in the same order"
     )]
     StiffnessCount {
-        /// Matrices named.
+        /// Number of matrices named.
         matrices: usize,
-        /// Speeds given.
+        /// Number of speeds given.
         speeds: usize,
     },
-    /// A name that leaves the archive.
+    /// File name that leaves the archive.
     #[error("\"{name}\" is not a file name inside the package")]
     BadFileName {
-        /// The name.
+        /// Name of the file.
         name: String,
     },
-    /// One file in two roles.
+    /// File in two roles.
     #[error("the file \"{file}\" is already named as {role}")]
     FileInTwoRoles {
-        /// The file.
+        /// Name of the file.
         file: String,
-        /// Its first role.
+        /// First role of the file.
         role: &'static str,
     },
-    /// A node of `cyclic` or `contact` that `nodes.csv` does not list.
+    /// Node of `cyclic` or `contact` that `nodes.csv` does not list.
     #[error("node {node} is not in the node table")]
     UnknownNode {
-        /// Its id.
+        /// Id of the node.
         node: u64,
     },
-    /// A node in two pairs, or on both faces.
+    /// Node in two pairs, or on both faces.
     #[error("node {node} is already {role}; every face node belongs to exactly one pair")]
     FaceNodeRepeated {
-        /// Its id.
+        /// Id of the node.
         node: u64,
-        /// What it is already.
+        /// Role that the node already has.
         role: &'static str,
     },
     /// Node paired with itself.
@@ -181,10 +181,10 @@ pub enum ManifestProblem {
          must be clamped"
     )]
     PairedWithItself {
-        /// Its id.
+        /// Id of the node.
         node: u64,
     },
-    /// Geometry of a pair.
+    /// Pair whose nodes are not one turn apart.
     #[error(
         "high node {high} is {distance:.3e} away from low node {low} turned by {}2π/{sectors} about the axis (tolerance \
          {tolerance:.3e}; the worst pair); {}",
@@ -198,32 +198,32 @@ pub enum ManifestProblem {
         }
     )]
     PairNotTurned {
-        /// Low node id.
+        /// Id of the low node.
         low: u64,
-        /// High node id.
+        /// Id of the high node.
         high: u64,
         /// Distance in the package's length unit.
         distance: f64,
-        /// What would have been accepted.
+        /// Largest distance that is accepted.
         tolerance: f64,
-        /// N.
+        /// Number of sectors N.
         sectors: usize,
         /// Turn that the pairs fit.
         fit: TurnFit,
     },
-    /// DOF sets of a pair.
+    /// Pair whose nodes have different components in the DOF table.
     #[error(
         "low node {low} has the components {low_components} and high node {high} has {high_components} in the DOF \
          table; clamp the same components on both faces"
     )]
     PairDofsDiffer {
-        /// Low node id.
+        /// Id of the low node.
         low: u64,
-        /// High node id.
+        /// Id of the high node.
         high: u64,
-        /// Those of the low node.
+        /// Components of the low node.
         low_components: Components,
-        /// Those of the high node.
+        /// Components of the high node.
         high_components: Components,
     },
     /// Partly clamped pair whose free directions do not map onto each other.
@@ -232,22 +232,22 @@ pub enum ManifestProblem {
          onto each other; clamp face nodes fully, along the axis, or export the package in the cylindrical frame"
     )]
     PairClampNotCyclic {
-        /// Low node id.
+        /// Id of the low node.
         low: u64,
-        /// High node id.
+        /// Id of the high node.
         high: u64,
-        /// N.
+        /// Number of sectors N.
         sectors: usize,
     },
-    /// A face node with DOF on the axis.
+    /// Face node with DOF on the axis.
     #[error(
         "nodes {low} and {high} are free but lie on the axis, a point that all sectors share and no pair can \
          describe; clamp them or give the hub a bore"
     )]
     PairOnAxis {
-        /// Low node id.
+        /// Id of the low node.
         low: u64,
-        /// High node id.
+        /// Id of the high node.
         high: u64,
     },
     /// Free node on the axis of several sectors, in no pair.
@@ -256,7 +256,7 @@ pub enum ManifestProblem {
          axis of its own; clamp it or give the hub a bore"
     )]
     FreeOnAxis {
-        /// Node id.
+        /// Id of the node.
         node: u64,
     },
     /// Two free nodes one sector apart that are not a pair.
@@ -269,10 +269,10 @@ pub enum ManifestProblem {
         low: u64,
         /// Node on the high face.
         high: u64,
-        /// N.
+        /// Number of sectors N.
         sectors: usize,
     },
-    /// Rows that are in balance only if they are read otherwise.
+    /// Rows that are in balance only in another reading than the stated one.
     #[error(
         "a rigid motion of the sector makes forces where nothing holds it: {stated} of {inner} inner nodes are in balance as the rows are \
          stated, {found} if {reading}"
@@ -280,11 +280,11 @@ pub enum ManifestProblem {
     RowsOtherwise {
         /// Reading that puts more nodes in balance.
         reading: RowReading,
-        /// Nodes in balance as stated.
+        /// Number of nodes in balance as stated.
         stated: usize,
-        /// Nodes in balance in the other reading.
+        /// Number of nodes in balance in the other reading.
         found: usize,
-        /// Nodes inside the sector with three components.
+        /// Number of nodes inside the sector with three components.
         inner: usize,
     },
     /// High face that fits the low one only if its rows are read otherwise.
@@ -318,14 +318,14 @@ pub enum ManifestProblem {
         value: f64,
         /// Value in SI units.
         in_si: f64,
-        /// Least that is accepted.
+        /// Smallest value that is accepted, in SI units.
         least: f64,
-        /// Most that is accepted.
+        /// Largest value that is accepted, in SI units.
         most: f64,
         /// SI unit.
         unit: &'static str,
     },
-    /// A constant or strength that must be positive.
+    /// Constant or strength that is not positive.
     #[error("the value is {value}; it must be positive")]
     NotPositive {
         /// Value given.
@@ -337,7 +337,7 @@ pub enum ManifestProblem {
         /// Value given.
         value: f64,
     },
-    /// An ultimate strength below the yield strength.
+    /// Ultimate strength below the yield strength.
     #[error(
         "the ultimate strength {ultimate:?} is below the yield strength {yields:?}; the first is the larger one"
     )]
@@ -347,12 +347,12 @@ pub enum ManifestProblem {
         /// Yield strength.
         yields: f64,
     },
-    /// A fatigue strength above the ultimate strength.
+    /// Fatigue strength above the ultimate strength.
     #[error(
         "the fatigue strength {amplitude:?} is above the ultimate strength {ultimate:?}; it is an amplitude, half of the range"
     )]
     FatigueAboveUltimate {
-        /// Amplitude.
+        /// Fatigue strength, an amplitude.
         amplitude: f64,
         /// Ultimate strength.
         ultimate: f64,
@@ -366,14 +366,14 @@ pub enum ManifestProblem {
     StiffnessDisagrees {
         /// File name of the stiffness matrix at rest.
         file: String,
-        /// Young's modulus that its matrix has.
+        /// Young's modulus that the matrix has.
         youngs_modulus: f64,
-        /// Poisson's ratio that its matrix has.
+        /// Poisson's ratio that the matrix has.
         poissons_ratio: f64,
-        /// Both as stated.
+        /// Young's modulus and Poisson's ratio as stated.
         stated: [f64; 2],
     },
-    /// A density that the mass matrix contradicts.
+    /// Density that the mass matrix contradicts.
     #[error(
         "the elements have density {stated:?}, but {file} is the mass of a material with {density:.3e}; give the density that it \
          was made with, in the package's units (mass/length³)"
@@ -381,9 +381,9 @@ pub enum ManifestProblem {
     MassDisagrees {
         /// File name of the mass matrix.
         file: String,
-        /// Density that its matrix has.
+        /// Density that the matrix has.
         density: f64,
-        /// As stated.
+        /// Density as stated.
         stated: f64,
     },
     /// Materials of thin sets that a matrix contradicts.
@@ -394,73 +394,73 @@ pub enum ManifestProblem {
     MeetingSetsDisagree {
         /// File name of the matrix.
         file: String,
-        /// Matrix over elements.
+        /// Ratio of the matrix to the value from the elements.
         factor: f64,
     },
-    /// A fatigue strength from nowhere.
+    /// Fatigue strength without a source.
     #[error(
         "say where the fatigue strength comes from: standard or test, number of cycles, surface, temperature"
     )]
     NoSource,
-    /// A material that nothing is made of.
+    /// Material that no element has.
     #[error("no element of {elements} is of this set; remove it, or look at the sets of the elements")]
     SetUnused {
         /// File name of the element table.
         elements: String,
     },
-    /// Mostly nodes without element.
+    /// Node table with more nodes outside elements than in elements.
     #[error(
         "{spare} nodes belong to no element, more than the {used} that do: leave them out of the node table"
     )]
     SpareNodes {
-        /// Nodes without element.
+        /// Number of nodes without element.
         spare: usize,
-        /// Nodes with one.
+        /// Number of nodes with an element.
         used: usize,
     },
-    /// A contact node outside the mesh.
+    /// Contact node that belongs to no element.
     #[error("contact node {node} belongs to no element of {elements}")]
     ContactWithoutElement {
-        /// Its id.
+        /// Id of the node.
         node: u64,
         /// File name of the element table.
         elements: String,
     },
-    /// No contact nodes.
+    /// Package without contact nodes.
     #[error("no contact node is named; nothing could ever touch the casing")]
     NoContact,
-    /// The same contact node twice.
+    /// Contact node that is listed twice.
     #[error("contact node {node} is already named at /contact/{first}")]
     ContactRepeated {
-        /// Its id.
+        /// Id of the node.
         node: u64,
-        /// Index of its first mention.
+        /// Index of the first mention in `contact`.
         first: usize,
     },
-    /// A contact node without all three DOF.
+    /// Contact node without all three DOF.
     #[error(
         "contact node {node} is clamped: the DOF table has its components {components}, contact needs 1, 2, 3"
     )]
     ContactClamped {
-        /// Its id.
+        /// Id of the node.
         node: u64,
-        /// Those it has.
+        /// Components that the node has.
         components: Components,
     },
-    /// A contact node on a cyclic face.
+    /// Contact node on a cyclic face.
     #[error("contact node {node} lies on the {face} cyclic face; contact nodes must be inside the sector")]
     ContactOnFace {
-        /// Its id.
+        /// Id of the node.
         node: u64,
-        /// `low` or `high`.
+        /// Face of the node: `low` or `high`.
         face: &'static str,
     },
-    /// A normal that is not a unit vector.
+    /// Normal that is not a unit vector.
     #[error("the normal has length {length}, not 1 (within {tolerance})")]
     NormalNotUnit {
-        /// Its length.
+        /// Length of the normal.
         length: f64,
-        /// What would have been accepted.
+        /// Largest difference from 1 that is accepted.
         tolerance: f64,
     },
 }
@@ -468,26 +468,26 @@ pub enum ManifestProblem {
 /// Reading of the rows of the matrices other than the stated one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RowReading {
-    /// All components in the other frame.
+    /// Components of all nodes in the other frame.
     OtherFrame {
-        /// Name of that frame.
+        /// Name of the other frame.
         meant: &'static str,
     },
     /// Components of face nodes in the other frame.
     FacesInOtherFrame {
-        /// Name of that frame.
+        /// Name of the other frame.
         meant: &'static str,
     },
     /// Components of high face nodes along axes that are turned with the sector.
     HighFaceTurned,
-    /// Nodes as the DOF table lists them, the components of each together.
+    /// Nodes in the order of the DOF table, the components of each together.
     ByNode,
     /// Nodes in another order.
     NodesInOtherOrder {
-        /// The order.
+        /// Order of the nodes.
         order: &'static str,
     },
-    /// First all components 1, then all 2, then all 3.
+    /// Components in turn: first all components 1, then all 2, then all 3.
     ByComponent {
         /// Order of the nodes.
         order: &'static str,
@@ -576,11 +576,11 @@ impl fmt::Display for RowReading {
 /// Turn about the axis that takes low nodes to high nodes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TurnFit {
-    /// By +2π/N, or no turn at all.
+    /// Turn by +2π/N, or no fitting turn at all.
     Forward,
-    /// By −2π/N, within the tolerance.
+    /// Turn by −2π/N, within the tolerance.
     Reversed,
-    /// By −2π/N more nearly than by +2π/N, but not within the tolerance.
+    /// Turn by −2π/N more nearly than by +2π/N, but not within the tolerance.
     NearerReversed,
 }
 
@@ -591,12 +591,12 @@ fn mass_hint(fitting: Option<&str>, length: &str, force: &str, time: &str) -> St
     }
 }
 
-/// Which of the components 1, 2, 3 a node has in the DOF table.
+/// Components 1, 2, 3 of a node that are in the DOF table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Components(pub [bool; 3]);
 
 impl fmt::Display for Components {
-    /// `1, 3` or `none`.
+    /// Writes the components, such as `1, 3`, or `none`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let present: Vec<_> = (1..=3).filter(|k| self.0[k - 1]).map(|k: usize| k.to_string()).collect();
         if present.is_empty() { f.write_str("none") } else { f.write_str(&present.join(", ")) }

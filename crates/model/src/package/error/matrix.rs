@@ -2,68 +2,68 @@
 
 use super::npz::NpzProblem;
 
-/// What is wrong with a matrix.
+/// Problem of a matrix.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum MatrixProblem {
-    /// First line.
+    /// File whose first line is not a Matrix Market header.
     #[error(
         "the file does not start with a Matrix Market header such as \
          \"%%MatrixMarket matrix coordinate real symmetric\""
     )]
     NoHeader,
-    /// A header word that is not supported.
+    /// Word of the header that is not supported.
     #[error(
         "the {what} \"{word}\" is not supported; write \"matrix coordinate real {one_triangle}\" or \"general\""
     )]
     UnsupportedHeader {
-        /// Object, format, field or symmetry.
+        /// Part of the header: object, format, field or symmetry.
         what: &'static str,
-        /// The word found.
+        /// Word found.
         word: String,
-        /// The symmetry that a file of one triangle declares.
+        /// Symmetry that a file of one triangle declares.
         one_triangle: &'static str,
     },
-    /// The line of sizes.
+    /// Line of sizes that cannot be read.
     #[error("the line after the header must be \"rows columns entries\", three integers")]
     BadSizeLine,
-    /// Rows ≠ columns.
+    /// Matrix with different numbers of rows and columns.
     #[error("the matrix is {rows} × {columns}, not square")]
     NotSquare {
-        /// Rows.
+        /// Number of rows.
         rows: u64,
-        /// Columns.
+        /// Number of columns.
         columns: u64,
     },
-    /// Rows ≠ lines of the DOF table.
+    /// Number of rows that differs from the DOF table.
     #[error("the matrix has {rows} rows, but the DOF table lists {dofs} DOF")]
     SizeDisagrees {
-        /// Rows.
+        /// Number of rows of the matrix.
         rows: u64,
-        /// Lines of the DOF table.
+        /// Number of lines of the DOF table.
         dofs: usize,
     },
-    /// More entries than the limit.
+    /// Matrix with more entries than the limit.
     #[error("the matrix announces {entries} entries, more than the {limit} this server accepts")]
     TooManyEntries {
-        /// Announced.
+        /// Number of entries announced.
         entries: u64,
-        /// Configured limit.
+        /// Largest number of entries, as configured.
         limit: usize,
     },
-    /// A line that is not an entry.
+    /// Line that is not an entry.
     #[error("\"{text}\" is not an entry \"row column value\"")]
     BadEntry {
-        /// The line, shortened.
+        /// Text of the line, shortened.
         text: String,
     },
-    /// Row or column out of range.
+    /// Entry with a row or column out of range.
     #[error("entry ({row}, {column}) is outside the {size} × {size} matrix; rows and columns count from 1")]
     IndexOutOfRange {
-        /// Row.
+        /// Row of the entry.
         row: u64,
-        /// Column.
+        /// Column of the entry.
         column: u64,
-        /// Rows of the matrix.
+        /// Number of rows of the matrix.
         size: usize,
     },
     /// Nothing but zeros.
@@ -92,26 +92,26 @@ pub enum MatrixProblem {
     /// NaN, infinity or overflow.
     #[error("entry ({row}, {column}) is not a finite number")]
     NotFinite {
-        /// Row.
+        /// Row of the entry.
         row: u64,
-        /// Column.
+        /// Column of the entry.
         column: u64,
     },
-    /// More lines than announced.
+    /// File with more entries than announced.
     #[error("this is one entry more than the {announced} announced at the top")]
     MoreEntries {
-        /// Announced.
+        /// Number of entries announced.
         announced: u64,
     },
-    /// Fewer lines than announced.
+    /// File with fewer entries than announced.
     #[error("the file ends after {found} of the {announced} entries announced at the top")]
     FewerEntries {
-        /// Found.
+        /// Number of entries found.
         found: u64,
-        /// Announced.
+        /// Number of entries announced.
         announced: u64,
     },
-    /// A position given twice.
+    /// Position that is given twice.
     #[error("entry ({row}, {column}) is given twice{}; {}", match .first_line {
         Some(line) => format!(" (first on line {line})"),
         None => String::new(),
@@ -121,16 +121,16 @@ pub enum MatrixProblem {
         "assemble the matrix so that every entry appears once"
     })]
     Repeated {
-        /// Row.
+        /// Row of the position.
         row: u64,
-        /// Column.
+        /// Column of the position.
         column: u64,
         /// Line of the first mention, if known.
         first_line: Option<u64>,
         /// Whether the two mentions are mirror images of each other.
         mirrored: bool,
     },
-    /// A general matrix that is not (skew-)symmetric.
+    /// General matrix that is not (skew-)symmetric.
     #[error(
         "the matrix is not {}: entry ({row}, {column}) is {value:e}{}, entry ({column}, {row}) is \
          {mirrored:e}{} (the worst of {count})",
@@ -139,11 +139,11 @@ pub enum MatrixProblem {
     NotSymmetric {
         /// Whether the triangles must differ in sign.
         skew: bool,
-        /// Row.
+        /// Row of the entry.
         row: u64,
-        /// Column.
+        /// Column of the entry.
         column: u64,
-        /// Its value.
+        /// Value of the entry.
         value: f64,
         /// Value of the mirrored entry; 0 if it is absent.
         mirrored: f64,
@@ -151,51 +151,51 @@ pub enum MatrixProblem {
         line: Option<u64>,
         /// Line of the mirrored entry.
         mirrored_line: Option<u64>,
-        /// How many pairs differ by more than the tolerance.
+        /// Number of pairs that differ by more than the tolerance.
         count: usize,
     },
-    /// A skew-symmetric matrix with a diagonal.
+    /// Skew-symmetric matrix with an entry on its diagonal.
     #[error(
         "entry ({row}, {row}) is {value:e}, but the diagonal of a skew-symmetric matrix is zero: is this the gyroscopic \
          matrix?"
     )]
     SkewDiagonal {
-        /// Row and column.
+        /// Row and column of the entry.
         row: u64,
-        /// Its value.
+        /// Value of the entry.
         value: f64,
     },
-    /// A mass that cannot carry modes: diagonal.
+    /// Mass that cannot carry modes, since a diagonal entry is not positive.
     #[error(
         "the mass of the assembled wheel is {value:e} on the diagonal of node {node} (row {row}), not positive; give every \
          DOF mass or condense massless ones out"
     )]
     MassDiagonal {
-        /// Node id.
+        /// Id of the node.
         node: u64,
         /// Row of the DOF table.
         row: usize,
         /// Assembled diagonal value.
         value: f64,
     },
-    /// A mass that is negative: 2 × 2 minor.
+    /// Mass that is negative for some motion of two DOF, by a 2 × 2 minor.
     #[error(
         "the mass of the assembled wheel is negative for some motion: the entry {value:e} between node {node} (row {row}) \
          and node {other_node} (row {other_row}) is larger than their diagonals allow"
     )]
     MassMinor {
-        /// Node id.
+        /// Id of the node.
         node: u64,
         /// Row of the DOF table.
         row: usize,
-        /// The other node's id.
+        /// Id of the other node.
         other_node: u64,
-        /// Its row.
+        /// Row of the other node in the DOF table.
         other_row: usize,
-        /// Entry.
+        /// Value of the entry.
         value: f64,
     },
-    /// A mass that is negative for some motion.
+    /// Mass that is negative for some motion, by elimination.
     #[error(
         "the mass of the assembled wheel is negative, by more than round-off, for a motion that node {node} (row {row}) \
          takes part in (nodal diameter {nodal_diameter}): is the density positive everywhere, is this the mass matrix, and \
@@ -204,23 +204,23 @@ pub enum MatrixProblem {
     MassNegative {
         /// Nodal diameter of the motion.
         nodal_diameter: usize,
-        /// Id of the node at which elimination found it out.
+        /// Id of the node at which elimination fails.
         node: u64,
-        /// Its row of the DOF table.
+        /// Row of the node in the DOF table.
         row: usize,
     },
-    /// Arrays of a `.npz` file.
+    /// Problem of the arrays of a `.npz` file.
     #[error(transparent)]
     Npz(#[from] NpzProblem),
-    /// No newline for very long.
+    /// Line that is too long.
     #[error("the line is longer than {limit} bytes; is this a text file?")]
     LineTooLong {
-        /// The longest line accepted.
+        /// Longest line accepted, in bytes.
         limit: usize,
     },
 }
 
-/// ` (line 7)`.
+/// Note of a line, such as ` (line 7)`; empty without one.
 fn at_line(line: Option<u64>) -> String {
     line.map_or_else(String::new, |line| format!(" (line {line})"))
 }

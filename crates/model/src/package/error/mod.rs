@@ -1,4 +1,4 @@
-//! What can be wrong with a package, each problem with the place where the user finds it.
+//! Errors of packages, each with the place where the user finds the problem.
 
 mod archive;
 mod manifest;
@@ -12,62 +12,62 @@ pub use matrix::MatrixProblem;
 pub use npz::{ExpectedShape, NpzProblem};
 pub use table::TableProblem;
 
-/// Name of the file every package holds.
+/// Name of the file that every package holds.
 pub const MANIFEST_FILE: &str = "sector.json";
 
-/// A package that cannot become a sector model: where, and what is wrong there.
+/// Error of a package that cannot become a sector model: where, and what is wrong there.
 ///
 /// The text is a complete sentence that starts with the place; [`Self::file`], [`Self::line`] and
 /// [`Self::field`] give the place alone.
 #[derive(Debug, thiserror::Error)]
 pub enum PackageError {
-    /// The operating system could not read or write the file; nothing is known about its content.
+    /// Error of the operating system, which could not read or write the file; nothing is known about its content.
     #[error("the package file cannot be accessed: {source}")]
     Io {
-        /// The system's error.
+        /// Error reported by the system.
         #[from]
         source: std::io::Error,
     },
-    /// The archive as a whole, or one file's storage in it.
+    /// Problem of the archive as a whole, or of one file's storage in it.
     #[error("{}{problem}", prefix(.file.as_deref(), None))]
     Archive {
-        /// The file inside the archive, if one is to blame.
+        /// Name of the file inside the archive, if one is at fault.
         file: Option<String>,
-        /// What is wrong.
+        /// Problem of the archive.
         problem: ArchiveProblem,
     },
-    /// `sector.json`, or something it says that the rest of the package contradicts.
+    /// Problem of `sector.json`, or of a statement in it that the rest of the package contradicts.
     #[error("sector.json{}{}: {problem}", if .field.is_empty() { "" } else { ", " }, .field)]
     Manifest {
         /// JSON pointer to the field (RFC 6901); empty for the document as a whole.
         field: String,
-        /// What is wrong.
+        /// Problem of the field.
         problem: ManifestProblem,
     },
-    /// A line of `nodes.csv` or `dofs.csv` (under the names the manifest gives them).
+    /// Problem of a line of `nodes.csv` or `dofs.csv` (under the names the manifest gives them).
     #[error("{}{problem}", prefix(Some(.file), Some(*.line)))]
     Table {
-        /// File name.
+        /// Name of the table's file.
         file: String,
-        /// Line, from 1.
+        /// Number of the line, from 1.
         line: u64,
-        /// What is wrong.
+        /// Problem of the line.
         problem: TableProblem,
     },
-    /// A matrix file.
+    /// Problem of a matrix file.
     #[error("{}{problem}", prefix(Some(.file), *.line))]
     Matrix {
-        /// File name.
+        /// Name of the matrix file.
         file: String,
-        /// Line, from 1, where one line is to blame.
+        /// Number of the line, from 1, where one line is at fault.
         line: Option<u64>,
-        /// What is wrong.
+        /// Problem of the matrix.
         problem: MatrixProblem,
     },
 }
 
 impl PackageError {
-    /// The file inside the package that is wrong or missing, if one is to blame.
+    /// Name of the file inside the package that is wrong or missing, if one is at fault.
     pub fn file(&self) -> Option<&str> {
         match self {
             Self::Io { .. } => None,
@@ -78,7 +78,7 @@ impl PackageError {
         }
     }
 
-    /// The line of [`Self::file`], from 1.
+    /// Number of the line of [`Self::file`], from 1.
     pub fn line(&self) -> Option<u64> {
         match self {
             Self::Table { line, .. } => Some(*line),
@@ -109,7 +109,7 @@ impl PackageError {
     }
 }
 
-/// `k0.mtx, line 7: `.
+/// Beginning of a message, such as `k0.mtx, line 7: `.
 fn prefix(file: Option<&str>, line: Option<u64>) -> String {
     match (file, line) {
         (Some(file), Some(line)) => format!("{file}, line {line}: "),

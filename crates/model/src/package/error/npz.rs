@@ -2,86 +2,86 @@
 
 use crate::package::quote::quoted;
 
-/// What is wrong with the arrays of a matrix.
+/// Problem of the arrays of a matrix.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum NpzProblem {
-    /// No readable zip directory.
+    /// File without a readable zip directory.
     #[error("the file is not a zip of arrays as scipy.sparse.save_npz writes it ({reason})")]
     NotAZip {
-        /// The zip reader's words.
+        /// Message of the zip reader.
         reason: String,
     },
     /// Two arrays of the same name.
     #[error("the file holds two arrays of the same name; save it again with scipy.sparse.save_npz")]
     Repeated,
-    /// An array save_npz would have written is not there.
+    /// Array of `save_npz` that is missing.
     #[error("the array {array} is missing; save the matrix with scipy.sparse.save_npz")]
     Missing {
-        /// Its name.
+        /// Name of the array.
         array: &'static str,
     },
-    /// An array save_npz does not write.
+    /// Array that `save_npz` does not write.
     #[error("{array} is no array of a {format} matrix; save the matrix alone, with scipy.sparse.save_npz")]
     Surplus {
         /// Name of the zip entry.
         array: String,
-        /// Storage scheme the file states.
+        /// Storage scheme that the file states.
         format: String,
     },
-    /// A storage scheme other than csr, csc, coo.
+    /// Storage scheme other than csr, csc, coo.
     #[error(
         "the storage format \"{format}\" is not supported; convert the matrix with .tocsr() and save it again"
     )]
     Format {
-        /// What the file states.
+        /// Storage scheme that the file states.
         format: String,
     },
-    /// Not an array of numpy's format.
+    /// Array that is not in numpy's format.
     #[error("the array {array} is not in numpy's npy format ({reason})")]
     NotNpy {
-        /// Its name.
+        /// Name of the array.
         array: &'static str,
-        /// What is wrong with its header.
+        /// Problem of the header.
         reason: &'static str,
     },
-    /// An element type that cannot be taken.
+    /// Element type that is not accepted.
     #[error("the array {array} has the type \"{found}\"; it must be {expected}")]
     Type {
-        /// Its name.
+        /// Name of the array.
         array: &'static str,
-        /// numpy's name of the type.
+        /// Name of the type in numpy.
         found: String,
-        /// Types accepted.
+        /// Types that are accepted.
         expected: &'static str,
     },
-    /// Wrong number of dimensions or elements.
+    /// Array with the wrong number of dimensions or elements.
     #[error("the array {array} has the shape {}; expected is {expected}", shape(.found))]
     Shape {
-        /// Its name.
+        /// Name of the array.
         array: &'static str,
-        /// Elements in each dimension.
+        /// Number of elements in each dimension.
         found: Vec<u64>,
-        /// What its place asks for.
+        /// Expected shape.
         expected: ExpectedShape,
     },
-    /// Fewer or more bytes than the header announces.
+    /// Array with fewer or more bytes than its header announces.
     #[error("the array {array} does not hold the {announced} elements its header announces")]
     Length {
-        /// Its name.
+        /// Name of the array.
         array: &'static str,
-        /// Elements announced.
+        /// Number of elements announced.
         announced: u64,
     },
-    /// An index that is not a row or column.
+    /// Index that is not a row or column.
     #[error("{array}[{position}] is {value}, outside the {size} × {size} matrix (numpy counts from 0)")]
     IndexOutOfRange {
-        /// `indices`, `row` or `col`.
+        /// Name of the array: `indices`, `row` or `col`.
         array: &'static str,
         /// Position in the array.
         position: u64,
-        /// Value there.
+        /// Value at that position.
         value: i64,
-        /// Rows of the matrix.
+        /// Number of rows of the matrix.
         size: usize,
     },
     /// Pointers that do not ascend from 0 to the number of entries.
@@ -91,42 +91,42 @@ pub enum NpzProblem {
     Pointer {
         /// Position in the array.
         position: u64,
-        /// Value there.
+        /// Value at that position.
         value: i64,
-        /// Elements of `indices`.
+        /// Number of elements of `indices`.
         entries: u64,
     },
 }
 
-/// The shape that an array's place asks for, in numpy's spelling.
+/// Expected shape of an array, in numpy's spelling.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum ExpectedShape {
-    /// Of any length.
+    /// One-dimensional array of any length.
     #[error("one-dimensional")]
     OneDimensional,
-    /// One element without dimensions.
+    /// Single element without dimensions.
     #[error("a single text")]
     SingleText,
-    /// Rows and columns.
+    /// Pair of the numbers of rows and columns.
     #[error("(2,)")]
     Pair,
-    /// As many elements as another array.
+    /// Array with as many elements as another one.
     #[error("({length},), as of {array}")]
     AsOf {
-        /// Elements of the other.
+        /// Number of elements of the other array.
         length: usize,
-        /// Its name.
+        /// Name of the other array.
         array: &'static str,
     },
     /// Pointers to the starts of the rows, and to the end.
     #[error("({length},), one more than the rows")]
     OneMoreThanRows {
-        /// Elements.
+        /// Number of elements.
         length: usize,
     },
 }
 
-/// Such as `(3, 4)`.
+/// Spelling of a shape, such as `(3, 4)`.
 fn shape(sizes: &[u64]) -> String {
     let sizes: Vec<String> = sizes.iter().map(u64::to_string).collect();
     quoted(&format!("({})", sizes.join(", ")))

@@ -3,156 +3,156 @@
 use rubmap_solid::defect::Likely;
 use rubmap_solid::element::ElementKind;
 
-/// What is wrong with a line of a table.
+/// Problem of a line of a table.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum TableProblem {
-    /// Number of fields.
+    /// Line with the wrong number of fields.
     #[error("{found} comma-separated values where {expected} are expected ({columns})")]
     FieldCount {
-        /// Values found.
+        /// Number of fields found.
         found: usize,
-        /// Values expected.
+        /// Number of fields expected.
         expected: usize,
-        /// Their names.
+        /// Names of the columns.
         columns: &'static str,
     },
-    /// A header whose columns are in another order.
+    /// Header whose columns are in another order.
     #[error("the header names its columns in another order than {columns}; reorder them")]
     HeaderOrder {
-        /// Expected columns.
+        /// Names of the columns in the expected order.
         columns: &'static str,
     },
     /// Text that is not a node id.
     #[error("\"{text}\" is not a node id (an integer from 0)")]
     BadId {
-        /// The text.
+        /// Text found.
         text: String,
     },
     /// Text that is not a coordinate.
     #[error("{column} is \"{text}\", not a finite number")]
     BadNumber {
-        /// Column name.
+        /// Name of the column.
         column: &'static str,
-        /// The text.
+        /// Text found.
         text: String,
     },
-    /// Component out of range.
+    /// Component other than 1, 2 and 3.
     #[error("component \"{text}\" is not 1, 2 or 3")]
     BadComponent {
-        /// The text.
+        /// Text found.
         text: String,
     },
-    /// Node id used before.
+    /// Node id that was used before.
     #[error("node {node} is already defined on line {first_line}")]
     NodeRepeated {
-        /// Its id.
+        /// Id of the node.
         node: u64,
         /// Line of the first definition.
         first_line: u64,
     },
-    /// A DOF of a node that does not exist.
+    /// DOF of a node that does not exist.
     #[error("node {node} is not in the node table")]
     UnknownNode {
-        /// Its id.
+        /// Id of the node.
         node: u64,
     },
-    /// The same DOF on two lines.
+    /// DOF that is listed on two lines.
     #[error("component {component} of node {node} is already row {first_row} (line {first_line})")]
     DofRepeated {
-        /// Node id.
+        /// Id of the node.
         node: u64,
-        /// Component.
+        /// Component of the node.
         component: u8,
         /// Row of the first mention, from 1.
         first_row: usize,
-        /// Its line.
+        /// Line of the first mention.
         first_line: u64,
     },
     /// Text that is not an element number.
     #[error("\"{text}\" is not an element number (an integer from 0)")]
     BadElementId {
-        /// The text.
+        /// Text found.
         text: String,
     },
-    /// An element of a type that is not known.
+    /// Element of a type that is not known.
     #[error(
         "element {element} is of type \"{text}\"; known are {}. Without its mesh the package is valid, and has no stress",
         known_types()
     )]
     UnknownElementType {
-        /// Its number.
+        /// Number of the element.
         element: u64,
-        /// The type.
+        /// Type found.
         text: String,
     },
-    /// Too few or too many nodes.
+    /// Element with too few or too many nodes.
     #[error("element {element} has {found} nodes; a {kind} has {expected}")]
     ElementNodeCount {
-        /// Its number.
+        /// Number of the element.
         element: u64,
-        /// Its type.
+        /// Type of the element.
         kind: &'static str,
-        /// Nodes given.
+        /// Number of nodes given.
         found: usize,
-        /// Nodes of the type.
+        /// Number of nodes of the type.
         expected: usize,
     },
-    /// An element of a set without material.
+    /// Element of a set without material.
     #[error(
         "element {element} is of set \"{set}\", which has no material; give it one at /mesh/sets of sector.json"
     )]
     ElementWithoutMaterial {
-        /// Its number.
+        /// Number of the element.
         element: u64,
-        /// The set.
+        /// Name of the set.
         set: String,
     },
-    /// A node that does not exist.
+    /// Node of an element that does not exist.
     #[error("element {element} has node {node}, which is not in the node table")]
     ElementNodeUnknown {
-        /// Its number.
+        /// Number of the element.
         element: u64,
-        /// The node.
+        /// Id of the node.
         node: u64,
     },
-    /// One node twice in an element.
+    /// Element with one node twice.
     #[error(
         "element {element} has node {node} twice; a collapsed element is another type (a wedge C3D6 or C3D15, a tetrahedron \
          C3D4 or C3D10)"
     )]
     ElementNodeRepeated {
-        /// Its number.
+        /// Number of the element.
         element: u64,
-        /// The node.
+        /// Id of the node.
         node: u64,
     },
-    /// Element number used before.
+    /// Element number that was used before.
     #[error("element {element} is already defined on line {first_line}")]
     ElementRepeated {
-        /// Its number.
+        /// Number of the element.
         element: u64,
         /// Line of the first definition.
         first_line: u64,
     },
-    /// An element under two numbers.
+    /// Element that is listed under two numbers.
     #[error("element {element} has the nodes of element {other} on line {line}; list it once")]
     ElementTwice {
-        /// Its second number.
+        /// Second number of the element.
         element: u64,
-        /// Its first number.
+        /// First number of the element.
         other: u64,
-        /// Line of the first.
+        /// Line of the first number.
         line: u64,
     },
-    /// A face of three elements.
+    /// Face of three elements.
     #[error(
         "element {element} has a face that lies between elements {} and {} already; remove what fills the same space twice",
         .others[0], .others[1]
     )]
     FaceOfThree {
-        /// The third.
+        /// Number of the third element.
         element: u64,
-        /// The others.
+        /// Numbers of the other two elements.
         others: [u64; 2],
     },
     /// Two elements on the same side of a face.
@@ -160,12 +160,12 @@ pub enum TableProblem {
         "elements {other} and {element} lie on the same side of a face; remove what fills the same space twice"
     )]
     OnOneSide {
-        /// The second.
+        /// Number of the second element.
         element: u64,
-        /// The first.
+        /// Number of the first element.
         other: u64,
     },
-    /// A Jacobian determinant that is not positive.
+    /// Element with a Jacobian determinant that is not positive.
     #[error(
         "element {element} ({kind}) is flipped or degenerate: its Jacobian determinant {} is {determinant:.3e}, not positive; {}",
         match .corner {
@@ -179,35 +179,35 @@ pub enum TableProblem {
         }
     )]
     ElementFlipped {
-        /// Its number.
+        /// Number of the element.
         element: u64,
-        /// Its type.
+        /// Type of the element.
         kind: &'static str,
-        /// The corner where it is so, by its node; otherwise at an integration point.
+        /// Node of the corner at which the determinant was taken; none at an integration point.
         corner: Option<u64>,
-        /// The determinant.
+        /// Jacobian determinant.
         determinant: f64,
-        /// What it looks like.
+        /// Likely cause.
         likely: Likely,
     },
-    /// A node on an edge that is not near its middle.
+    /// Node on an edge that is not near the middle of the edge.
     #[error(
         "element {element} ({kind}) lists node {node} for the middle of the edge from node {from} to node {to}, which is far from \
          there; list the nodes on its edges in CalculiX's order"
     )]
     ElementMiddleNode {
-        /// Its number.
+        /// Number of the element.
         element: u64,
-        /// Its type.
+        /// Type of the element.
         kind: &'static str,
-        /// The node.
+        /// Id of the node.
         node: u64,
-        /// One end of the edge.
+        /// Node at one end of the edge.
         from: u64,
-        /// The other end.
+        /// Node at the other end.
         to: u64,
     },
-    /// Elements that share no node with the others.
+    /// Elements that share no node with the rest.
     #[error(
         "element {element}{} shares no node with the rest of the mesh; merge nodes that lie in one place, or leave out what does \
          not belong to the wheel",
@@ -218,50 +218,50 @@ pub enum TableProblem {
         }
     )]
     ElementsApart {
-        /// The first of them, by its number.
+        /// Number of the first of these elements.
         element: u64,
-        /// How many more belong to it.
+        /// Number of further elements connected to it.
         others: usize,
     },
-    /// A node that can move and belongs to no element.
+    /// Node that can move and belongs to no element.
     #[error(
         "node {node} has degrees of freedom but belongs to no element of {elements}; add its elements, or leave the mesh out \
          of sector.json"
     )]
     NoElement {
-        /// The node.
+        /// Id of the node.
         node: u64,
         /// File name of the element table.
         elements: String,
     },
-    /// A face of an element on the low cut that the high cut has not, or the other way round.
+    /// Face of an element on one cyclic face that has no copy on the other.
     #[error(
         "element {element} has a face on the {side} cyclic face that no element repeats on the other; mesh both faces alike"
     )]
     FaceNotRepeated {
-        /// Its number.
+        /// Number of the element.
         element: u64,
-        /// `low` or `high`.
+        /// Cyclic face: `low` or `high`.
         side: &'static str,
     },
-    /// Nothing in the table.
+    /// Table without rows.
     #[error("the table has no rows")]
     Empty,
-    /// More rows than the limit.
+    /// Table with more rows than the limit.
     #[error("the table has more than the {limit} rows this server accepts")]
     TooManyRows {
-        /// Configured limit.
+        /// Largest number of rows, as configured.
         limit: usize,
     },
-    /// No newline for very long.
+    /// Line that is too long.
     #[error("the line is longer than {limit} bytes; is this a text file?")]
     LineTooLong {
-        /// The longest line accepted.
+        /// Longest line accepted, in bytes.
         limit: usize,
     },
 }
 
-/// `C3D4, C3D6, …`.
+/// List of the known types, `C3D4, C3D6, …`.
 fn known_types() -> String {
     ElementKind::ALL.map(ElementKind::name).join(", ")
 }

@@ -1,8 +1,8 @@
 //! Noise of matrices that were written with few digits.
 //!
-//! Round-off of the entries holds rigid motions by forces that are not there. In a mode of a blade each element moves nearly rigidly, most of
-//! all at the tip, so the same forces, times the amplitudes of such a mode, change the square of its frequency by about (w·F)/(w·M w), summed
-//! over nodes as independent errors are.
+//! Round-off of the entries makes forces against rigid motions, where there should be none. In a mode of a blade each element moves nearly
+//! rigidly, most of all at the tip, so the same forces, times the amplitudes of such a mode, change the square of its frequency by about
+//! (w·F)/(w·M w), summed over nodes as independent errors are.
 
 use rubmap_solid::frame::distance;
 use rubmap_wheel::dynamics::findings::DigitNoise;
@@ -12,8 +12,8 @@ use crate::package::check::layout::Layout;
 use crate::package::raw::{RawMatrix, RawPackage};
 use crate::package::units;
 
-/// The estimate is so many times what independent errors give: equal entries are rounded alike. Wheels with blades of 0.3 to 3 mm
-/// (`tests/package/findings.rs`) change by 0.05 to 6 times as much as is said then.
+/// Factor from independent errors to the estimate: equal entries are rounded alike. Wheels with blades of 0.3 to 3 mm
+/// (`tests/package/findings.rs`) then change by 0.05 to 6 times the estimate.
 const SAFETY: f64 = 4.0;
 
 /// Entries whose digits are counted.
@@ -22,7 +22,7 @@ const LOOKED_AT: usize = 1000;
 /// Relative forces below this are those of ten digits and more.
 const ALL_DIGITS: f64 = 1e-10;
 
-/// Noise of the stiffness matrix at rest, by the nodes that it leaves in balance; none where all digits are there.
+/// Noise of the stiffness matrix at rest, from the nodes that it leaves in balance; none where all digits are there.
 pub(super) fn find(
     body: &Body,
     balance: &Balance,
@@ -68,7 +68,7 @@ fn has_all_digits(stiffness: &RawMatrix) -> bool {
     2 * looked_at.iter().filter(is_short).count() < looked_at.len()
 }
 
-/// Amplitude of each node in a mode of the blade: from 1 at the contact nodes down to 0 at half their line's length from them.
+/// Amplitude of each node in a mode of the blade: from 1 at the contact nodes down to 0 at half the length of their line away from them.
 fn amplitudes(package: &RawPackage, layout: &Layout, size: f64) -> Vec<f64> {
     let contact: Vec<[f64; 3]> =
         layout.contact.iter().map(|&node| package.nodes[node as usize].position).collect();

@@ -33,7 +33,7 @@ pub(in crate::package) fn of(
     })
 }
 
-/// Mass of a sector along its axis, clamped nodes aside.
+/// Mass of a sector in a translation along its axis, without clamped nodes.
 fn free_mass(sector: &SectorModel, layout: &Layout) -> f64 {
     let mut along = vec![0.0; sector.own_dofs()];
     for rows in layout.rows_of_node.iter().filter(|rows| !rows.contains(&NONE)) {

@@ -1,4 +1,4 @@
-//! Findings about a package that passed every check: its size in SI units, and what in it looks wrong.
+//! Findings about a package that passed every check: its size in SI units, and what looks wrong in it.
 //!
 //! ```text
 //! K(0), positions ──▶ rigid motions ──▶ nodes in balance ──▶ digits of the matrices
@@ -24,7 +24,7 @@ use super::error::PackageError;
 use super::raw::RawPackage;
 use rigid::{Balance, Body};
 
-/// Findings of rigid motions of the sector against its matrices; its size is still to be told.
+/// Findings from rigid motions of the sector and its matrices; the size is added later.
 ///
 /// # Errors
 /// Rows in another order or frame than the package says.

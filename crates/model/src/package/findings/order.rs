@@ -1,7 +1,7 @@
 //! Rows in another order or frame than the package says.
 //!
-//! A package is refused only if another reading of its rows, of those that exports are known for, puts nodes in balance that
-//! are not as it is stated, and spoils none: matrices that no reading balances may be of something else than an elastic solid.
+//! A package is refused only if another reading of its rows, one that exports are known for, puts nodes in balance that are not in balance
+//! as stated, and takes none out of balance: matrices that no reading balances may belong to something other than an elastic solid.
 
 use std::f64::consts::TAU;
 
@@ -47,14 +47,14 @@ pub(super) fn check(
 
 /// Reading that balances more nodes than the stated one.
 struct Candidate {
-    /// Field of the manifest that says otherwise.
+    /// Field of the manifest that states the reading.
     field: &'static str,
     meant: RowReading,
-    /// Nodes in balance.
+    /// Number of nodes in balance.
     found: usize,
 }
 
-/// Readings of the rows that exports are known for, each with the field of the manifest that says otherwise.
+/// Readings of the rows that exports are known for, each with the field of the manifest that states the reading.
 fn readings<'a>(
     body: &'a Body,
     package: &'a RawPackage,
@@ -92,7 +92,7 @@ fn readings<'a>(
     frames.chain(turned).chain(ordered)
 }
 
-/// Rows of the DOF table in the orders that exports have them in.
+/// Rows of the DOF table in the orders of known exports.
 fn orders(package: &RawPackage, layout: &Layout) -> Vec<(RowReading, Vec<u32>)> {
     let node = |row: u32| layout.node_of_row[row as usize];
     let id = |row: u32| package.dofs[row as usize].node;

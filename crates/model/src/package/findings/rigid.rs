@@ -1,7 +1,7 @@
 //! Rigid motions of a sector, and the nodes at which K(0) gives no force against them.
 //!
-//! An elastic stiffness gives none at a node that no clamp, support or cyclic face touches: what is left there is the
-//! round-off of the entries as they were written.
+//! An elastic stiffness gives no force at a node that no clamp, support or cyclic face touches, except for the round-off of the entries as
+//! they were written.
 
 use nalgebra::Vector3;
 use rubmap_solid::frame::Basis;
@@ -9,30 +9,30 @@ use rubmap_solid::frame::Basis;
 use crate::package::check::layout::{Layout, NONE};
 use crate::package::raw::{Frame, RawMatrix, RawPackage};
 
-/// Rigid motions: three translations and three turns.
+/// Number of rigid motions: three translations and three rotations.
 pub(super) const MOTIONS: usize = 6;
 
-/// Forces below this part of Σ|K_ij| times the size of the sector are balance: entries of four digits leave 1e-6, a node at a
-/// wrong place 1e-3 and more.
+/// Part of Σ|K_ij| times the size of the sector below which forces are in balance: entries of four digits leave 1e-6, a node at a wrong
+/// position 1e-3 and more.
 const IN_BALANCE: f64 = 1e-5;
 
-/// One number of every motion.
+/// Value for every rigid motion.
 pub(super) type OfMotions = [f64; MOTIONS];
 
-/// Nodes of a sector with their places, and the rows that the package gives them.
+/// Nodes of a sector with their positions, and the rows that the package gives them.
 pub(super) struct Body {
-    /// Places from the middle of the sector.
+    /// Positions from the middle of the sector.
     positions: Vec<Vector3<f64>>,
-    /// Parts of the places normal to the axis, from the axis.
+    /// Parts of the positions normal to the axis, from the axis.
     from_axis: Vec<Vector3<f64>>,
     axis: Vector3<f64>,
     /// Local unit vectors (r, θ, z) of each node.
     cylindrical: Vec<Basis>,
     pub(super) stated: Reading,
-    /// Whether a node is on a cyclic face.
+    /// Whether each node is on a cyclic face.
     pub(super) on_face: Vec<bool>,
     rows: usize,
-    /// Largest distance from the middle.
+    /// Largest distance of a node from the middle.
     pub(super) size: f64,
 }
 
@@ -92,14 +92,14 @@ impl Body {
     }
 
     /// Displacement of a node in a motion, global components: motions 0 to 2 move it by the size of the sector along x, y and z, 3 to 5
-    /// turn it by 1 rad about its middle.
+    /// turn it by 1 rad about the middle of the sector.
     fn displacement(&self, node: usize, motion: usize) -> Vector3<f64> {
         let mut unit = Vector3::zeros();
         unit[motion % 3] = 1.0;
         if motion < 3 { unit * self.size } else { unit.cross(&self.positions[node]) }
     }
 
-    /// Vector about which a motion turns, of length 1, or 0 for a translation.
+    /// Unit vector about which a motion turns; 0 for a translation.
     pub(super) fn turn(motion: usize) -> Vector3<f64> {
         let mut unit = Vector3::zeros();
         if motion >= 3 {
@@ -108,7 +108,7 @@ impl Body {
         unit
     }
 
-    /// All motions by row.
+    /// Displacements of all motions by row.
     pub(super) fn motions(&self, reading: &Reading) -> Vec<OfMotions> {
         self.by_row(reading, |node, motion| self.displacement(node, motion))
     }
@@ -176,9 +176,9 @@ pub(super) fn forces(matrix: &RawMatrix, motions: &[OfMotions]) -> Vec<OfMotions
 
 /// Inner nodes that K(0) leaves in balance.
 pub(super) struct Balance {
-    /// Whether a node is one of them.
+    /// Whether each node is in balance.
     pub(super) nodes: Vec<bool>,
-    /// Forces against the motions.
+    /// Forces against the motions, by row.
     pub(super) forces: Vec<OfMotions>,
     /// Median of the largest force at nodes in balance, as a part of Σ|K_ij| times the size of the sector.
     pub(super) residual: f64,

@@ -1,5 +1,5 @@
-//! Whether K(Ω) − K(0) is what spinning adds on the undeformed geometry, without knowing the stresses (docs/method.md,
-//! Centrifugal stiffening).
+//! Test whether K(Ω) − K(0) is the effect of spinning on the undeformed geometry, without knowing the stresses (docs/method.md, Centrifugal
+//! stiffening).
 //!
 //! Move the sector rigidly, w = t + a × x. The elastic stiffness gives no force; the geometric stiffness turns the nodal
 //! forces that the stresses balance, K_σ w = a × Ω² M x⊥ where nothing else holds a node (x⊥ is the part of x
@@ -19,28 +19,28 @@ use crate::package::raw::{RawMatrix, RawPackage};
 use crate::package::units;
 use rubmap_wheel::dynamics::findings::SpinFinding;
 
-/// Residuals up to this are undeformed geometry; printed stresses of seven digits leave 1e-7.
+/// Largest residual of matrices on the undeformed geometry; printed stresses of seven digits leave 1e-7.
 const SOUND: f64 = 1e-3;
 
 /// Largest relative residual of the best-fitting shares at which they are reported.
 const FITS: f64 = 0.05;
 
-/// Shares this near to 1 pass: stress and mass may be integrated by different quadratures.
+/// Largest difference of a share from 1 that passes: stress and mass may be integrated by different quadratures.
 const NEARLY: f64 = 0.02;
 
-/// Round-off of K(0) beyond this part of the right-hand side hides it.
+/// Largest round-off of K(0), as a part of the right-hand side, that does not hide it.
 const HIDDEN: f64 = 0.03;
 
-/// Round-off may add so many times its own size to a residual.
+/// Factor by which round-off may add to a residual.
 const ROUND_OFF: f64 = 3.0;
 
-/// Largest standard deviation at which a share is reported that round-off hides in single rows.
+/// Largest standard deviation of a share that is reported although round-off hides it in single rows.
 const KNOWN: f64 = 0.05;
 
-/// Shares that round-off leaves may be this far from 1.
+/// Largest difference from 1 of shares that round-off leaves.
 const AS_SAID: f64 = 0.3;
 
-/// Holds K(Ω) at `speed`, rad/s, against the identity, at nodes that K(0) leaves in balance.
+/// Compares K(Ω) at `speed`, rad/s, with the identity, at nodes that K(0) leaves in balance.
 pub(super) fn find(
     body: &Body,
     balance: &Balance,
@@ -76,7 +76,7 @@ struct Sums {
     products: [[f64; 3]; 3],
     /// Sum of (found − turned + softening)².
     residual: f64,
-    /// Sum of the squared forces of K(0), which should be none.
+    /// Sum of the squared forces of K(0), which should be zero.
     noise: f64,
     /// Number of rows and motions that were added.
     rows: f64,

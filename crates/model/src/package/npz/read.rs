@@ -1,4 +1,4 @@
-//! Reading matrices as scipy writes them.
+//! Reader of matrices as scipy writes them.
 
 use std::fs::File;
 use std::io::BufReader;
@@ -15,7 +15,7 @@ use crate::package::quote::quoted;
 use crate::package::raw::RawMatrix;
 use crate::package::symmetric::{self, Entry, Mirror};
 
-/// Reserve room for at most this many entries on a header's word; more room is made as they really come.
+/// Largest number of entries for which room is reserved on a header's word; more room is made as entries really come.
 const TRUSTED_ENTRIES: u64 = 1 << 22;
 
 /// Reads a matrix of `dofs` rows.
@@ -100,7 +100,7 @@ struct Triangles {
     mirror: Mirror,
     lower: Vec<Entry>,
     upper: Vec<Entry>,
-    /// The first entry that is not a finite number, counted from 1.
+    /// First entry that is not a finite number, counted from 1.
     not_finite: Option<(u64, u64)>,
 }
 
@@ -125,7 +125,7 @@ impl Triangles {
     }
 }
 
-/// The arrays of one `.npz` file, each hashed as it is read.
+/// Arrays of one `.npz` file, each hashed as it is read.
 struct Arrays<'a> {
     archive: &'a Archive,
     file: &'a str,
@@ -190,7 +190,7 @@ impl<'a> Arrays<'a> {
         Ok((shape[0], shape[1]))
     }
 
-    /// Rows or columns, each below `size`.
+    /// Reads the indices of rows or columns, each below `size`.
     fn indices(
         &mut self,
         array: &'static str,
@@ -223,7 +223,7 @@ impl<'a> Arrays<'a> {
         }
     }
 
-    /// The `size + 1` pointers to the starts of the rows or columns.
+    /// Reads the `size + 1` pointers to the starts of the rows or columns.
     fn pointers(&mut self, size: usize, entries: u64) -> Result<Vec<u64>, PackageError> {
         self.read("indptr", |npy| {
             if npy.length()? != size as u64 + 1 {
@@ -245,7 +245,7 @@ impl<'a> Arrays<'a> {
         })
     }
 
-    /// Over all arrays read, under their names; how they are zipped does not count.
+    /// SHA-256 over all arrays read, under their names; how they are zipped does not count.
     fn sha256(mut self) -> [u8; 32] {
         self.hashes.sort_unstable();
         let mut total = Sha256::new();

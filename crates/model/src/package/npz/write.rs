@@ -1,4 +1,4 @@
-//! Writing matrices as scipy does.
+//! Writer of matrices as scipy writes them.
 
 use std::io::{self, Seek, Write};
 
@@ -10,8 +10,7 @@ use crate::package::symmetric::Entry;
 
 /// Writes the lower triangle in compressed columns, as scipy would: `scipy.sparse.load_npz` reads it.
 ///
-/// Indices are deflated, which makes them several times smaller; values are stored, which no deflating would shrink
-/// by much.
+/// Indices are deflated, which makes them several times smaller; values are stored, as deflating would hardly shrink them.
 pub(crate) fn write(matrix: &RawMatrix, out: impl Write + Seek) -> io::Result<()> {
     let mut sorted: Vec<&Entry> = matrix.entries.iter().collect();
     sorted.sort_by_key(|entry| (entry.1, entry.0));

@@ -1,4 +1,4 @@
-//! `.npz` files as numpy writes them: a zip of arrays, one after the other.
+//! Writer of `.npz` files as numpy writes them: a zip of arrays, one after the other.
 
 use std::io::{self, BufWriter, Seek, Write};
 
@@ -8,7 +8,7 @@ use zip::{CompressionMethod, ZipWriter};
 
 use crate::package::npy;
 
-/// Writes an `.npz` file array by array, in constant memory; `numpy.load` reads it.
+/// Writer of an `.npz` file array by array, in constant memory; `numpy.load` reads the file.
 ///
 /// ```
 /// use rubmap_model::package::NpzWriter;
@@ -26,22 +26,22 @@ pub struct NpzWriter<W: Write + Seek> {
 }
 
 impl<W: Write> NpzWriter<StreamWriter<W>> {
-    /// Into what can only be written to from its begin to its end.
+    /// Writer into a stream, which can only be written from its beginning to its end.
     pub fn stream(out: W) -> Self {
         Self { zip: ZipWriter::new_stream(out) }
     }
 }
 
 impl<W: Write + Seek> NpzWriter<W> {
-    /// Into a file.
+    /// Writer into a file.
     pub(super) fn new(out: W) -> Self {
         Self { zip: ZipWriter::new(out) }
     }
 
-    /// An array of float64.
+    /// Writes an array of float64.
     ///
     /// # Errors
-    /// Those of writing, here and below.
+    /// Errors of writing.
     pub fn reals(
         &mut self,
         name: &str,
@@ -51,10 +51,10 @@ impl<W: Write + Seek> NpzWriter<W> {
         self.reals_by(name, shape, |take| values.into_iter().try_for_each(take))
     }
 
-    /// An array of float64 whose elements `give` hands over one by one, in the order of C.
+    /// Writes an array of float64 whose elements `give` passes one by one, in the order of C.
     ///
     /// # Errors
-    /// Also those of `give`.
+    /// Errors of writing and of `give`.
     pub fn reals_by(
         &mut self,
         name: &str,
@@ -67,10 +67,10 @@ impl<W: Write + Seek> NpzWriter<W> {
         file.flush()
     }
 
-    /// An array of int64.
+    /// Writes an array of int64.
     ///
     /// # Errors
-    /// Those of writing.
+    /// Errors of writing.
     pub fn integers(
         &mut self,
         name: &str,
@@ -81,19 +81,19 @@ impl<W: Write + Seek> NpzWriter<W> {
         self.elements(name, CompressionMethod::Deflated, "<i8", shape, values)
     }
 
-    /// An array of uint64: numbers that users gave, which may be larger than int64 holds.
+    /// Writes an array of uint64: numbers that users gave, which may be larger than int64 holds.
     ///
     /// # Errors
-    /// Those of writing.
+    /// Errors of writing.
     pub fn ids(&mut self, name: &str, shape: &[usize], ids: impl IntoIterator<Item = u64>) -> io::Result<()> {
         let ids = ids.into_iter().map(u64::to_le_bytes);
         self.elements(name, CompressionMethod::Deflated, "<u8", shape, ids)
     }
 
-    /// An array of truth values.
+    /// Writes an array of truth values.
     ///
     /// # Errors
-    /// Those of writing.
+    /// Errors of writing.
     pub fn flags(
         &mut self,
         name: &str,
@@ -104,10 +104,10 @@ impl<W: Write + Seek> NpzWriter<W> {
         self.elements(name, CompressionMethod::Deflated, "|b1", shape, values)
     }
 
-    /// An array of texts, each as wide as the longest.
+    /// Writes an array of texts, each as wide as the longest.
     ///
     /// # Errors
-    /// Those of writing.
+    /// Errors of writing.
     pub fn texts(&mut self, name: &str, shape: &[usize], values: &[impl AsRef<str>]) -> io::Result<()> {
         let characters = |text: &str| text.chars().count();
         let width = values.iter().map(|text| characters(text.as_ref())).max().unwrap_or(0).max(1);
@@ -119,7 +119,7 @@ impl<W: Write + Seek> NpzWriter<W> {
         self.elements(name, CompressionMethod::Deflated, &format!("<U{width}"), shape, padded)
     }
 
-    /// An array of any type that numpy knows, from the bytes of its elements.
+    /// Writes an array of any type that numpy knows, from the bytes of its elements.
     pub(super) fn elements<const SIZE: usize>(
         &mut self,
         name: &str,
@@ -133,10 +133,10 @@ impl<W: Write + Seek> NpzWriter<W> {
         file.flush()
     }
 
-    /// Writes what comes after the last array.
+    /// Writes the end of the file, after the last array.
     ///
     /// # Errors
-    /// Those of writing.
+    /// Errors of writing.
     pub fn finish(self) -> io::Result<()> {
         self.zip.finish().map_err(own)?;
         Ok(())
@@ -159,7 +159,7 @@ impl<W: Write + Seek> NpzWriter<W> {
     }
 }
 
-/// The system's own error, by whose number it is known what may pass.
+/// I/O error inside a zip error: the system's own one, whose number tells whether it may pass.
 fn own(error: ZipError) -> io::Error {
     match error {
         ZipError::Io(source) => source,

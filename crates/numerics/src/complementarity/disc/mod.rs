@@ -1,22 +1,21 @@
-//! Contact with Coulomb's friction, whole: at every place a normal force λ on a gap g, and a friction force τ in the contact plane.
+//! Contact with full Coulomb friction: at every place a normal force λ on a gap g, and a friction force τ in the contact plane.
 //!
 //! ```text
 //! 0 ≤ λ ⊥ g = q + (Wx)_n ≥ 0                                    x = (λ, τ₁, τ₂) of every place
 //! |τ| ≤ μλ,   τ |s| = μλ s,   s = free − (Wx)_t                    it sticks (s = 0), or slides against τ in any direction
 //! ```
 //!
-//! s is how far a place slides within a step, `free` how far it would without forces. Among the places that may close, Newton's method
-//! on the projections λ = (λ − r g)₊ and τ = Π(τ + ρs) onto the disc of radius μλ (Alart and Curnier, Computer Methods in Applied
-//! Mechanics and Engineering 92, 1991), from the forces of the last solution, and with its matrix as long as that does: of a place that
-//! sticks all three forces are unknown, of one that slides λ, along the normal and against its sliding, and what turns that. Where this
-//! does not end, sweeps over the places
-//! (Jourdan, Alart and Jean, ibid. 155, 1998), each solved alone and exactly, bring it to another beginning. A solution is one if every
-//! place meets its projections within a tolerance and the round-off of its gap and its sliding.
+//! s is the sliding of a place within a step, `free` its sliding without forces. Among the places that may close, Newton's method solves the
+//! projections λ = (λ − r g)₊ and τ = Π(τ + ρs) onto the disc of radius μλ (Alart and Curnier, Computer Methods in Applied Mechanics and
+//! Engineering 92, 1991). It begins with the forces of the last solution and keeps a matrix as long as it is good enough: at a place that sticks
+//! all three forces are unknown; at one that slides λ, acting along the normal and against the sliding, and the force that turns this direction.
+//! Where Newton's method does not end, sweeps over the places (Jourdan, Alart and Jean, ibid. 155, 1998), each solved alone and exactly, give it
+//! another start. Forces are a solution if every place meets its projections within a tolerance and the round-off of its gap and its sliding.
 //!
-//! W being positive definite, there is one solution as long as the coefficient is small. Beyond, a place that friction presses in by more
-//! than λ lifts it off has several. Those at which the determinant of Newton's matrix is not positive are never ended at
-//! ([`ComplementarityError::NotPMatrix`] if nothing else is found): pieces of a map that is one to one are all oriented alike
-//! (Scholtes, Introduction to Piecewise Differentiable Equations, 2012).
+//! W being positive definite, there is one solution as long as the coefficient is small. With a larger coefficient, a place has several
+//! where friction presses it in by more than λ lifts it off. Solutions at which the determinant of Newton's matrix is not positive are
+//! never returned ([`ComplementarityError::NotPMatrix`] if nothing else is found): pieces of a map that is one to one are all oriented
+//! alike (Scholtes, Introduction to Piecewise Differentiable Equations, 2012).
 
 mod place;
 #[cfg(test)]
@@ -28,12 +27,12 @@ use super::{ComplementarityError, any_below};
 pub use place::{Block, Forces};
 use place::{State, alone, dot, meet};
 
-/// W, given by its blocks.
+/// Contact operator W, given by its blocks.
 pub trait DiscOperator {
-    /// What forces at place `j` move at place `i`.
+    /// Block of W: displacements at place `i` by unit forces at place `j`.
     fn block(&self, i: usize, j: usize) -> Block;
 
-    /// `gap` = q + (Wx)_n, x given at the `active` places and zero elsewhere. Entries that are positive whatever the signs of W's
+    /// Writes `gap` = q + (Wx)_n, x given at the `active` places and zero elsewhere. Entries that are positive whatever the signs of W's
     /// entries may keep the value of q instead: the solver needs to know no more of them.
     fn gaps(&self, active: &[usize], forces: &[Forces], q: &[f64], gap: &mut [f64]);
 }
@@ -41,20 +40,20 @@ pub trait DiscOperator {
 /// Solver with its workspace and the last forces.
 #[derive(Debug, Clone)]
 pub struct DiscSolver {
-    /// What may close, ascending, and for what `blocks` is W among them, row by row.
+    /// Places that may close, ascending; `blocks` is W among the places `gathered`, row by row.
     places: Vec<usize>,
     gathered: Vec<usize>,
     blocks: Vec<Block>,
-    /// (q, −free), forces, and (g, −s) of each.
+    /// Values (q, −free) of each of the places; `x` are their forces, `y` their (g, −s).
     known: Vec<Forces>,
     x: Vec<Forces>,
     y: Vec<Forces>,
     states: Vec<State>,
-    /// Round-off of (g, −s) where it is largest, length.
+    /// Largest round-off of (g, −s) over the places, length.
     noise: f64,
     unknowns: Vec<Unknown>,
     numbers: Vec<usize>,
-    /// Names of the unknowns of `factor`.
+    /// Names of the unknowns that `factor` was made for.
     factored: Vec<usize>,
     right: Vec<f64>,
     factor: Lu,
@@ -69,14 +68,13 @@ pub struct DiscSolver {
     statistics: PivotStatistics,
 }
 
-/// A number that Newton's method looks for, `value·trial` being its part in the forces of a place, and its equation:
-/// own·value + testᵀ(known + Wx) = 0.
+/// Unknown of Newton's method, `value·trial` being its part in the forces of a place, and its equation: own·value + testᵀ(known + Wx) = 0.
 #[derive(Debug, Clone, Copy)]
 struct Unknown {
     place: usize,
-    /// Of what and of which place it is.
+    /// Name of the unknown, by its place and its kind.
     name: usize,
-    /// Where it begins.
+    /// Value before the step.
     value: f64,
     trial: Forces,
     test: Forces,
@@ -86,16 +84,16 @@ struct Unknown {
 /// Places whose blocks and unknowns are reserved beforehand; more of them at once make them grow, once.
 const RESERVED: usize = 64;
 
-/// Round-off of a gap or a sliding relative to the magnitude of its terms, what solving leaves included.
+/// Round-off of a gap or a sliding relative to the magnitude of its terms, including what solving leaves.
 const ROUND_OFF: f64 = 64.0 * f64::EPSILON;
 
-/// What is left after a step with an earlier matrix, if that is to do for another one.
+/// Error after a step, relative to the error before it, below which the next step may use an earlier matrix.
 const ENOUGH: f64 = 0.03;
 
 /// Kinds of unknowns that a place may have: three where it sticks, two where it slides.
 const KINDS: usize = 5;
 
-/// Share of a force that is put right by the next step.
+/// Change of a force, relative to the forces of its place, that is left to the next step to correct.
 const NEGLIGIBLE: f64 = 1e-6;
 
 /// Steps of Newton's method before sweeps, sweeps before its next attempt, and attempts.
@@ -184,27 +182,27 @@ impl DiscSolver {
         &self.active
     }
 
-    /// λ of the active places, in their order.
+    /// Normal forces λ of the active places, in their order.
     pub fn lambda(&self) -> &[f64] {
         &self.lambda
     }
 
-    /// λ and τ of the active places, in their order.
+    /// Forces λ and τ of the active places, in their order.
     pub fn forces(&self) -> &[Forces] {
         &self.forces
     }
 
-    /// Which of the active places stick.
+    /// Whether each of the active places sticks.
     pub fn sticks(&self) -> &[bool] {
         &self.sticks
     }
 
-    /// g of every place that the forces could have brought near zero, q of the others.
+    /// Gaps g of every place that the forces could have brought near zero, q of the others.
     pub fn gap(&self) -> &[f64] {
         &self.gap
     }
 
-    /// s of the active places, in their order.
+    /// Sliding s of the active places, in their order.
     pub fn sliding(&self) -> &[[f64; 2]] {
         &self.sliding
     }
@@ -227,7 +225,7 @@ impl DiscSolver {
         self.gathered.extend_from_slice(&self.places);
     }
 
-    /// Forces among the places, in `x`.
+    /// Solves for the forces among the places, in `x`.
     #[inline(never)]
     fn solve_places(&mut self, coefficient: f64, tolerance: f64) -> Result<(), ComplementarityError> {
         let before = self.statistics.candidates;
@@ -254,7 +252,7 @@ impl DiscSolver {
         Err(why.unwrap_or(ComplementarityError::NotSolved { pivots: steps }))
     }
 
-    /// (g, −s) and state of every place under `x`; the most that any is off its projections, over what is allowed.
+    /// Computes (g, −s) and state of every place under `x`; returns the largest error of the projections over what is allowed.
     fn look(&mut self, coefficient: f64, tolerance: f64) -> f64 {
         let count = self.places.len();
         self.y.clear();
@@ -286,7 +284,7 @@ impl DiscSolver {
         most
     }
 
-    /// A step of Newton's method; with the matrix of an earlier one, if that `may` do and has the same unknowns.
+    /// Takes a step of Newton's method; with the matrix of an earlier one, if it `may` and has the same unknowns.
     fn step(&mut self, coefficient: f64, may: bool) -> Result<(), ComplementarityError> {
         self.list_unknowns(coefficient);
         let count = self.places.len();
@@ -318,7 +316,7 @@ impl DiscSolver {
         Ok(())
     }
 
-    /// The unknowns of the states, from where they begin. Forces that the states do not have are taken off (g, −s).
+    /// Lists the unknowns of the states with their values before the step. Forces that the states do not have are taken off (g, −s).
     fn list_unknowns(&mut self, coefficient: f64) {
         self.unknowns.clear();
         for place in 0..self.places.len() {
@@ -369,7 +367,7 @@ impl DiscSolver {
         }
     }
 
-    /// Solves one place after the other while the others stay, until none changes or often enough.
+    /// Solves one place after the other while the others stay, until none changes or [`SWEEPS`] times.
     fn sweep(&mut self, coefficient: f64, tolerance: f64) {
         let count = self.places.len();
         // What a step of Newton's method left may be anything.
@@ -399,7 +397,7 @@ impl DiscSolver {
         }
     }
 
-    /// Keeps the forces that were found.
+    /// Stores the forces that were found.
     fn keep(&mut self, coefficient: f64) {
         for &i in &self.active {
             self.last[i] = [0.0; 3];

@@ -1,17 +1,17 @@
-//! One place: how far its forces are from what its gap and its sliding ask for, and what they are while all others stay.
+//! Forces of one place: their distance from the projections, and their solution while all other places stay.
 
-/// Along the normal, and two directions of the contact plane.
+/// Forces at a place: along the normal, and in two directions of the contact plane.
 pub type Forces = [f64; 3];
 
-/// What forces at one place move at another, `[of][by]`.
+/// Block of W: displacements at one place by unit forces at another, `[of][by]`.
 pub type Block = [[f64; 3]; 3];
 
-/// Which of its projections a place is on.
+/// State of contact of a place: the piece of its projections that it is on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum State {
     Open,
     Sticks,
-    /// Against τ along `direction`; the projection shortens τ + ρs by `share`.
+    /// Sliding, against τ along `direction`; the projection shortens τ + ρs by the factor `share`.
     Slides {
         direction: [f64; 2],
         share: f64,
@@ -19,7 +19,7 @@ pub(super) enum State {
     },
 }
 
-/// State of a place with forces `x`, gap and sliding `y`, and how far from its projections it is, as a length.
+/// State of a place with forces `x`, gap and sliding `y`, and its distance from its projections, as a length.
 pub(super) fn meet(w: &Block, x: &Forces, y: &Forces, coefficient: f64) -> (State, f64) {
     let (rigidity, scale) = (1.0 / w[0][0], 1.0 / (w[1][1] + w[2][2]));
     let lambda = x[0] - rigidity * y[0];
@@ -37,7 +37,7 @@ pub(super) fn meet(w: &Block, x: &Forces, y: &Forces, coefficient: f64) -> (Stat
     (State::Slides { direction, share, scale }, y[0].abs().max(away[0].hypot(away[1]) / scale))
 }
 
-/// Directions in which the sliding of one place is looked for.
+/// Directions in which the sliding of one place is searched.
 const DIRECTIONS: u32 = 36;
 
 /// Forces of one place whose gap is y_n and sliding −y_t without them; none if it slides in no direction.

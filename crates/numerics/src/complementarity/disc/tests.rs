@@ -7,7 +7,7 @@ use super::super::factor::Lu;
 use super::*;
 use crate::fixed::fixed;
 
-/// W over all numbers of all places.
+/// Dense W over all forces of all places.
 struct Dense(DMatrix<f64>);
 
 impl Dense {
@@ -29,7 +29,7 @@ impl DiscOperator for Dense {
     }
 }
 
-/// AᵀA/n + ridge·I + S − Sᵀ from numbers of [−1, 1].
+/// Operator AᵀA/n + ridge·I + S − Sᵀ from numbers of [−1, 1].
 fn operator(places: usize, numbers: &[f64], ridge: f64, skew: f64) -> Dense {
     let n = 3 * places;
     let a = DMatrix::from_fn(n, n, |i, j| numbers[(31 * i + j) % numbers.len()]);
@@ -37,7 +37,7 @@ fn operator(places: usize, numbers: &[f64], ridge: f64, skew: f64) -> Dense {
     Dense(a.transpose() * a / n as f64 + DMatrix::identity(n, n) * ridge + &s - s.transpose())
 }
 
-/// Forces of every number.
+/// Forces of every place, in one vector.
 fn spread(solver: &DiscSolver, places: usize) -> DVector<f64> {
     let mut x = DVector::zeros(3 * places);
     for (&i, forces) in solver.active().iter().zip(solver.forces()) {
@@ -53,7 +53,7 @@ fn solve(solver: &mut DiscSolver, w: &Dense, mu: f64, known: &DVector<f64>) -> D
     spread(solver, w.size())
 }
 
-/// A problem made from its solution: places that are open, stick, slide slowly and fast, by what `kinds` says.
+/// Problem made from its solution: places that are open, stick, slide slowly and fast, as `kinds` has them.
 fn made(w: &Dense, mu: f64, kinds: &[u32], numbers: &[f64]) -> (DVector<f64>, DVector<f64>) {
     let (mut x, mut y) = (DVector::zeros(3 * kinds.len()), DVector::zeros(3 * kinds.len()));
     for (i, (&kind, n)) in kinds.iter().zip(numbers.chunks_exact(4)).enumerate() {
@@ -84,7 +84,7 @@ fn made(w: &Dense, mu: f64, kinds: &[u32], numbers: &[f64]) -> (DVector<f64>, DV
 proptest! {
     #![proptest_config(fixed(256))]
 
-    /// The solutions that problems were made from, symmetric or not, one after the other by one solver, whose start is then anywhere.
+    /// Problems made from their solutions, symmetric or not, are solved one after the other by one solver, whose start is then anywhere.
     #[test]
     fn finds_the_solutions_problems_were_made_from(
         places in 1usize..7,
@@ -142,7 +142,7 @@ proptest! {
         }
     }
 
-    /// Without friction the forces are those of the problem of the gaps.
+    /// Forces without friction are those of the problem of the gaps.
     #[test]
     fn no_coefficient_is_no_friction(
         places in 1usize..7,
@@ -197,9 +197,9 @@ fn a_block_on_a_plane_sticks_or_slides() {
     }
 }
 
-/// Friction along the plane presses in by more than the normal force lifts off above μ = W_nn/|W_nt| = 0.5. Of a gap that is open it
-/// then has three solutions: it stays open, it digs in and sticks, and it slides in between, where the determinant is negative. A
-/// start beside that one does not end there.
+/// Friction along the plane presses in by more than the normal force lifts off above μ = W_nn/|W_nt| = 0.5. An open gap then has three
+/// solutions: it stays open, it digs in and sticks, and it slides in between, where the determinant is negative. A start beside the sliding
+/// solution does not end there.
 #[test]
 fn does_not_end_where_the_orientation_is_another() {
     let mut w = DMatrix::identity(6, 6);
@@ -232,7 +232,7 @@ fn keeps_what_lasts() {
     assert!(solver.statistics().candidates <= 600, "{:?}", solver.statistics());
 }
 
-/// Whatever the coefficient, how W is conditioned, and where the search begins, nothing is given up.
+/// Every problem is solved, whatever the coefficient, the conditioning of W and the start.
 #[test]
 fn random_problems_take_some_steps() {
     let mut seed = 88_172_645_463_325_252_u64;

@@ -49,16 +49,16 @@ struct Bar {
     elements: usize,
     step: f64,
     run: Run,
-    /// `[node][step]`, displacement in the frame the bar starts in (falling, or at rest), upwards.
+    /// Displacements `[node][step]` in the frame the bar starts in (falling, or at rest), upwards.
     displacement: Vec<Vec<f64>>,
 }
 
-/// Sound crosses `courant` elements in a step.
+/// Step in which sound crosses `courant` elements.
 fn courant_step(elements: usize, courant: f64) -> f64 {
     courant * LENGTH / elements as f64 / WAVE_SPEED
 }
 
-/// The lower end, which the ground pushes upwards.
+/// Lower end of the bar, which the ground pushes upwards.
 const TIP: [ContactNode; 1] =
     [ContactNode { id: 0, position: [1e9, 0.0, 0.0], normal: [-1.0, 0.0, 0.0], dofs: [0, 1, 2] }];
 
@@ -113,7 +113,7 @@ impl Bar {
         Self::simulate(elements, scheme, step, steps, DROP, &[], Some(table))
     }
 
-    /// Throws it at `speed` against ground in a distance of `clearance`, without gravity, for `duration`.
+    /// Throws a bar at `speed` against ground in a distance of `clearance`, without gravity, for `duration`.
     fn throw(elements: usize, scheme: Scheme, step: f64, duration: f64, clearance: f64, speed: f64) -> Self {
         let steps = (duration / step).round() as usize;
         let shape = bar_modes(elements, duration).harmonics[0].contact[(0, 0)];
@@ -185,8 +185,8 @@ impl Bar {
         (q + 1) as f64 * self.step
     }
 
-    /// Kinetic, elastic and potential energy (zero for a bar at rest on the ground) half-way between steps q and q+1:
-    /// the physical one, not the scheme's conserved form, which is blind to modes at the stability limit.
+    /// Kinetic, elastic and potential energy (zero for a bar at rest on the ground) half-way between steps q and q+1: the physical one, not
+    /// the scheme's conserved form, which is blind to modes at the stability limit.
     fn energy(&self, q: usize) -> f64 {
         let dx = LENGTH / self.elements as f64;
         let t = self.time(q) + 0.5 * self.step;
@@ -234,7 +234,7 @@ fn exact_solution_passes_the_tabulated_heights() {
     }
 }
 
-/// The table of docs/method.md (What it is held against) for central differences with a mass at the contact node, Courant number 0.9:
+/// Table of docs/method.md (What it is held against) for central differences with a mass at the contact node, Courant number 0.9:
 /// (elements, energy change after 1 and 4 periods, tip error in the 1st and 4th).
 #[test]
 fn loses_what_a_mass_at_the_contact_node_loses() {
@@ -265,8 +265,8 @@ fn loses_what_a_mass_at_the_contact_node_loses() {
     }
 }
 
-/// Exactly at the stability limit the displacement still looks right while the energy explodes: why a step is
-/// refused there, and why the energy is audited.
+/// Energy explodes exactly at the stability limit while the displacement still looks right: why a step is refused there, and why the energy
+/// is audited.
 #[test]
 fn energy_explodes_at_the_stability_limit() {
     let bar = Bar::drop(100, Scheme::CentralDifferences, courant_step(100, 1.0), 1);
@@ -274,8 +274,8 @@ fn energy_explodes_at_the_stability_limit() {
     assert!(bar.energy_change(1) > 1.0, "{}", bar.energy_change(1));
 }
 
-/// The same mass at the contact node, the same loss: of the size of central differences' table and like it of first order in
-/// the mesh, though free motion is exact.
+/// Mass at the contact node loses energy with the exact propagator as with central differences: the loss is of the size of their table and
+/// like theirs of first order in the mesh, though free motion is exact.
 #[test]
 fn exact_modal_loses_as_much() {
     let bars = [25, 100, 400].map(|n| Bar::drop(n, Scheme::ExactModal, courant_step(n, 0.9), 1));
@@ -288,7 +288,7 @@ fn exact_modal_loses_as_much() {
     assert!((0.6..1.2).contains(&order), "{order}");
 }
 
-/// The step alone, on fifty elements: the tip over a period against that at a step 32 times as fine.
+/// Order in the step alone, on fifty elements: the tip over a period against that at a step 32 times as fine.
 #[test]
 fn observed_orders() {
     let base = 2048;

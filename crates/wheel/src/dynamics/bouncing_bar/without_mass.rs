@@ -1,10 +1,10 @@
-//! The bouncing bar with a boundary without mass.
+//! Bouncing bar with a boundary without mass.
 
 use super::super::schemes::{Scheme, massless_boundary};
 use super::{Bar, PERIOD, TIP, bar_modes, courant_step};
 
-/// A massless boundary (docs/method.md, A boundary without mass), computed apart, with 15 modes and 5333 steps a period ends ten periods with an error of
-/// 2.4e-2 and an energy drift of 5e-4, where a mass at the contact node has lost nearly all.
+/// Massless boundary (docs/method.md, A boundary without mass), computed apart: with 15 modes and 5333 steps a period it ends ten periods
+/// with an error of 2.4e-2 and an energy drift of 5e-4, where a mass at the contact node has lost nearly all.
 #[test]
 fn a_boundary_without_mass_keeps_the_energy_of_ten_bounces() {
     let bar = Bar::drop(200, Scheme::MasslessBoundary { kept_modes: 15 }, PERIOD / 5333.0, 10);
@@ -17,7 +17,7 @@ fn a_boundary_without_mass_keeps_the_energy_of_ten_bounces() {
     assert!(bar.run.statistics.largest_penetration < 1e-11);
 }
 
-/// Modes kept up to a share of the longest step that is accepted, at Courant number 0.9.
+/// Drops a bar with as many modes kept as are stable at `share` of the number of steps, at Courant number 0.9.
 fn carried(elements: usize, share: f64, periods: usize) -> Bar {
     let step = courant_step(elements, 0.9);
     let steps = (periods as f64 * PERIOD / step).ceil();
@@ -26,8 +26,8 @@ fn carried(elements: usize, share: f64, periods: usize) -> Bar {
     Bar::drop(elements, Scheme::MasslessBoundary { kept_modes }, step, periods)
 }
 
-/// The rows of docs/method.md (What it is held against) for a contact node whose mass was taken away, another model of the same idea: (elements,
-/// energy change and tip error of the first period).
+/// Rows of docs/method.md (What it is held against) for a contact node whose mass was taken away, another model of the same idea:
+/// (elements, energy change and tip error of the first period).
 #[test]
 fn a_boundary_without_mass_is_of_the_size_of_a_massless_node() {
     for (elements, energy, error) in [(25, -0.0010, 0.036), (100, -0.0018, 0.0094), (400, -0.0003, 0.0028)] {
@@ -37,7 +37,7 @@ fn a_boundary_without_mass_is_of_the_size_of_a_massless_node() {
     }
 }
 
-/// At 1.8 times that step each state of the contact is still stable, and bouncing between them is not.
+/// Energy grows at 1.8 times the longest step that is accepted: each state of the contact is still stable, bouncing between them is not.
 #[test]
 fn a_boundary_without_mass_gains_energy_beyond_its_step() {
     let [longest, close] = [1.0, 1.8].map(|share| carried(100, share, 1).energy_change(1));

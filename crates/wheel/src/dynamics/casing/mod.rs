@@ -1,5 +1,4 @@
-//! The casing: clearance along the chord, static restriction in the fixed frame, and its growth (docs/method.md,
-//! Casing and gap).
+//! Casing: clearance along the chord, static restriction in the fixed frame, and its growth (docs/method.md, Casing and gap).
 
 mod restriction;
 mod spline;
@@ -12,9 +11,9 @@ pub use self::table::RestrictionTable;
 /// Rigid casing of revolution with an optional restriction.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Casing {
-    /// c_k, one per contact node, length.
+    /// Clearance c_k of every contact node, length.
     pub clearance: Vec<f64>,
-    /// What narrows the gap; absent: circular.
+    /// Restriction that narrows the gap; absent: circular casing.
     pub restriction: Option<Restriction>,
     /// Revolutions over which the restriction grows from zero.
     pub ramp_revolutions: f64,
@@ -26,8 +25,8 @@ impl Casing {
         ramp(revolutions, self.ramp_revolutions)
     }
 
-    /// The length against which gaps are round-off: largest clearance and restriction, whatever their signs, of each no more than `reach`,
-    /// the farthest that a tip can move.
+    /// Length against which gaps are round-off: largest clearance and restriction, whatever their signs, of each no more than `reach`, the
+    /// farthest that a tip can move.
     pub fn length_scale(&self, reach: f64) -> f64 {
         let clearance = self.clearance.iter().fold(0.0f64, |m, c| m.max(c.abs()));
         clearance.min(reach)
@@ -35,7 +34,7 @@ impl Casing {
     }
 }
 
-/// x²(3 − 2x), x = revolutions/ramp, then 1.
+/// Growth x²(3 − 2x) over the ramp, x = revolutions/ramp, then 1.
 pub(crate) fn ramp(revolutions: f64, ramp_revolutions: f64) -> f64 {
     if revolutions >= ramp_revolutions {
         return 1.0;
@@ -79,7 +78,7 @@ mod tests {
         }
     }
 
-    /// Heights outward of a casing without clearance are lengths, too.
+    /// Scale of gaps of a casing without clearance: heights outward count as lengths, too.
     #[test]
     fn the_scale_of_gaps_is_a_length() {
         let wave = Profile::Wave { order: 0, amplitude: -0.3, phase_rad: 0.0 };

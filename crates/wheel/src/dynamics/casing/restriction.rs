@@ -1,4 +1,4 @@
-//! The casing's height over its surface of revolution: what narrows the gap, in the fixed frame.
+//! Restriction: the casing's height over its surface of revolution, which narrows the gap, in the fixed frame.
 
 use std::f64::consts::{PI, TAU};
 
@@ -6,48 +6,48 @@ use num_integer::gcd;
 
 use super::spline::{ALIKE, PeriodicSpline, narrowest_rad};
 
-/// p(φ) of every contact node, a sum of parts.
+/// Height p(φ) at every contact node, a sum of parts.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Restriction {
-    /// Its parts.
+    /// Parts of the sum.
     pub parts: Vec<Part>,
 }
 
-/// A part of a [`Restriction`].
+/// Part of a [`Restriction`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct Part {
-    /// Its shape around the circumference.
+    /// Shape of the part around the circumference.
     pub profile: Profile,
     /// Factor of the profile at every contact node; absent: the same all along the chord.
     pub along_chord: Option<Vec<f64>>,
 }
 
-/// A shape around the circumference; heights are lengths, angles rad from the package's x axis.
+/// Shape around the circumference; heights are lengths, angles rad from the package's x axis.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Profile {
     /// Equal Gaussian lobes, evenly spaced: A Σ_l exp(−(wrap(φ − φ_l)/w)²), φ_l = 2πl/count + phase.
     Lobes(Lobes),
     /// Gaussian lobes of their own, each A exp(−(wrap(φ − angle)/w)²).
     Each(Vec<Lobe>),
-    /// A cos(order (φ − phase)); of order 0 it is A all around.
+    /// Wave A cos(order (φ − phase)); of order 0 it is A all around.
     Wave {
-        /// Waves around the circumference.
+        /// Number of waves around the circumference.
         order: u32,
-        /// A, length.
+        /// Amplitude A, length.
         amplitude: f64,
         /// Angle of a crest, rad.
         phase_rad: f64,
     },
-    /// Measured.
+    /// Measured curves.
     Measured(Measured),
 }
 
-/// Curves along lines around the circumference, and contact nodes on and between them: a curve between two is linear in theirs.
+/// Curves along lines around the circumference, and contact nodes on and between them: the curve of a node between two lines is linear in theirs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measured {
-    /// Of every line.
+    /// Curve of every line.
     pub curves: Vec<PeriodicSpline>,
-    /// Of every contact node two lines, and the share of the second.
+    /// Two lines of every contact node, and the share of the second.
     pub nodes: Vec<(usize, usize, f64)>,
 }
 
@@ -60,18 +60,18 @@ pub struct Lobes {
     pub amplitude: f64,
     /// Half-width w, rad.
     pub width_rad: f64,
-    /// Angle of the first, rad.
+    /// Angle of the first lobe, rad.
     pub phase_rad: f64,
 }
 
-/// One Gaussian lobe.
+/// Gaussian lobe.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Lobe {
     /// Height A, length; negative of a hollow.
     pub amplitude: f64,
     /// Half-width w, rad.
     pub width_rad: f64,
-    /// Angle of its crest, rad.
+    /// Angle of the lobe's crest, rad.
     pub angle_rad: f64,
 }
 
@@ -82,23 +82,23 @@ impl From<Lobes> for Restriction {
 }
 
 impl Restriction {
-    /// p at an angle and contact node.
+    /// Height p at an angle and contact node.
     pub fn height(&self, angle_rad: f64, node: usize) -> f64 {
         self.parts.iter().map(|part| part.height(angle_rad, node)).sum()
     }
 
-    /// Largest p of any of so many contact nodes, to about a thousandth.
+    /// Largest p of any of `nodes` contact nodes, to about a thousandth.
     pub fn highest(&self, nodes: usize) -> f64 {
         self.extremes(nodes).1
     }
 
-    /// Largest |p|, likewise.
+    /// Largest |p| of any of `nodes` contact nodes, to about a thousandth.
     pub fn largest(&self, nodes: usize) -> f64 {
         let (lowest, highest) = self.extremes(nodes);
         highest.max(-lowest)
     }
 
-    /// Smallest and largest p, likewise.
+    /// Smallest and largest p of any of `nodes` contact nodes, to about a thousandth.
     pub fn extremes(&self, nodes: usize) -> (f64, f64) {
         // A thousand angles over what repeats, and twenty over the narrowest shape: of the narrowest ones about their crests alone.
         const MOST: f64 = 20_000.0;
@@ -116,13 +116,13 @@ impl Restriction {
         heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)))
     }
 
-    /// How often p repeats around the circumference.
+    /// Number of times that p repeats around the circumference.
     pub fn repeats(&self) -> u32 {
         self.parts.iter().map(|part| part.profile.repeats()).fold(0, gcd)
     }
 
-    /// The width that steps have to see: the narrowest half-width of a lobe, an eighth of a wave, and what [`narrowest_rad`]
-    /// finds of measured curves.
+    /// Width that steps have to resolve: the narrowest half-width of a lobe, an eighth of a wave, and that of measured curves as
+    /// [`narrowest_rad`] finds it.
     pub fn narrowest_rad(&self) -> f64 {
         self.parts.iter().map(|part| part.profile.narrowest_rad()).fold(f64::INFINITY, f64::min)
     }
@@ -147,7 +147,7 @@ impl Profile {
         }
     }
 
-    /// How often it repeats; 0 of what is the same all around.
+    /// Number of times that the shape repeats; 0 if it is the same all around.
     fn repeats(&self) -> u32 {
         match self {
             Self::Lobes(lobes) => lobes.count,
@@ -170,7 +170,7 @@ impl Profile {
         }
     }
 
-    /// Angles at which it is highest or lowest.
+    /// Angles at which the shape is highest or lowest.
     fn crests(&self) -> Vec<f64> {
         match self {
             Self::Lobes(lobes) => vec![lobes.phase_rad],
@@ -186,7 +186,7 @@ impl Profile {
 }
 
 impl Measured {
-    /// With a curve for every contact node.
+    /// Curves with one for every contact node.
     pub fn at_each(curves: Vec<PeriodicSpline>) -> Self {
         Self { nodes: (0..curves.len()).map(|node| (node, node, 0.0)).collect(), curves }
     }
@@ -199,7 +199,7 @@ impl Measured {
 }
 
 impl Lobes {
-    /// A Σ_l exp(−(wrap(φ − φ_l)/w)²).
+    /// Height A Σ_l exp(−(wrap(φ − φ_l)/w)²).
     pub fn height(&self, angle_rad: f64) -> f64 {
         let lobe = |l: u32| {
             let centre = TAU * f64::from(l) / f64::from(self.count) + self.phase_rad;
@@ -215,7 +215,7 @@ impl Lobe {
     }
 }
 
-/// Largest m such that a turn by 1/m takes every lobe to one that is the same; 0 of none.
+/// Largest m such that a turn by 1/m takes every lobe to an equal one; 0 of none.
 fn repeats(lobes: &[Lobe]) -> u32 {
     let shown: Vec<&Lobe> = lobes.iter().filter(|lobe| lobe.amplitude != 0.0).collect();
     let is_there = |lobe: &Lobe, turn: f64| {
@@ -229,7 +229,7 @@ fn repeats(lobes: &[Lobe]) -> u32 {
     (1..=count).rev().find(|&m| count.is_multiple_of(m) && same(m)).unwrap_or(0)
 }
 
-/// φ into (−π, π].
+/// Angle φ wrapped into (−π, π].
 fn wrap(angle_rad: f64) -> f64 {
     let turns = angle_rad - TAU * (angle_rad / TAU).round();
     if turns <= -PI { turns + TAU } else { turns }
@@ -269,7 +269,7 @@ mod tests {
         }
     }
 
-    /// What repeats of a sum is what all of its parts have in common; a turn by it changes nothing, by any more often it does.
+    /// Repetition of a sum is what all of its parts have in common; a turn by it changes nothing, by any more often it does.
     #[test]
     fn symmetry_is_what_all_parts_have_in_common() {
         let wave = |order| Profile::Wave { order, amplitude: 0.1, phase_rad: 0.3 };
@@ -316,7 +316,7 @@ mod tests {
         assert!((restriction.narrowest_rad() - 1e-3).abs() < 1e-15);
     }
 
-    /// Sampled lobes come to the lobes as their points come nearer, in fourth order.
+    /// Sampled lobes converge to the lobes as their points come nearer, in fourth order.
     #[test]
     fn measured_lobes_converge_to_the_lobes() {
         let lobes = Lobes { count: 2, amplitude: 0.4, width_rad: 0.35, phase_rad: 0.1 };

@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 /// Practical Guide to Splines, 1978, chapter IV).
 #[derive(Debug, Clone, PartialEq)]
 pub struct PeriodicSpline {
-    /// Ascending, within one turn.
+    /// Angles of the points, ascending, within one turn.
     angles_rad: Vec<f64>,
     values: Vec<f64>,
     /// Second derivatives at the points, per rad².
@@ -14,10 +14,10 @@ pub struct PeriodicSpline {
 }
 
 impl PeriodicSpline {
-    /// Through `values` at `angles_rad`, which ascend strictly within one turn, three at least.
+    /// Spline through `values` at `angles_rad`, which ascend strictly within one turn, three at least.
     ///
     /// # Panics
-    /// If they do not.
+    /// If the angles do not ascend so, or are fewer.
     pub fn new(angles_rad: &[f64], values: &[f64]) -> Self {
         let n = angles_rad.len();
         assert!(n >= 3 && values.len() == n, "three points at least");
@@ -36,7 +36,7 @@ impl PeriodicSpline {
         }
     }
 
-    /// At any angle.
+    /// Value of the spline at any angle.
     pub fn at(&self, angle_rad: f64) -> f64 {
         let (n, first) = (self.angles_rad.len(), self.angles_rad[0]);
         let within = (angle_rad - first).rem_euclid(TAU) + first;
@@ -52,7 +52,7 @@ impl PeriodicSpline {
             + bend(b) * self.curvatures[next]
     }
 
-    /// How often it repeats in a turn; 0 of what is the same all around.
+    /// Number of times that the spline repeats in a turn; 0 if it is the same all around.
     pub(super) fn repeats(&self) -> usize {
         points_repeat(&self.angles_rad, &self.values)
     }
@@ -77,19 +77,19 @@ impl PeriodicSpline {
         })
     }
 
-    /// `(angle, value)` where it is highest.
+    /// Highest point of the spline, `(angle, value)`.
     pub fn highest(&self) -> (f64, f64) {
         self.extremes().fold((0.0, f64::NEG_INFINITY), |most, one| if one.1 > most.1 { one } else { most })
     }
 
-    /// `(angle, value)` where it is lowest.
+    /// Lowest point of the spline, `(angle, value)`.
     pub fn lowest(&self) -> (f64, f64) {
         self.extremes().fold((0.0, f64::INFINITY), |least, one| if one.1 < least.1 { one } else { least })
     }
 }
 
-/// The half-width w of a Gaussian exp(−(φ/w)²) as high as the whole range of the curves and as sharp as the sharpest of their
-/// bends, rad: w² = 2 range/max|p″|. Infinite where nothing bends.
+/// Half-width w of a Gaussian exp(−(φ/w)²) as high as the whole range of the curves and as sharp as the sharpest of their bends, rad: w² =
+/// 2 range/max|p″|. Infinite where nothing bends.
 pub fn narrowest_rad(curves: &[PeriodicSpline]) -> f64 {
     let bend = curves.iter().flat_map(|curve| &curve.curvatures).fold(0.0f64, |most, m| most.max(m.abs()));
     let range = |curve: &PeriodicSpline| curve.highest().1 - curve.lowest().1;
@@ -97,8 +97,7 @@ pub fn narrowest_rad(curves: &[PeriodicSpline]) -> f64 {
     if range > 0.0 { (2.0 * range / bend).sqrt() } else { f64::INFINITY }
 }
 
-/// Largest m such that `values` at `angles_rad`, which ascend within one turn, are the same after a turn by 1/m; 0 of what is the same all
-/// around.
+/// Largest m such that `values` at `angles_rad`, which ascend within one turn, are the same after a turn by 1/m; 0 if they are the same all around.
 pub fn points_repeat(angles_rad: &[f64], values: &[f64]) -> usize {
     let n = angles_rad.len().min(values.len());
     let scale = values.iter().fold(0.0f64, |most, value| most.max(value.abs()));
@@ -117,12 +116,12 @@ pub fn points_repeat(angles_rad: &[f64], values: &[f64]) -> usize {
     shift.map_or(1, |by| n / by)
 }
 
-/// Angles (rad) that are as near to each other are the same, and heights that differ by this share of the largest: they come from decimal
-/// numbers.
+/// Tolerance of points that come from decimal numbers: angles this near (rad) to each other count as the same, and so do heights that
+/// differ by this share of the largest.
 pub const ALIKE: f64 = 1e-9;
 
-/// h_{i−1} m_{i−1} + 2(h_{i−1} + h_i) m_i + h_i m_{i+1} = r_i, indices modulo n: a tridiagonal system and a correction of rank one for its
-/// corners. Diagonally dominant: no pivots are wanted.
+/// Solves h_{i−1} m_{i−1} + 2(h_{i−1} + h_i) m_i + h_i m_{i+1} = r_i, indices modulo n: a tridiagonal system and a correction of rank one
+/// for its corners. The matrix is diagonally dominant, so that no pivots are needed.
 fn curvatures(widths: &[f64], right: &[f64]) -> Vec<f64> {
     let n = widths.len();
     let before = |i: usize| widths[(i + n - 1) % n];
@@ -177,7 +176,7 @@ mod tests {
         (0..1000).map(off).fold(0.0, f64::max)
     }
 
-    /// Sixteen times less at half the distance, and the same on uneven points.
+    /// Error of the spline: sixteen times less at half the distance, and so on uneven points, too.
     #[test]
     fn is_of_fourth_order() {
         for uneven in [0.0, 0.3] {
@@ -190,7 +189,7 @@ mod tests {
         }
     }
 
-    /// Two derivatives on either side of every point, that where it closes included.
+    /// Second derivatives agree on either side of every point, including the one where the curve closes.
     #[test]
     fn has_no_corner_and_no_step_of_its_curvature() {
         let angles = points(23, 0.3);
@@ -204,7 +203,7 @@ mod tests {
         }
     }
 
-    /// A Gaussian's own width, and its crest between the points.
+    /// Width of a Gaussian is its own, and its crest is found between the points.
     #[test]
     fn a_lobe_is_as_wide_and_as_high_as_it_is() {
         let width = 0.2;
@@ -220,7 +219,7 @@ mod tests {
         assert_eq!(narrowest_rad(&[PeriodicSpline::new(&angles, &[0.1; 180])]), f64::INFINITY);
     }
 
-    /// Extremes against ten thousand angles, of points that nobody chose.
+    /// Extremes of arbitrary points, against ten thousand angles.
     #[test]
     fn extremes_are_those_of_many_angles() {
         let angles = points(17, 0.3);

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use num_integer::gcd;
 
-/// p at every contact node for every time step of a revolution: nothing is evaluated in the step loop.
+/// Heights p at every contact node for every time step of a revolution: nothing is evaluated in the step loop.
 ///
 /// Node k of sector s sits at θ_k + sα + 2πq/S at step q. With sS = a·N + b the sector's angle is a whole steps and a
 /// fraction b/N, so one table per distinct b, `[step][node]` with nodes padded to `stride`, serves all sectors.
@@ -47,7 +47,7 @@ impl RestrictionTable {
         Self { steps, stride, values, sectors: (0..sectors).map(place).collect() }
     }
 
-    /// p at the nodes of `sector` at `step` of the revolution (0 ≤ step < S).
+    /// Heights p at the nodes of `sector` at `step` of the revolution (0 ≤ step < S).
     #[inline(always)]
     pub fn at(&self, step: usize, sector: usize) -> &[f64] {
         let (start, offset) = self.sectors[sector];

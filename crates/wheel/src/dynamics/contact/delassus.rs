@@ -1,4 +1,4 @@
-//! The contact operator of a tuned wheel: one block-circulant table per speed and step (docs/method.md, Contact).
+//! Contact operator of a tuned wheel: one block-circulant table per speed and step (docs/method.md, Contact).
 
 use faer::{Mat, c64};
 
@@ -7,24 +7,24 @@ use rubmap_numerics::aligned::Aligned;
 use rubmap_numerics::complementarity::{ContactOperator, any_below};
 use rubmap_numerics::sector_fourier::{SectorFourier, is_single};
 
-/// W over all contact nodes of all sectors, index = sector·stride + node (nodes padded to `stride`).
+/// Contact operator W over all contact nodes of all sectors, index = sector·stride + node (nodes padded to `stride`).
 #[derive(Debug, Clone)]
 pub(crate) struct Delassus {
     sectors: usize,
     nodes: usize,
     stride: usize,
-    /// `[sector distance][column node][row node]`.
+    /// Entries of W, `[sector distance][column node][row node]`.
     table: Aligned,
     ridge: f64,
     /// Largest magnitude of any entry, by sector distance.
     largest: Vec<f64>,
-    /// (sector, node) of every index.
+    /// Sector and node of every index.
     places: Vec<(usize, usize)>,
 }
 
 impl Delassus {
-    /// W = Σ_i w_i² Re(W_i e^{jiα(s−s')}) from the `nodes × nodes` blocks W_i of the nodal diameters, with the
-    /// [`ridge`](super::flexibility::ridge) of those without friction.
+    /// Operator W = Σ_i w_i² Re(W_i e^{jiα(s−s')}) from the `nodes × nodes` blocks W_i of the nodal diameters, with the
+    /// [`ridge`](super::flexibility::ridge) of the blocks without friction.
     pub(crate) fn new(blocks: &[Mat<c64>], ridge: f64, stride: usize, fourier: &SectorFourier) -> Self {
         let (sectors, nodes) = (fourier.sectors(), blocks[0].nrows());
         let mut table = Aligned::zeros(sectors * nodes * stride);
@@ -37,7 +37,7 @@ impl Delassus {
         this
     }
 
-    /// Adds what a unit force at a node opens at another, `term(sector distance, to, from)`.
+    /// Adds the opening of a gap by a unit force at another node, `term(sector distance, to, from)`.
     pub(crate) fn add(&mut self, term: impl Fn(usize, usize, usize) -> f64) {
         for distance in 0..self.sectors {
             for from in 0..self.nodes {
@@ -60,14 +60,14 @@ impl Delassus {
         self.places[index]
     }
 
-    /// Sectors from one to another, counted forwards.
+    /// Number of sectors from one to another, counted forwards.
     #[inline(always)]
     fn distance(&self, to: usize, from: usize) -> usize {
         let turns = if to < from { self.sectors } else { 0 };
         to + turns - from
     }
 
-    /// Writes into the first number of every sector of `gap` the most by which `lambda` can move any gap of it.
+    /// Writes into the first number of every sector of `gap` the largest change that `lambda` can make to any gap of the sector.
     #[inline(always)]
     fn reach(&self, active: &[usize], lambda: &[f64], gap: &mut [f64]) {
         let stride = self.stride;
@@ -91,7 +91,7 @@ impl Delassus {
     }
 }
 
-/// Σ_i w_i² Re(B_i e^{jiα(s−s')}) of the blocks B_i of the nodal diameters, term by term: `add(sector distance, to, from, term)`.
+/// Sums Σ_i w_i² Re(B_i e^{jiα(s−s')}) of the blocks B_i of the nodal diameters, term by term: `add(sector distance, to, from, term)`.
 pub(super) fn circulant(
     blocks: &[Mat<c64>],
     fourier: &SectorFourier,
@@ -160,7 +160,7 @@ mod tests {
     const SECTORS: usize = 7;
     const NODES: usize = 2;
 
-    /// Blades that hardly feel each other: far gaps keep their q, which forces cannot close; all others are q + Wλ.
+    /// Gaps of blades that hardly feel each other: far gaps keep their q, which forces cannot close; all others are q + Wλ.
     #[test]
     fn gaps_keep_their_q_only_where_no_force_can_close_them() {
         let fourier = SectorFourier::new(SECTORS);

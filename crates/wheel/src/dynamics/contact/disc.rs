@@ -4,13 +4,13 @@
 //! f = −(λn + τ),   |τ| ≤ μλ,   τ |v| = μλ v,   v = rΩ (e_θ·t) t + (1 − nnᵀ)(u⁺ − u⁻)/2h          on the blade
 //! ```
 //!
-//! The tip slides over the casing by v, that of the rotation and its own vibration, t being the direction of the rotation along the
-//! casing ([`tangents`]). It is the velocity with which the energy identity counts the work of a force, so that friction takes
-//! τ·v h = |τ||v|h ≥ 0 from rotation and vibration together in every step, whatever the step: sliding across the rotation damps the
-//! vibration there by about μλ/rΩ per velocity, which the law of tips that only slide forwards has not. The casing does not move in
-//! its surface, nor does it with an orbit, whose own velocity is to that of the tip as its radius to theirs.
+//! The tip slides over the casing by v, that of the rotation and its own vibration, t being the direction of the rotation along the casing
+//! ([`tangents`]). This is the velocity with which the energy identity counts the work of a force, so that friction takes τ·v h = |τ||v|h ≥
+//! 0 from rotation and vibration together in every step, whatever the step: sliding across the rotation damps the vibration there by about
+//! μλ/rΩ per velocity, which the law of tips that only slide forwards does not include. The casing does not move in its surface, nor with
+//! an orbit, whose own velocity is to that of the tip as its radius to theirs.
 //!
-//! Together with the gaps at the end of the step that is the problem of [`rubmap_numerics::complementarity::disc`].
+//! Together with the gaps at the end of the step this is the problem of [`rubmap_numerics::complementarity::disc`].
 
 use faer::{Mat, c64};
 
@@ -19,7 +19,7 @@ use super::super::sector::ContactNode;
 use super::flexibility::outward_normals;
 use super::friction::{FrictionError, SlidingFlexibility, tangents};
 
-/// n, t and n × t of every contact node, one after the other: gaps and sliding are read along them, and forces act against them.
+/// Directions n, t and n × t of every contact node, one after the other: gaps and sliding are read along them, and forces act against them.
 pub fn disc_directions(contact_nodes: &[ContactNode]) -> Result<Vec<Direction>, FrictionError> {
     let directions = |(along, contact): (Direction, &ContactNode)| {
         let ([a, b, c], [d, e, f]) = (contact.normal, along.components);
@@ -30,18 +30,18 @@ pub fn disc_directions(contact_nodes: &[ContactNode]) -> Result<Vec<Direction>, 
     Ok(tangents(contact_nodes)?.into_iter().zip(contact_nodes).flat_map(directions).collect())
 }
 
-/// Directions in which all tips are taken to slide at once.
+/// Number of directions in which all tips are taken to slide at once.
 const DIRECTIONS: u32 = 16;
 
 /// Flexibility of the normals to contact forces in all directions, one `nodes × nodes` block for every nodal diameter.
 #[derive(Debug, Clone)]
 pub struct DiscFlexibility {
-    /// Forces along n, t and n × t.
+    /// Blocks of forces along n, t and n × t.
     along: [Vec<Mat<c64>>; 3],
 }
 
 impl DiscFlexibility {
-    /// Of the operator whose `blocks(from)` are what forces along `from` move along the outward normals.
+    /// Flexibility from `blocks(from)`, which gives the displacements along the outward normals by forces along `from`.
     pub fn new(
         contact_nodes: &[ContactNode],
         blocks: impl Fn(&[Direction]) -> Vec<Mat<c64>>,
@@ -52,16 +52,16 @@ impl DiscFlexibility {
         Ok(Self { along: [normal, blocks(&of(1)), blocks(&of(2))] })
     }
 
-    /// W_n of forces along the normals.
+    /// Flexibility W_n to forces along the normals.
     pub fn normal(&self) -> &[Mat<c64>] {
         &self.along[0]
     }
 
-    /// [`SlidingFlexibility::check`] of tips that all slide in the same direction, for sixteen directions around the contact plane;
+    /// Checks as [`SlidingFlexibility::check`] tips that all slide in the same direction, for sixteen directions around the contact plane;
     /// `ridge` as there.
     ///
-    /// Necessary, and for a node that is pressed alone sufficient to 2 % of the coefficient (a direction is at most π/16 from one that is
-    /// looked at). Tips that slide apart are not looked at beforehand: of them the solver refuses solutions at which the orientation is another.
+    /// The check is necessary, and for a node that is pressed alone sufficient to 2 % of the coefficient (a direction is at most π/16 from one that
+    /// is checked). Tips that slide apart are not checked beforehand: for them the solver refuses solutions at which the orientation is another.
     pub fn check(&self, sectors: usize, ridge: f64, coefficient: f64) -> Result<(), FrictionError> {
         let angles =
             (0..DIRECTIONS).map(|part| std::f64::consts::TAU * f64::from(part) / f64::from(DIRECTIONS));
@@ -70,7 +70,7 @@ impl DiscFlexibility {
         found.min_by(|a, b| a.largest().total_cmp(&b.largest())).map_or(Ok(()), Err)
     }
 
-    /// Of tips that slide at an angle from the rotation.
+    /// Flexibility for tips that slide at an angle from the rotation.
     fn sliding_along(&self, angle: f64) -> SlidingFlexibility {
         let [normal, along, across] = &self.along;
         let (sin, cos) = angle.sin_cos();
@@ -113,7 +113,7 @@ mod tests {
         }
     }
 
-    /// A node jams at W_n/|W_t| where it slides to what presses it in most, wherever that is: here along 50° from the rotation.
+    /// Node that jams at W_n/|W_t| where it slides in the direction that presses it in most, wherever that is: here along 50° from the rotation.
     #[test]
     fn a_node_jams_in_the_direction_that_digs_in() {
         let (sin, cos) = 50.0f64.to_radians().sin_cos();

@@ -1,4 +1,4 @@
-//! The contact operator of a tuned wheel along the normals and in the contact planes: [`super::delassus`] in three directions.
+//! Contact operator of a tuned wheel along the normals and in the contact planes: [`super::delassus`] in three directions.
 
 use faer::{Mat, c64};
 
@@ -9,24 +9,24 @@ use rubmap_numerics::complementarity::any_below;
 use rubmap_numerics::complementarity::disc::{Block, DiscOperator, Forces};
 use rubmap_numerics::sector_fourier::SectorFourier;
 
-/// W over all contact nodes of all sectors, index = sector·stride + node (nodes padded to `stride`).
+/// Contact operator W over all contact nodes of all sectors, index = sector·stride + node (nodes padded to `stride`).
 #[derive(Debug, Clone)]
 pub(crate) struct DiscTable {
     sectors: usize,
     nodes: usize,
     stride: usize,
-    /// What opens gaps, `[sector distance][column node][force][row node]`.
+    /// Entries that open gaps, `[sector distance][column node][force][row node]`.
     gaps: Aligned,
-    /// All of it, `[sector distance][column node][row node]`.
+    /// Blocks of all entries, `[sector distance][column node][row node]`.
     blocks: Vec<Block>,
-    /// What is added to the diagonal, along the normals and in the contact planes.
+    /// Ridges added to the diagonal, along the normals and in the contact planes.
     ridges: [f64; 2],
-    /// Largest magnitude of what opens a gap, by sector distance and force.
+    /// Largest magnitude of an entry that opens a gap, by sector distance and force.
     largest: Vec<Forces>,
 }
 
 impl DiscTable {
-    /// From the blocks of the nodal diameters, whose rows and columns are the three directions of one node after the other.
+    /// Operator from the blocks of the nodal diameters, whose rows and columns are the three directions of one node after the other.
     pub(crate) fn new(blocks: &[Mat<c64>], ridges: [f64; 2], stride: usize, fourier: &SectorFourier) -> Self {
         let (sectors, nodes) = (fourier.sectors(), blocks[0].nrows() / 3);
         let mut this = Self {
@@ -45,7 +45,7 @@ impl DiscTable {
         this
     }
 
-    /// Adds what a unit normal force at a node opens at another, `term(sector distance, to, from)`.
+    /// Adds the opening of a gap by a unit normal force at another node, `term(sector distance, to, from)`.
     pub(crate) fn add(&mut self, term: impl Fn(usize, usize, usize) -> f64) {
         for distance in 0..self.sectors {
             for from in 0..self.nodes {
@@ -58,7 +58,7 @@ impl DiscTable {
         self.spread();
     }
 
-    /// Fills what opens gaps from all of it.
+    /// Fills the entries that open gaps from the blocks.
     fn spread(&mut self) {
         self.largest = vec![[0.0; 3]; self.sectors];
         for (column, blocks) in self.blocks.chunks_exact(self.nodes).enumerate() {
@@ -72,7 +72,7 @@ impl DiscTable {
         }
     }
 
-    /// Sectors from one to another, counted forwards.
+    /// Number of sectors from one to another, counted forwards.
     #[inline(always)]
     fn distance(&self, to: usize, from: usize) -> usize {
         let turns = if to < from { self.sectors } else { 0 };

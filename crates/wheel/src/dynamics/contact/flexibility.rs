@@ -1,4 +1,4 @@
-//! What a force at one direction of a contact node moves at another, per nodal diameter: the blocks of W and of the
+//! Flexibility of contact nodes: displacement along one direction by a force along another, per nodal diameter. Blocks of W and of the
 //! residual flexibility F.
 
 use faer::{Mat, c64};
@@ -15,7 +15,7 @@ pub fn outward_normals(contact_nodes: &[ContactNode]) -> Vec<Direction> {
     contact_nodes.iter().enumerate().map(normal).collect()
 }
 
-/// Σ_m weight(i, m) (dᵀφ_m)(d'ᵀφ_m)ᴴ for every nodal diameter i, `to.len() × from.len()`; modes of weight 0 cost nothing.
+/// Flexibility Σ_m weight(i, m) (dᵀφ_m)(d'ᵀφ_m)ᴴ for every nodal diameter i, `to.len() × from.len()`; modes of weight 0 cost nothing.
 pub fn flexibility(
     wheel: &ModalWheel,
     to: &[Direction],
@@ -46,9 +46,9 @@ pub fn flexibility(
 /// Smallest over largest eigenvalue of a flexibility below which its nodes count as indistinguishable.
 const SINGULAR: f64 = 1e-10;
 
-/// What is added to the diagonal of a flexibility of the normals: 0, or 1e-10 of its largest diagonal entry over the
-/// wheel if it is singular. Coincident nodes, or a basis that cannot tell two nodes apart, make it so; forces then stay
-/// finite, and what the ridge leaves of the gap is reported as penetration.
+/// Ridge to be added to the diagonal of a flexibility of the normals: 0, or 1e-10 of its largest diagonal entry over the wheel if the
+/// flexibility is singular. Coincident nodes, or a basis that cannot tell two nodes apart, make it so; forces then stay finite, and the
+/// part of the gap that the ridge leaves is reported as penetration.
 pub fn ridge(blocks: &[Mat<c64>], sectors: usize) -> f64 {
     let nodes = blocks.first().map_or(0, Mat::nrows);
     let (mut smallest, mut largest) = (f64::INFINITY, 0.0f64);

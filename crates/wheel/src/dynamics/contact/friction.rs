@@ -13,8 +13,8 @@
 //! the harder it is pressed: it jams (Painlevé's paradox; Klarbring, Ingenieur-Archiv 60, 1990). [`SlidingFlexibility::check`]
 //! finds out before the run.
 //!
-//! What this leaves out: the vibration's own velocity v turns the sliding, by v/rΩ, and with it the force, by μλ v/rΩ across the
-//! rotation: small beside μλ, but a damping, of which [`disc`](super::disc) has all.
+//! Left out here: the vibration's own velocity v turns the sliding, by v/rΩ, and with it the force, by μλ v/rΩ across the rotation: small
+//! beside μλ, but a damping, which [`disc`](super::disc) has in full.
 
 use faer::{Mat, Side, c64};
 
@@ -24,40 +24,40 @@ use super::flexibility::outward_normals;
 use rubmap_numerics::p_matrix::non_positive_minor;
 use rubmap_numerics::sector_fourier::is_single;
 
-/// A coefficient or a geometry for which sliding contact makes no sense. Contact nodes count from the leading edge from 0.
+/// Error: a coefficient or a geometry for which sliding contact makes no sense. Contact nodes count from the leading edge from 0.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum FrictionError {
-    /// A normal that points along the rotation.
+    /// Normal that points along the rotation.
     #[error(
         "the outward normal of contact node {node} points along the rotation: a casing of revolution has no such wall for the \
          tip to slide on; correct the normal"
     )]
     NoTangent {
-        /// Contact node.
+        /// Index of the contact node.
         node: usize,
     },
-    /// Pressed alone, a node digs in.
+    /// Node that digs in when pressed alone.
     #[error(
         "with a friction coefficient of {coefficient} contact node {node} jams: friction presses its tip into the casing more \
          than the contact force lifts it off; the largest coefficient this wheel can slide with is {largest}"
     )]
     Jams {
-        /// Contact node.
+        /// Index of the contact node.
         node: usize,
-        /// μ asked for.
+        /// Coefficient μ asked for.
         coefficient: f64,
         /// Largest μ that passes, rounded down to thousandths.
         largest: f64,
     },
-    /// Pressed together with others, a node digs in.
+    /// Node that digs in when pressed together with others.
     #[error(
         "with a friction coefficient of {coefficient} contact node {node} jams together with other nodes of its tip: the \
          contact forces are not unique; the largest coefficient this wheel can slide with is {largest}"
     )]
     JamsTogether {
-        /// Contact node, the last of the set whose minor is not positive.
+        /// Index of the contact node, the last of the set whose minor is not positive.
         node: usize,
-        /// μ asked for.
+        /// Coefficient μ asked for.
         coefficient: f64,
         /// Largest μ that passes, rounded down to thousandths.
         largest: f64,
@@ -92,7 +92,7 @@ pub fn tangents(contact_nodes: &[ContactNode]) -> Result<Vec<Direction>, Frictio
     contact_nodes.iter().enumerate().map(tangent).collect()
 }
 
-/// n + μt at the contact nodes: forces act against it, displacements are still read along n.
+/// Directions n + μt at the contact nodes: forces act against them, displacements are still read along n.
 pub fn sliding_directions(
     contact_nodes: &[ContactNode],
     coefficient: f64,
@@ -109,14 +109,14 @@ pub fn sliding_directions(
 /// Flexibility of the normals to contact forces, one `nodes × nodes` block for every nodal diameter.
 #[derive(Debug, Clone)]
 pub struct SlidingFlexibility {
-    /// W_n: forces along n.
+    /// Flexibility W_n to forces along n.
     pub normal: Vec<Mat<c64>>,
-    /// W_t: forces along t.
+    /// Flexibility W_t to forces along t.
     pub tangential: Vec<Mat<c64>>,
 }
 
 impl SlidingFlexibility {
-    /// Of the operator whose `blocks(from)` are what forces along `from` move along the outward normals.
+    /// Flexibility from `blocks(from)`, which gives the displacements along the outward normals by forces along `from`.
     pub fn new(
         contact_nodes: &[ContactNode],
         blocks: impl Fn(&[Direction]) -> Vec<Mat<c64>>,
@@ -125,7 +125,7 @@ impl SlidingFlexibility {
         Ok(Self { normal: blocks(&outward_normals(contact_nodes)), tangential })
     }
 
-    /// W_n + μ W_t; with μ = 0 the bits of W_n.
+    /// Blocks of W_n + μ W_t; with μ = 0 the bits of W_n.
     pub fn blocks(&self, coefficient: f64) -> Vec<Mat<c64>> {
         let sum = |(normal, tangential): (&Mat<c64>, &Mat<c64>)| {
             Mat::from_fn(normal.nrows(), normal.ncols(), |i, j| {
@@ -138,9 +138,9 @@ impl SlidingFlexibility {
     /// Whether contact of a wheel of `sectors` has a unique solution with `coefficient` ≥ 0; `ridge` is what is added to the
     /// diagonal of W where nodes cannot be told apart.
     ///
-    /// First the diagonal of W, necessary. Then the Hermitian parts of all blocks: sufficient if they are positive definite. Where
-    /// one is not, the principal minors of one sector's block decide, necessary and, as sectors are weakly coupled, all but
-    /// sufficient: see [`non_positive_minor`] for which.
+    /// The diagonal of W comes first, necessary. Then the Hermitian parts of all blocks: sufficient if they are positive definite. Where
+    /// one is not, the principal minors of one sector's block decide, necessary and, as sectors are weakly coupled, all but sufficient: see
+    /// [`non_positive_minor`] for which.
     pub fn check(&self, sectors: usize, ridge: f64, coefficient: f64) -> Result<(), FrictionError> {
         if coefficient == 0.0 {
             return Ok(());
@@ -153,8 +153,8 @@ impl SlidingFlexibility {
         })
     }
 
-    /// Bisection over whole thousandths below `failing`. Coefficients for which the first two criteria hold are an
-    /// interval from 0; those of the minors need not be, but the result always passes (0 does by construction).
+    /// Largest coefficient that passes, by bisection over whole thousandths below `failing`. Coefficients for which the first two criteria
+    /// hold are an interval from 0; those of the minors need not be, but the result always passes (0 does by construction).
     fn largest_coefficient(&self, sectors: usize, ridge: f64, failing: f64) -> f64 {
         const PARTS: f64 = 1000.0;
         let (mut passes, mut fails) = (0, (failing * PARTS).ceil() as u64);
@@ -183,13 +183,13 @@ impl SlidingFlexibility {
     }
 }
 
-/// Where a wheel jams.
+/// Node at which a wheel jams, alone or with others.
 enum Jam {
     Alone(usize),
     Together(usize),
 }
 
-/// W between the nodes of one sector, real `nodes × nodes`.
+/// Operator W between the nodes of one sector, real `nodes × nodes`.
 fn own_sector(blocks: &[Mat<c64>], sectors: usize, ridge: f64) -> Mat<f64> {
     let nodes = blocks.first().map_or(0, Mat::nrows);
     let mut own = Mat::from_fn(nodes, nodes, |i, j| if i == j { ridge } else { 0.0 });
@@ -224,7 +224,7 @@ mod tests {
         ContactNode { id: 1, position: [1.0, 0.0, 0.0], normal, dofs: [0, 1, 2] }
     }
 
-    /// A rod whose tip leans by `lean` in the direction of rotation against its root: flexibility `along` its axis and `across`.
+    /// Rod whose tip leans by `lean` in the direction of rotation against its root: flexibility `along` its axis and `across`.
     fn leaning_rod(lean: f64, along: f64, across: f64) -> SlidingFlexibility {
         let shapes = [[lean.cos(), lean.sin(), 0.0], [-lean.sin(), lean.cos(), 0.0]];
         let wheel = ModalWheel {
@@ -266,8 +266,8 @@ mod tests {
         assert_eq!(sliding_directions(&nodes, 0.0).unwrap(), without);
     }
 
-    /// W_n = a cos²β + b sin²β and W_t = (a − b) sin β cos β of a rod that leans by β: a forward lean jams from μ = −W_n/W_t,
-    /// tan β of a rod that is stiff along its axis; a backward one trails and never does.
+    /// Rod that leans by β: W_n = a cos²β + b sin²β and W_t = (a − b) sin β cos β. A forward lean jams from μ = −W_n/W_t, tan β of a rod
+    /// that is stiff along its axis; a backward one trails and never does.
     #[test]
     fn a_rod_that_leans_forwards_jams_at_the_tangent_of_its_lean() {
         for (lean, along) in [(0.2f64, 0.0), (0.2, 0.01), (FRAC_PI_4, 0.1)] {
@@ -286,7 +286,7 @@ mod tests {
         }
     }
 
-    /// Seen in a mirror the rotation is reversed: W(μ) of one rod is W(−μ) of its mirror image.
+    /// Mirror image of a rod, in which the rotation is reversed: W(μ) of the rod is W(−μ) of its image.
     #[test]
     fn the_mirror_image_turns_the_other_way() {
         let (rod, mirrored) = (leaning_rod(0.3, 0.1, 1.0), leaning_rod(-0.3, 0.1, 1.0));
@@ -297,8 +297,8 @@ mod tests {
         assert_eq!(rod.blocks(0.0), rod.normal);
     }
 
-    /// W = [1, c + 2μ; c, 1]: the symmetric part is definite below μ = 1 − c, the minor 1 − c(c + 2μ) positive below
-    /// (1/c − c)/2; in between the minors decide.
+    /// Two nodes with W = [1, c + 2μ; c, 1]: the symmetric part is definite below μ = 1 − c, the minor 1 − c(c + 2μ) positive below (1/c −
+    /// c)/2; in between the minors decide.
     #[test]
     fn two_nodes_jam_together_where_their_minor_vanishes() {
         let real = |values: [[f64; 2]; 2]| vec![Mat::from_fn(2, 2, |i, j| c64::new(values[i][j], 0.0))];

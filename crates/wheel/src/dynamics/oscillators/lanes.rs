@@ -1,6 +1,6 @@
-//! Widths of vectors.
+//! Width of vectors.
 
-/// Doubles per padded group: the widest vector in use (AVX-512).
+/// Number of doubles per padded group: the widest vector in use (AVX-512).
 pub(crate) const LANES: usize = 8;
 
 pub(crate) fn padded(count: usize) -> usize {

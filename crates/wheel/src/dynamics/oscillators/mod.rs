@@ -1,4 +1,4 @@
-//! The modal oscillators of the whole wheel: Eq. 8 made element-wise, and its projection on chosen DOF.
+//! Modal oscillators of the whole wheel: Eq. 8 made element-wise, and its projection on chosen DOF.
 //!
 //! `recursion` is the step of one vector of modes, `product` loads and reads them, and `Oscillators::pass` takes all of
 //! them through both. Modes of every nodal diameter are padded to whole vectors with oscillators that stay at rest. A pair
@@ -29,14 +29,14 @@ use rubmap_numerics::aligned::Aligned;
 /// Modal damping of the reduced wheel.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ModalDamping {
-    /// ζ of every mode not listed below.
+    /// Damping ratio ζ of every mode that `family_ratios` does not cover.
     pub modal_ratio: f64,
-    /// ζ of the first modal families, the same in every nodal diameter.
+    /// Damping ratios ζ of the first modal families, the same in every nodal diameter.
     pub family_ratios: Vec<f64>,
 }
 
 impl ModalDamping {
-    /// ζ of modal family `family`, counted from 0.
+    /// Damping ratio ζ of modal family `family`, counted from 0.
     pub fn ratio(&self, family: usize) -> f64 {
         self.family_ratios.get(family).copied().unwrap_or(self.modal_ratio)
     }
@@ -53,39 +53,39 @@ pub(crate) struct Oscillators {
     dissipates: bool,
 }
 
-/// One number a mode, the same for both parts of a pair.
+/// Coefficients of the recursion, one number a mode, the same for both parts of a pair.
 #[derive(Debug, Clone)]
 struct Coefficients {
     /// Share of the increment that survives a step.
     keep: Aligned,
-    /// ω²·receptance
+    /// Pull ω²·receptance of a mode.
     pull: Aligned,
     /// Displacement per unit force within a step.
     receptance: Aligned,
-    /// c/(2B): energy lost in a step is Σ loss·(z⁺ − z⁻)².
+    /// Loss c/(2B): energy lost in a step is Σ loss·(z⁺ − z⁻)².
     loss: Aligned,
-    /// 1/B
+    /// Inertia 1/B of a mode.
     inertia: Aligned,
-    /// ω²
+    /// Stiffness ω² of a mode.
     stiffness: Aligned,
 }
 
-/// What a step changes.
+/// State of the oscillators, which a step changes.
 #[derive(Debug, Clone)]
 struct State {
-    /// z
+    /// Displacements z.
     z: Aligned,
-    /// d = z − z⁻
+    /// Increments d = z − z⁻.
     d: Aligned,
-    /// z⁺ − z⁻ of a step whose exchange is not counted yet, otherwise 0; empty without contact.
+    /// Swings z⁺ − z⁻ of a step whose exchange is not counted yet, otherwise 0; empty without contact.
     swing: Aligned,
-    /// φᴴf of the loads on one nodal diameter; empty without contact.
+    /// Modal forces φᴴf of the loads on one nodal diameter; empty without contact.
     force: Aligned,
 }
 
 impl Oscillators {
-    /// In the state `initial` (rest where it has nothing), steps of `step` seconds, of a wheel that may touch the casing or not, and whose
-    /// fast modes `follow` or not.
+    /// Oscillators in the state `initial` (at rest where it has nothing), steps of `step` seconds, of a wheel that may touch the casing or
+    /// not, and whose fast modes `follow` or not.
     pub(crate) fn new(
         wheel: &ModalWheel,
         scheme: Scheme,
@@ -143,7 +143,7 @@ impl Oscillators {
         }
     }
 
-    /// Has all modes where another motion left them, at rest where it has nothing.
+    /// Puts all modes where another motion left them, at rest where it has none.
     pub(crate) fn go_on_from(&mut self, modes: &[SteppedMode]) {
         let Self { segments, state, .. } = self;
         // What the last step exchanged is forgotten, too.
@@ -165,13 +165,13 @@ impl Oscillators {
         self.dissipates
     }
 
-    /// One free step of every mode.
+    /// Takes one free step of every mode.
     #[inline(always)]
     pub(crate) fn advance<S: Simd>(&mut self, simd: S) -> Exchange {
         self.pass::<S, Advance>(simd, None, None)
     }
 
-    /// One step of every mode under `loads`, which act from its start. Reads rows as [`Self::project`] does, at its end.
+    /// Takes one step of every mode under `loads`, which act from its start. Reads rows as [`Self::project`] does, at its end.
     #[inline(always)]
     pub(crate) fn advance_loaded<S: Simd>(
         &mut self,
@@ -204,7 +204,7 @@ impl Oscillators {
         self.pass::<S, Complete>(simd, Some(loads), None)
     }
 
-    /// Forces, moves and reads one nodal diameter after the other; `P` is what moves it.
+    /// Forces, moves and reads one nodal diameter after the other; `P` is the pass that moves it.
     #[inline(always)]
     fn pass<S: Simd, P: Pass>(
         &mut self,
@@ -255,13 +255,13 @@ impl Oscillators {
         sums.total(simd)
     }
 
-    /// Values of `rows` in Fourier coordinates: `out[column][row]`, rows padded to `rows.stride`.
+    /// Reads the values of `rows` in Fourier coordinates: `out[column][row]`, rows padded to `rows.stride`.
     #[inline(always)]
     pub(crate) fn project<S: Simd>(&self, simd: S, rows: &Rows, out: &mut [f64]) {
         self.project_of(simd, &self.state.z, rows, out);
     }
 
-    /// The same of `modes`, kept as [`Self::positions`] are.
+    /// Reads the values of `rows` as [`Self::project`] does, from `modes` in the layout of [`Self::positions`].
     #[inline(always)]
     pub(crate) fn project_of<S: Simd>(&self, simd: S, modes: &[f64], rows: &Rows, out: &mut [f64]) {
         for (index, &segment) in self.segments.iter().enumerate() {
@@ -269,18 +269,17 @@ impl Oscillators {
         }
     }
 
-    /// z⁺ − z⁻ of every mode in a step that is not complete; nothing without contact, or where the modes are
-    /// [driven](driven::Drive::swung).
+    /// Swings z⁺ − z⁻ of every mode in a step that is not complete; nothing without contact, or where the modes are [driven](driven::Drive::swung).
     pub(crate) fn swung(&self) -> &[f64] {
         &self.state.swing
     }
 
-    /// E of the last step in the discrete identity (see [`super::schemes`]).
+    /// Mechanical energy E of the last step in the discrete identity (see [`super::schemes`]).
     pub(crate) fn energy(&self) -> f64 {
         0.5 * self.segments.iter().fold(0.0, |twice, segment| self.add_twice_energy(segment, twice))
     }
 
-    /// The same of every nodal diameter.
+    /// Mechanical energies of every nodal diameter, as of [`Self::energy`].
     pub(crate) fn energies(&self) -> impl Iterator<Item = f64> {
         self.segments.iter().map(|segment| 0.5 * self.add_twice_energy(segment, 0.0))
     }
@@ -297,29 +296,29 @@ impl Oscillators {
         twice
     }
 
-    /// z of every mode in the order in which they are kept; [`Self::position`] finds one.
+    /// Displacements z of every mode in the order in which they are stored; [`Self::position`] finds one.
     pub(crate) fn positions(&self) -> &[f64] {
         &self.state.z
     }
 
-    /// z of mode `family` of nodal diameter `harmonic` in what [`Self::positions`] gave.
+    /// Displacement z of mode `family` of nodal diameter `harmonic` within `positions`, as [`Self::positions`] gave them.
     pub(crate) fn position(&self, positions: &[f64], harmonic: usize, family: usize) -> c64 {
         let segment = self.segments[harmonic];
         let at = |start: usize| positions[start + family];
         c64::new(at(segment.state), if segment.single { 0.0 } else { at(segment.state + segment.length) })
     }
 
-    /// Where z and d of mode `family` of nodal diameter `harmonic` are in [`Self::state`]: of a pair both parts.
+    /// Indices of z and d of mode `family` of nodal diameter `harmonic` in [`Self::state`]: of a pair both parts.
     pub(crate) fn places(&self, harmonic: usize, family: usize) -> impl Iterator<Item = usize> + use<> {
         self.segments[harmonic].parts().map(move |start| start + family)
     }
 
-    /// z and d of every mode, at its [`Self::places`].
+    /// Displacements z and increments d of every mode, at its [`Self::places`].
     pub(crate) fn state(&self) -> (&[f64], &[f64]) {
         (&self.state.z, &self.state.d)
     }
 
-    /// z and ż of every mode, `velocity(harmonic, family, z, d)` being the scheme's.
+    /// Displacements z and velocities ż of every mode, `velocity(harmonic, family, z, d)` being the scheme's.
     pub(crate) fn modal_state(&self, velocity: impl Fn(usize, usize, f64, f64) -> f64) -> Vec<InitialMode> {
         let mut modes = Vec::new();
         for (harmonic, segment) in self.segments.iter().enumerate() {
@@ -354,7 +353,7 @@ impl Oscillators {
         if bounded > 0.0 { 1.0 / bounded } else { f64::INFINITY }
     }
 
-    /// Brings to rest what has decayed below any meaning, before its numbers become denormal.
+    /// Brings modes to rest that have decayed below any meaning, before their numbers become denormal.
     #[inline(always)]
     pub(crate) fn quench(&mut self) {
         for values in [&mut self.state.z, &mut self.state.d, &mut self.state.swing] {
@@ -365,12 +364,12 @@ impl Oscillators {
     }
 }
 
-/// Modal displacements below this are nothing in any unit, and their squares are still normal numbers. Between two calls
-/// of [`Oscillators::quench`] no mode that moves shrinks by as much again; one that follows statically is at its zero, or
-/// round-off of it, within a step.
+/// Modal displacement below which a mode is at rest in any unit, while its square is still a normal number. Between two calls of
+/// [`Oscillators::quench`] no mode that moves shrinks by as much again; one that follows statically is at its zero, or round-off of it,
+/// within a step.
 pub(crate) const VANISHED: f64 = 1e-100;
 
-/// [`Coefficients`] of one nodal diameter, as vectors.
+/// Vectors of the [`Coefficients`] of one nodal diameter.
 struct Slices<'a, S: Simd> {
     keep: &'a [S::f64s],
     pull: &'a [S::f64s],
@@ -421,7 +420,7 @@ impl Coefficients {
     }
 }
 
-/// One part (real or imaginary) of one nodal diameter's state, as vectors.
+/// Part (real or imaginary) of one nodal diameter's state, as vectors.
 struct Part<'a, S: Simd> {
     z: &'a mut [S::f64s],
     d: &'a mut [S::f64s],
@@ -430,7 +429,7 @@ struct Part<'a, S: Simd> {
 }
 
 impl State {
-    /// The part of `segment` at `start`; `swing` and `force` are empty unless asked for.
+    /// Part of `segment` at `start`; `swing` and `force` are empty unless asked for.
     #[inline(always)]
     fn part<S: Simd>(&mut self, segment: Segment, start: usize, swing: bool, force: bool) -> Part<'_, S> {
         let range = start..start + segment.length;

@@ -8,11 +8,11 @@ use pulp::{Simd, WithSimd};
 use super::rows::{Loads, RowBlock, Rows};
 use super::segment::Segment;
 
-/// Rows at a time: ten sums and their operands are what sixteen registers hold.
+/// Largest number of rows at a time: ten sums and their operands are what sixteen registers hold.
 const LARGEST_GROUP: usize = 5;
 
 impl Rows {
-    /// Values of the rows by the modes of one nodal diameter, from the state array `z` into its columns of `out[column][row]`.
+    /// Reads the values of the rows by the modes of one nodal diameter, from the state array `z` into its columns of `out[column][row]`.
     #[inline(always)]
     pub(super) fn project<S: Simd>(
         &self,
@@ -28,7 +28,7 @@ impl Rows {
 }
 
 impl Loads<'_> {
-    /// φᴴ f̂ of one nodal diameter, its modal forces, into the head of `out`.
+    /// Writes the modal forces φᴴ f̂ of one nodal diameter into the head of `out`.
     #[inline(always)]
     pub(super) fn modal<S: Simd>(self, simd: S, index: usize, segment: Segment, out: &mut [f64]) {
         let Self { rows, loaded, force } = self;
@@ -38,8 +38,8 @@ impl Loads<'_> {
 }
 
 impl RowBlock {
-    /// φᴴ f of one nodal diameter, f being on the rows in `loaded`: `force[part][row]`, parts `stride` apart. Into the head of `out`,
-    /// both parts one after the other.
+    /// Writes φᴴ f of one nodal diameter, f being on the rows in `loaded`: `force[part][row]`, parts `stride` apart. Into the head of
+    /// `out`, both parts one after the other.
     #[inline(always)]
     pub(super) fn load<S: Simd>(
         &self,
@@ -59,8 +59,7 @@ impl RowBlock {
         }
     }
 
-    /// φ z of one nodal diameter, both parts of z one after the other: `rows` rows of `out[part][row]`, parts `stride`
-    /// apart.
+    /// Writes φ z of one nodal diameter, both parts of z one after the other: `rows` rows of `out[part][row]`, parts `stride` apart.
     #[inline(always)]
     pub(super) fn project<S: Simd>(
         &self,
@@ -81,7 +80,7 @@ impl RowBlock {
     }
 }
 
-/// φ z of a single harmonic: `out[row]`.
+/// Product φ z of a single harmonic: `out[row]`.
 struct ProjectSingle<'a> {
     block: &'a RowBlock,
     z: &'a [f64],
@@ -127,7 +126,7 @@ fn single_rows<S: Simd, const R: usize>(
     }
 }
 
-/// φ z of a pair, (φ_re + jφ_im)(z_re + jz_im): `out_re[row]`, `out_im[row]`.
+/// Product φ z of a pair, (φ_re + jφ_im)(z_re + jz_im): `out_re[row]`, `out_im[row]`.
 struct ProjectPair<'a> {
     block: &'a RowBlock,
     re: &'a [f64],
@@ -187,7 +186,7 @@ fn pair_rows<S: Simd, const R: usize>(
     }
 }
 
-/// φᵀ f of the rows in `loaded`, of a single harmonic.
+/// Product φᵀ f of the rows in `loaded`, of a single harmonic.
 struct LoadSingle<'a> {
     block: &'a RowBlock,
     loaded: &'a [usize],
@@ -235,7 +234,7 @@ fn load_single_rows<S: Simd, const R: usize>(
     }
 }
 
-/// φᴴ f of the rows in `loaded`, of a pair: (φ_re − jφ_im)(f_re + jf_im).
+/// Product φᴴ f of the rows in `loaded`, of a pair: (φ_re − jφ_im)(f_re + jf_im).
 struct LoadPair<'a> {
     block: &'a RowBlock,
     loaded: &'a [usize],
@@ -300,7 +299,7 @@ fn load_pair_rows<S: Simd, const R: usize>(
     }
 }
 
-/// R rows from `first` on.
+/// Numbers of R rows from `first` on.
 #[inline(always)]
 fn consecutive<const R: usize>(first: usize) -> [usize; R] {
     let mut rows = [first; R];
@@ -310,7 +309,7 @@ fn consecutive<const R: usize>(first: usize) -> [usize; R] {
     rows
 }
 
-/// Each of `group`'s values in every lane. A loop and no closure: a closure would be compiled without the wide vectors.
+/// Values of `group`, each in every lane. A loop and no closure: a closure would be compiled without the wide vectors.
 #[inline(always)]
 fn gather<S: Simd, const R: usize>(simd: S, values: &[f64], group: [usize; R]) -> [S::f64s; R] {
     let mut lanes = [simd.splat_f64s(0.0); R];

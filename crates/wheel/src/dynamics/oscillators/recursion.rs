@@ -1,4 +1,4 @@
-//! One step of the oscillators in one vector, and the passes over all of them that are made of it.
+//! Step of the oscillators in one vector, and the passes over all of them that are made of it.
 //!
 //! ```text
 //! advance     d⁺ = keep·d − pull·z (+ receptance·f),   z⁺ = z + d⁺      Eq. 8
@@ -9,16 +9,16 @@
 
 use pulp::Simd;
 
-/// What the energy gains and loses (see [`super::super::schemes`]).
+/// Energy gained and lost (see [`super::super::schemes`]).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Exchange {
     /// Work of the loads, Σ f (z⁺ − z⁻)/2.
     pub(crate) work: f64,
-    /// Σ c (z⁺ − z⁻)²/(2B).
+    /// Loss Σ c (z⁺ − z⁻)²/(2B).
     pub(crate) loss: f64,
 }
 
-/// The numbers of a vector of modes, those of [`Coefficients`](super::Coefficients).
+/// Numbers of a vector of modes, those of [`Coefficients`](super::Coefficients).
 pub(super) struct Numbers<S: Simd> {
     pub(super) keep: S::f64s,
     pub(super) pull: S::f64s,
@@ -26,17 +26,17 @@ pub(super) struct Numbers<S: Simd> {
     pub(super) loss: S::f64s,
 }
 
-/// A vector of modes in motion.
+/// Vector of modes in motion.
 pub(super) struct Modes<S: Simd> {
     pub(super) z: S::f64s,
-    /// d = z − z⁻
+    /// Increment d = z − z⁻.
     pub(super) d: S::f64s,
-    /// z⁺ − z⁻ of the last step.
+    /// Swing z⁺ − z⁻ of the last step.
     pub(super) swing: S::f64s,
 }
 
 impl<S: Simd> Modes<S> {
-    /// The next step, under a force that acts from its start.
+    /// Takes the next step, under a force that acts from its start.
     #[inline(always)]
     pub(super) fn advance(&mut self, simd: S, of: &Numbers<S>, force: Option<S::f64s>) {
         let free = simd.negate_mul_add_e_f64s(of.pull, self.z, simd.mul_f64s(of.keep, self.d));
@@ -49,7 +49,7 @@ impl<S: Simd> Modes<S> {
         self.z = simd.add_f64s(self.z, next);
     }
 
-    /// What a force at the end of the last step adds to it.
+    /// Completes the last step by a force at its end.
     #[inline(always)]
     fn complete(&mut self, simd: S, of: &Numbers<S>, force: Option<S::f64s>) {
         if let Some(force) = force {
@@ -57,7 +57,7 @@ impl<S: Simd> Modes<S> {
         }
     }
 
-    /// Moves the end of the last step.
+    /// Moves the end of the last step by `moved`.
     #[inline(always)]
     pub(super) fn move_by(&mut self, simd: S, moved: S::f64s) {
         self.z = simd.add_f64s(self.z, moved);
@@ -65,7 +65,7 @@ impl<S: Simd> Modes<S> {
         self.swing = simd.add_f64s(self.swing, moved);
     }
 
-    /// The next step, whose swing is known.
+    /// Takes the next step, whose swing is known.
     #[inline(always)]
     pub(super) fn swing_by(&mut self, simd: S, swing: S::f64s) {
         self.swing = swing;
@@ -74,7 +74,7 @@ impl<S: Simd> Modes<S> {
     }
 }
 
-/// [`Exchange`] in lanes, twice the work; without the loss of modes that lose nothing, which costs steps 3 %.
+/// Sums of [`Exchange`] in lanes, twice the work; without the loss of modes that lose nothing, which would cost 3 % of a step.
 pub(super) struct Sums<S: Simd, const DISSIPATES: bool> {
     twice_work: S::f64s,
     loss: S::f64s,
@@ -103,9 +103,9 @@ impl<S: Simd, const DISSIPATES: bool> Sums<S, DISSIPATES> {
     }
 }
 
-/// What a pass over the oscillators does with each vector of them.
+/// Pass over the oscillators: its action on each vector of them.
 pub(super) trait Pass {
-    /// Whether a step is counted by a later pass than the one that takes it: its z⁺ − z⁻ is kept until then.
+    /// Whether a step is counted by a later pass than the one that takes it: its z⁺ − z⁻ is stored until then.
     const COUNTS_LATER: bool;
 
     fn over<S: Simd, const DISSIPATES: bool>(
@@ -117,7 +117,7 @@ pub(super) trait Pass {
     );
 }
 
-/// A step, under forces that act from its start.
+/// Pass that takes a step, under forces that act from its start.
 pub(super) struct Advance;
 
 impl Pass for Advance {
@@ -136,7 +136,7 @@ impl Pass for Advance {
     }
 }
 
-/// The last step, by forces at its end.
+/// Pass that completes the last step by forces at its end.
 pub(super) struct Complete;
 
 impl Pass for Complete {
@@ -156,7 +156,7 @@ impl Pass for Complete {
     }
 }
 
-/// The last step, by forces at its end, and the next one free of them.
+/// Pass that completes the last step by forces at its end, and takes the next one free of them.
 pub(super) struct CompleteAndPredict;
 
 impl Pass for CompleteAndPredict {

@@ -22,20 +22,20 @@ pub(crate) struct Rows {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Loads<'a> {
     pub(crate) rows: &'a Rows,
-    /// Those of them with a force on any sector.
+    /// Rows with a force on any sector.
     pub(crate) loaded: &'a [usize],
-    /// `[column][row]`, rows padded to their stride.
+    /// Forces `[column][row]`, rows padded to their stride.
     pub(crate) force: &'a [f64],
 }
 
-/// dᵀφ_m of each row direction d, real and imaginary parts.
+/// Modal components dᵀφ_m of each row direction d, real and imaginary parts.
 #[derive(Debug, Clone)]
 pub(super) struct RowBlock {
     pub(super) re: Matrix,
     pub(super) im: Matrix,
 }
 
-/// Row-major `[row][mode]`, modes padded to `length`.
+/// Matrix in row-major order `[row][mode]`, modes padded to `length`.
 #[derive(Debug, Clone)]
 pub(super) struct Matrix {
     length: usize,
@@ -47,7 +47,7 @@ impl Matrix {
         Self { length, values: Aligned::zeros(rows * length) }
     }
 
-    /// The rows of `group`, each cut to `vectors` vectors so that no index needs a check.
+    /// Rows of `group`, each cut to `vectors` vectors so that no index needs a check.
     #[inline(always)]
     pub(super) fn rows<S: Simd, const R: usize>(&self, group: [usize; R], vectors: usize) -> [&[S::f64s]; R] {
         let mut rows: [&[S::f64s]; R] = [&[]; R];
@@ -59,7 +59,7 @@ impl Matrix {
 }
 
 impl RowBlock {
-    /// `matrix` itself, its columns padded to `length`.
+    /// Block with the entries of `matrix`, its columns padded to `length`.
     pub(super) fn padded(matrix: MatRef<'_, c64>, length: usize) -> Self {
         let zeros = || Matrix::zeros(matrix.nrows(), length);
         let mut block = Self { re: zeros(), im: zeros() };
@@ -72,7 +72,7 @@ impl RowBlock {
         block
     }
 
-    /// Its first `rows`, columns that only pad them included.
+    /// Matrix of the first `rows` rows, columns of the padding included.
     fn matrix(&self, rows: usize) -> Mat<c64> {
         let Self { re, im } = self;
         Mat::from_fn(rows, re.length, |row, m| {
@@ -83,7 +83,7 @@ impl RowBlock {
 }
 
 impl Rows {
-    /// Rows that are `of` these, `count × modes` of each nodal diameter, modes padded.
+    /// Rows made by `of` from these, `count × modes` of each nodal diameter, modes padded.
     pub(super) fn map(&self, of: impl Fn(usize, MatRef<'_, c64>) -> Mat<c64>) -> Self {
         let block = |(index, block): (usize, &RowBlock)| {
             RowBlock::padded(of(index, block.matrix(self.count).as_ref()).as_ref(), block.re.length)

@@ -1,14 +1,14 @@
-//! The layout of the oscillators.
+//! Layout of the oscillators.
 
 use super::super::mistuning::Place;
 
-/// Where the modes of one nodal diameter live.
+/// Places of the modes of one nodal diameter in the arrays of the oscillators.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Segment {
     pub(super) single: bool,
-    /// Modes.
+    /// Number of modes.
     pub(super) integrated: usize,
-    /// Modes, padded.
+    /// Number of modes, padded.
     pub(super) length: usize,
     /// Start in the coefficient arrays.
     pub(super) modes: usize,
@@ -19,17 +19,17 @@ pub(super) struct Segment {
 }
 
 impl Segment {
-    /// Starts of its real and, for a pair, imaginary part in the state arrays.
+    /// Starts of the real and, for a pair, imaginary part in the state arrays.
     pub(super) fn parts(self) -> impl Iterator<Item = usize> {
         (0..if self.single { 1 } else { 2 }).map(move |part| self.state + part * self.length)
     }
 
-    /// The same, and its Fourier column, for what couples nodal diameters.
+    /// Place of the modes in the state, and their Fourier column, for mistuning, which couples nodal diameters.
     pub(super) fn place(&self) -> Place {
         Place { re: self.state, im: (!self.single).then_some(self.state + self.length), column: self.column }
     }
 
-    /// Numbers in the state arrays.
+    /// Number of values in the state arrays.
     pub(super) fn size(self) -> usize {
         if self.single { self.length } else { 2 * self.length }
     }

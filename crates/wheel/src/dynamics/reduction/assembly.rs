@@ -1,4 +1,4 @@
-//! Untied matrices from the cyclic ones, and the order their interior is eliminated in.
+//! Untied matrices from the cyclic ones, and the order in which their interior is eliminated.
 
 use faer::sparse::{SparseColMat, SymbolicSparseColMat};
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
@@ -7,18 +7,18 @@ use super::untied::UntiedSector;
 use crate::dynamics::sector::CyclicMatrix;
 
 impl UntiedSector {
-    /// Σ factor · matrix over `terms`, all symmetric, untied, both triangles.
+    /// Assembles Σ factor · matrix over `terms`, all symmetric, untied, both triangles.
     pub(super) fn assemble(&self, terms: &[(f64, &CyclicMatrix)]) -> SparseColMat<usize, f64> {
         let matrices: Vec<&CyclicMatrix> = terms.iter().map(|&(_, matrix)| matrix).collect();
         self.untied(&matrices, 1.0, |term, value| terms[term].0 * value)
     }
 
-    /// The transpose of a skew-symmetric matrix, untied, both triangles.
+    /// Assembles the transpose of a skew-symmetric matrix, untied, both triangles.
     pub(super) fn assemble_skew_transpose(&self, matrix: &CyclicMatrix) -> SparseColMat<usize, f64> {
         self.untied(&[matrix], -1.0, |_, value| -value)
     }
 
-    /// Σ value(matrix, entry) over `matrices`; an entry of `next` stands again at its mirror image, times `image`.
+    /// Assembles Σ value(matrix, entry) over `matrices`; an entry of `next` stands again at its mirror image, times `image`.
     fn untied(
         &self,
         matrices: &[&CyclicMatrix],

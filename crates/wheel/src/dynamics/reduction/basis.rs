@@ -1,4 +1,4 @@
-//! The reduction basis of one nodal diameter and the projection on it (Eqs 4–6).
+//! Reduction basis of one nodal diameter and the projection on it (Eqs 4–6).
 
 use faer::sparse::SparseColMat;
 use faer::{Mat, c64};
@@ -7,7 +7,7 @@ use super::untied::{Tie, UntiedSector};
 use crate::dynamics::error::ModelError;
 use rubmap_numerics::orthonormal::orthonormal_basis;
 
-/// Υ̂ of one nodal diameter as tied vectors: `[Ψ_s(0) Ψ*; I 0]`.
+/// Basis Υ̂ of one nodal diameter as tied vectors: `[Ψ_s(0) Ψ*; I 0]`.
 pub(super) struct Basis<'a> {
     untied: &'a UntiedSector,
     tie: Tie,
@@ -15,8 +15,8 @@ pub(super) struct Basis<'a> {
 }
 
 impl<'a> Basis<'a> {
-    /// From the static modes at rest (`n_i × n_b`) and the fixed-interface modes at every given speed (`n_i × k`
-    /// each), made orthonormal in the `mass` inner product.
+    /// Basis from the static modes at rest (`n_i × n_b`) and the fixed-interface modes at every given speed (`n_i × k` each), made
+    /// orthonormal in the `mass` inner product.
     pub(super) fn new(
         untied: &'a UntiedSector,
         mass: &SparseColMat<usize, f64>,
@@ -42,24 +42,24 @@ impl<'a> Basis<'a> {
         Ok(Self { untied, tie, vectors })
     }
 
-    /// Υ̂ᴴ Ŷ Υ̂ with `matrix` the untied Y, Hermitian to the last bit (Eq. 6).
+    /// Projects `matrix`, the untied Y, to Υ̂ᴴ Ŷ Υ̂, Hermitian to the last bit (Eq. 6).
     pub(super) fn project(&self, matrix: &SparseColMat<usize, f64>) -> Mat<c64> {
         let full = self.product(matrix);
         Mat::from_fn(full.nrows(), full.ncols(), |i, j| (full[(i, j)] + full[(j, i)].conj()) * 0.5)
     }
 
-    /// Υ̂ᴴ Ĝ Υ̂ with `transpose` the untied Gᵀ = −G, skew-Hermitian to the last bit.
+    /// Projects `transpose`, the untied Gᵀ = −G, to Υ̂ᴴ Ĝ Υ̂, skew-Hermitian to the last bit.
     pub(super) fn project_skew(&self, transpose: &SparseColMat<usize, f64>) -> Mat<c64> {
         let full = self.product(transpose);
         Mat::from_fn(full.nrows(), full.ncols(), |i, j| (full[(i, j)] - full[(j, i)].conj()) * 0.5)
     }
 
-    /// Own DOF of the sector.
+    /// Number of own DOF of the sector.
     pub(super) fn dofs(&self) -> usize {
         self.untied.place.len()
     }
 
-    /// The row of own DOF `dof`.
+    /// Row of own DOF `dof`.
     pub(super) fn row(&self, dof: usize) -> impl Iterator<Item = c64> + use<'_> {
         let row = self.untied.tied_row(dof);
         (0..self.vectors.ncols()).map(move |column| self.vectors[(row, column)])

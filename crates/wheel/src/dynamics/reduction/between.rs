@@ -1,4 +1,4 @@
-//! The full sector's frequencies between the given speeds, with K(Ω) through them.
+//! Frequencies of the full sector between the given speeds, with K(Ω) through them.
 
 use super::convex::Convex;
 use super::interpolation::MatrixRatios;
@@ -12,7 +12,7 @@ use super::speed::{
 use super::tied_factor::TiedFactor;
 use crate::dynamics::centrifugal::stiffness_terms;
 
-/// ‖Ω1⁴K2‖/‖K0‖ of matrices that are linear in Ω² but for the round-off of twelve written digits.
+/// Ratio ‖Ω1⁴K2‖/‖K0‖ of matrices that are linear in Ω² but for the round-off of twelve written digits.
 const EXACTLY_LINEAR: f64 = 1e-11;
 
 impl Work<'_> {
@@ -67,7 +67,7 @@ impl Work<'_> {
         Ok(all)
     }
 
-    /// From the `known` modes of every nodal diameter at the given speeds; nothing for a speed where that proves too little.
+    /// Frequencies from the `known` modes of every nodal diameter at the given speeds; nothing for a speed where that proves too little.
     fn by_modes(
         &self,
         last: &Factored<'_>,
@@ -101,7 +101,7 @@ impl Work<'_> {
         Ok(full)
     }
 
-    /// By a factor of its own and a search in blocks of `block`.
+    /// Frequencies by a factor of their own and a search in blocks of `block`.
     fn searched(
         &self,
         name: &str,

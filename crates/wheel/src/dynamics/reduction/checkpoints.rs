@@ -1,19 +1,18 @@
-//! Where a long reduction keeps its parts, so that a restart continues, and its basis, so that nodes can be read.
+//! Storage of the parts of a long reduction, so that a restart continues, and of its basis, so that nodes can be read.
 
 use super::rows::BasisRows;
 
-/// Keeps finished parts of one reduction under names like `speed-1-harmonic-3`, and what a finished one leaves beside it.
+/// Storage of finished parts of one reduction under names like `speed-1-harmonic-3`, and of the basis of a finished one.
 pub trait Checkpoints: Sync {
-    /// The bytes kept under `part`, unchanged, or nothing.
+    /// Loads the bytes stored under `part`, unchanged, or nothing.
     fn load(&self, part: &str) -> Option<Vec<u8>>;
-    /// Keeps `bytes` under `part` as well as it can: losing them costs time, not correctness.
+    /// Stores `bytes` under `part` as well as it can: losing them costs time, not correctness.
     fn save(&self, part: &str, bytes: Vec<u8>);
-    /// Keeps what it wants of the basis of a nodal diameter, as well as it can; each comes once, when the reduction has
-    /// succeeded there.
+    /// Stores any rows of the basis of a nodal diameter, as well as it can; each nodal diameter comes once, when the reduction has succeeded there.
     fn keep_basis(&self, rows: &BasisRows<'_>);
 }
 
-/// Keeps nothing.
+/// Storage that stores nothing.
 #[derive(Debug, Clone, Copy)]
 pub struct NoCheckpoints;
 

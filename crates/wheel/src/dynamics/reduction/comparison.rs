@@ -1,4 +1,4 @@
-//! The reduced model's frequencies beside the full sector's.
+//! Frequencies of the reduced model beside those of the full sector.
 
 use super::findings::FrequencyComparison;
 use super::reduced::ReducedHarmonic;

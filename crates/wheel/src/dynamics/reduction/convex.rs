@@ -1,4 +1,4 @@
-//! The full sector's lowest frequencies between the given speeds, from its modes at them.
+//! Lowest frequencies of the full sector between the given speeds, from its modes at them.
 //!
 //! Where K is linear in Ω², so are the matrices between two speeds convex sums: with s = (Ω/Ω1)²
 //!
@@ -6,11 +6,10 @@
 //! K(Ω) = (1 − s) K(0) + s K(Ω1) ≥ s K(Ω1)        rᴴ K(Ω)⁻¹ r ≤ rᴴ K(Ω1)⁻¹ r / s
 //! ```
 //!
-//! Modes at the given speeds span those between them but for little, which inverse iterations with the factor at Ω1
-//! supply; the same factor bounds what a residual r tells of the error. If none is missing at rest and at Ω1, that none is
-//! between follows from the sum of the lowest m eigenvalues, the least trace of K on m directions, which is concave in s:
-//! where the first m − 1 of the computed ρ are eigenvalues, what is not among them lies above
-//! ρ_m − (Σρ − (1 − s) Σλ(0) − s Σλ(Ω1)). Where this does not convince, there is no answer.
+//! Modes at the given speeds span those between them but for little, which inverse iterations with the factor at Ω1 supply; the same factor
+//! bounds the error by the residual r. If no mode is missing at rest and at Ω1, that none is missing between follows from the sum of the
+//! lowest m eigenvalues, the least trace of K on m directions, which is concave in s: where the first m − 1 of the computed ρ are
+//! eigenvalues, all others lie above ρ_m − (Σρ − (1 − s) Σλ(0) − s Σλ(Ω1)). Where this is not conclusive, there is no result.
 
 use faer::prelude::Reborrow;
 use faer::sparse::SparseColMat;
@@ -23,36 +22,36 @@ use super::untied::UntiedSector;
 use rubmap_numerics::hermitian::generalised_eigenpairs;
 use rubmap_numerics::orthonormal::orthonormal_basis;
 
-/// Inverse iterations before giving up.
+/// Number of inverse iterations before giving up.
 const ITERATIONS: usize = 6;
-/// Directions with a smaller singular value than this share of the largest are taken for round-off of the others.
+/// Singular value, as a share of the largest, below which a direction counts as round-off of the others.
 const INDEPENDENT: f64 = 1e-5;
 
-/// The pencils at some speeds between rest and the last one.
+/// Pencils at some speeds between rest and the last one.
 pub(super) struct Convex<'a> {
     pub(super) untied: &'a UntiedSector,
     pub(super) mass: &'a SparseColMat<usize, f64>,
-    /// K(0) and K(Ω1).
+    /// Stiffness K(0) and K(Ω1).
     pub(super) stiffness: [&'a SparseColMat<usize, f64>; 2],
-    /// Of K(Ω1).
+    /// Factor of K(Ω1).
     pub(super) factor: &'a SectorFactor<'a>,
-    /// s = (Ω/Ω1)² of each speed.
+    /// Shares s = (Ω/Ω1)² of each speed.
     pub(super) shares: [f64; 2],
 }
 
-/// Directions in which modes are looked for, and what the matrices make of them.
+/// Directions in which modes are sought, with their images.
 struct Trial {
     vectors: Mat<c64>,
-    /// K(0) x and K(Ω1) x.
+    /// Images K(0) x and K(Ω1) x.
     stiffness: [Mat<c64>; 2],
-    /// M x.
+    /// Image M x.
     mass: Mat<c64>,
 }
 
 impl Convex<'_> {
-    /// The `count` lowest eigenvalues of one nodal diameter at each speed, from the full sector's modes at rest, between and
-    /// at Ω1, of which there are more. The error of each in the norm of K(Ω)⁻¹, relative to Kx, is at most `tolerance`; its
-    /// square is that of the eigenvalue. `None` where they are not proven.
+    /// Lowest eigenvalues, `count` of them, of one nodal diameter at each speed, from the full sector's modes at rest, between and at Ω1,
+    /// of which there are more. The error of each in the norm of K(Ω)⁻¹, relative to Kx, is at most `tolerance`; its square is that of the
+    /// eigenvalue. `None` where they are not proven.
     pub(super) fn lowest(
         &self,
         tied: &TiedFactor,
@@ -76,8 +75,8 @@ impl Convex<'_> {
         })
     }
 
-    /// The `most` lowest Ritz values with the stiffness at `share`, once the first `count` are as exact as they must be, and
-    /// how many of the first are.
+    /// Lowest Ritz values, `most` of them, with the stiffness at `share`, once the first `count` are as exact as they must be, and the
+    /// number of the first that are.
     fn converged(
         &self,
         tied: &TiedFactor,
@@ -160,8 +159,8 @@ impl Trial {
     }
 }
 
-/// Whether none is missing among the `count` lowest of `values`, all but the last of which are eigenvalues, given those at rest and
-/// at Ω1; all to the square of `tolerance`.
+/// Whether no eigenvalue is missing among the `count` lowest of `values`, all but the last of which are eigenvalues, given those at rest
+/// and at Ω1; all to the square of `tolerance`.
 fn complete(values: &[f64], ends: [&[f64]; 2], share: f64, count: usize, tolerance: f64) -> bool {
     (count + 1..=values.len()).any(|m| {
         let sum = |values: &[f64]| values[..m].iter().sum::<f64>();
@@ -174,7 +173,7 @@ fn complete(values: &[f64], ends: [&[f64]; 2], share: f64, count: usize, toleran
 mod tests {
     use super::*;
 
-    /// Straight lines in s: those at the ends are what the sums are of.
+    /// Straight lines in s, whose end values are the eigenvalues summed.
     fn lines(slopes: &[(f64, f64)], share: f64) -> Vec<f64> {
         let mut values: Vec<f64> = slopes.iter().map(|(a, b)| a + share * (b - a)).collect();
         values.sort_by(f64::total_cmp);
@@ -196,7 +195,7 @@ mod tests {
         }
     }
 
-    /// Beyond the last but one value nothing is known of an eigenvalue that a missing one is mixed with.
+    /// Values beyond the last but one may be mixtures with a missing eigenvalue: they prove nothing.
     #[test]
     fn values_that_are_no_eigenvalues_prove_nothing() {
         let low = [0.1, 0.2, 0.3, 0.4];

@@ -15,39 +15,38 @@ use super::tied_factor::tied_schur;
 use super::untied::{Tie, UntiedSector};
 use rubmap_numerics::multifrontal::Inertia;
 
-/// Eigenvalues below a shift.
+/// Number of eigenvalues below a shift.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct ModeCount {
-    /// σ, (rad/s)².
+    /// Shift σ, (rad/s)².
     pub shift: f64,
-    /// How many lie below it, by inertia; as many were found.
+    /// Number of eigenvalues below the shift, by inertia; as many were found.
     pub below: usize,
 }
 
-/// Whether the modes kept are known to be the lowest, none missed.
+/// Proof that the modes stored are the lowest, none missed.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Completeness {
-    /// They are all the modes there are.
+    /// Modes are all the modes there are.
     Whole,
-    /// As many eigenvalues lie below a shift as were found.
+    /// Modes below a shift are as many as the eigenvalues counted there.
     Counted(ModeCount),
-    /// No shift could be found at which inertia tells.
+    /// Modes without proof: at no shift that was found does inertia decide.
     Unproven,
 }
 
-/// What a count says about one nodal diameter.
+/// Verdict of a count on one nodal diameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Verdict {
     Complete(ModeCount),
-    /// The count differs from what was found.
+    /// Count that differs from the modes found.
     Missed,
     Uncountable,
 }
 
-/// Smallest relative distance of a shift from a wanted eigenvalue; from one that is only located, twice what its
-/// place is known to.
+/// Smallest relative distance of a shift from a wanted eigenvalue; from one that is only located, twice the accuracy of its place.
 const MARGIN: f64 = 1e-6;
-/// Factorisations that may break down or grow before the rest stays uncounted.
+/// Number of factorisations that may break down or grow before the rest stays uncounted.
 const MOST_FAILURES: usize = 3;
 
 /// Counts the eigenvalues of every nodal diameter in `found` below a shift that lies above its modes, with fixed
@@ -88,7 +87,7 @@ pub(super) fn count_modes(
     verdicts.into_iter().map(|verdict| verdict.unwrap_or(Verdict::Uncountable)).collect()
 }
 
-/// Negative eigenvalues of the face's Schur complement.
+/// Number of negative eigenvalues of the face's Schur complement.
 fn negative_on_face(
     untied: &UntiedSector,
     eliminated: &Mat<f64>,
@@ -110,11 +109,11 @@ fn largest_square(modes: &Modes) -> f64 {
     modes.vectors.col_iter().map(|x| x.squared_norm_l2()).fold(0.0, f64::max)
 }
 
-/// The eigenvalues known of one nodal diameter.
+/// Eigenvalues known of one nodal diameter.
 struct Ladder {
-    /// Ascending, all that are located.
+    /// Eigenvalues that are located, ascending.
     values: Vec<f64>,
-    /// How many of them must lie below a shift.
+    /// Number of eigenvalues that must lie below a shift.
     wanted: usize,
 }
 
@@ -124,7 +123,7 @@ impl Ladder {
         Self { values, wanted: modes.values.len() }
     }
 
-    /// Known eigenvalues below `shift`, if it lies clear of them, above the wanted ones and below the last.
+    /// Number of known eigenvalues below `shift`, if it lies clear of them, above the wanted ones and below the last.
     fn below(&self, shift: f64) -> Option<usize> {
         let below = self.values.partition_point(|&value| value < shift);
         let clear = |index: usize| {
@@ -134,7 +133,7 @@ impl Ladder {
         (below >= self.wanted && below > 0 && clear(below - 1) && clear(below)).then_some(below)
     }
 
-    /// From `shift` to the nearest known eigenvalue.
+    /// Distance from `shift` to the nearest known eigenvalue.
     fn distance(&self, shift: f64) -> f64 {
         self.values.iter().map(|value| (value - shift).abs()).fold(f64::INFINITY, f64::min)
     }
@@ -145,8 +144,7 @@ impl Ladder {
     }
 }
 
-/// The shift that serves most of the ladders that wait, none of `failed`; of those, the one farthest from all their
-/// eigenvalues.
+/// Shift that serves most of the ladders that wait, none of `failed`; of several, the one farthest from all their eigenvalues.
 fn best_shift(ladders: &[Ladder], waiting: &[usize], failed: &[f64]) -> Option<f64> {
     let candidates =
         waiting.iter().flat_map(|&i| ladders[i].shifts()).filter(|shift| !failed.contains(shift));
@@ -162,7 +160,7 @@ fn best_shift(ladders: &[Ladder], waiting: &[usize], failed: &[f64]) -> Option<f
         .map(|(_, _, shift)| shift)
 }
 
-/// Negative eigenvalues of a Hermitian matrix, from the blocks of its Bunch–Kaufman factor.
+/// Number of negative eigenvalues of a Hermitian matrix, from the blocks of its Bunch–Kaufman factor.
 fn negative_eigenvalues<T: ComplexField<Real = f64>>(matrix: MatRef<'_, T>) -> usize {
     let factor = matrix.lblt(Side::Lower);
     let (diagonal, below) = (factor.B_diag().column_vector(), factor.B_subdiag().column_vector());

@@ -1,28 +1,28 @@
-//! What a reduction is found to be worth.
+//! Findings about the quality of a reduction.
 
 use serde::{Deserialize, Serialize};
 
-/// The verdict on K(Ω).
+/// Verdict on K(Ω).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum InterpolationVerdict {
-    /// One stiffness matrix: nothing to interpolate.
+    /// Stiffness at one speed only: nothing to interpolate.
     Absent,
-    /// Linear in Ω², as on the undeformed geometry.
+    /// Stiffness linear in Ω², as on the undeformed geometry.
     Sound,
-    /// K2 does not vanish: a sign of deformed-geometry stiffness; usable with the stated error.
+    /// Stiffness whose K2 does not vanish: a sign of deformed-geometry stiffness; usable with the stated error.
     Suspect,
-    /// K(Ω) is indefinite, or the lowest frequencies are not smooth, between the given speeds.
+    /// Stiffness K(Ω) that is indefinite, or whose lowest frequencies are not smooth, between the given speeds.
     Unsound,
 }
 
-/// What was found about K(Ω).
+/// Check of K(Ω) between the given speeds.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct InterpolationCheck {
-    /// The verdict.
+    /// Verdict on K(Ω).
     pub verdict: InterpolationVerdict,
-    /// ‖Ω1²K1‖/‖K0‖ (largest entries of the sector's own block).
+    /// Ratio ‖Ω1²K1‖/‖K0‖ (largest entries of the sector's own block).
     pub linear_ratio: f64,
-    /// ‖Ω1⁴K2‖/‖K0‖ (largest entries).
+    /// Ratio ‖Ω1⁴K2‖/‖K0‖ (largest entries).
     pub quadratic_ratio: f64,
     /// Largest relative deviation, at ¼ and ¾ Ω1, of the lowest frequency of any nodal diameter from the smooth curve
     /// through its values at the given speeds: an estimate of the interpolation error. Infinite where K(Ω) is
@@ -35,11 +35,11 @@ pub struct InterpolationCheck {
 pub struct FrequencyComparison {
     /// Nodal diameter i.
     pub harmonic: usize,
-    /// Ω, rad/s.
+    /// Speed Ω, rad/s.
     pub speed_rad_s: f64,
-    /// Of the full sector, rad/s, ascending; empty where its K(Ω) is not positive definite.
+    /// Frequencies of the full sector, rad/s, ascending; empty where its K(Ω) is not positive definite.
     pub full: Vec<f64>,
-    /// Of the reduced one, as many where it has them.
+    /// Frequencies of the reduced sector, rad/s, as many as of the full one where it has them.
     pub reduced: Vec<f64>,
 }
 

@@ -1,4 +1,4 @@
-//! Can K(Ω) be trusted between the given speeds? (docs/method.md, Centrifugal stiffening)
+//! Check whether K(Ω) can be trusted between the given speeds (docs/method.md, Centrifugal stiffening).
 //!
 //! On the undeformed geometry K is linear in Ω²: K2 vanishes to round-off, and eigenvalues are smooth in Ω². Tangents
 //! of a geometrically non-linear step sit on the deformed geometry; every stiff entry moves with the deformation, K2
@@ -10,10 +10,10 @@ use crate::dynamics::error::ModelError;
 use crate::dynamics::sector::SectorModel;
 use rubmap_numerics::hermitian::{EigenError, generalised_eigenvalues};
 
-/// K2 entries above this fraction of K0's cannot be the round-off of matrices written with six digits or more.
+/// Fraction of K0's entries above which K2 entries cannot be the round-off of matrices written with six digits or more.
 const QUADRATIC_LIMIT: f64 = 1e-5;
 
-/// Deviations of the lowest frequencies beyond this are no smooth curve any more.
+/// Deviation of the lowest frequencies beyond which they are no longer a smooth curve.
 const FREQUENCY_LIMIT: f64 = 0.01;
 
 pub(super) fn check(
@@ -46,17 +46,17 @@ pub(super) fn check(
     Ok(InterpolationCheck { verdict, linear_ratio, quadratic_ratio, frequency_error })
 }
 
-/// What the three stiffness matrices of a sector tell about K(Ω) by themselves (largest entries).
+/// Ratios of the three stiffness matrices of a sector, which alone bear on K(Ω) (largest entries).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MatrixRatios {
-    /// ‖Ω1²K1‖/‖K0‖.
+    /// Ratio ‖Ω1²K1‖/‖K0‖.
     pub linear: f64,
-    /// ‖Ω1⁴K2‖/‖K0‖.
+    /// Ratio ‖Ω1⁴K2‖/‖K0‖.
     pub quadratic: f64,
 }
 
 impl MatrixRatios {
-    /// Of a sector with stiffness at three speeds; entry by entry, so that nothing is held beside the matrices.
+    /// Ratios of a sector with stiffness at three speeds; entry by entry, so that nothing is held beside the matrices.
     pub fn of(sector: &SectorModel) -> Option<Self> {
         let ([_, a, b], [k0, ka, kb]) = (&*sector.speeds_rad_s, &*sector.stiffness) else { return None };
         let blocks = [[&k0.own, &ka.own, &kb.own], [&k0.next, &ka.next, &kb.next]];
@@ -88,8 +88,8 @@ impl MatrixRatios {
     }
 }
 
-/// |f − f_smooth|/f at ¼ and ¾ of the last speed, where f_smooth² is the parabola in Ω² through the lowest
-/// eigenvalues at the three given speeds.
+/// Deviation |f − f_smooth|/f at ¼ and ¾ of the last speed, where f_smooth² is the parabola in Ω² through the lowest eigenvalues at the
+/// three given speeds.
 fn lowest_frequency_deviation(harmonic: &ReducedHarmonic, a: f64, b: f64) -> Result<f64, ModelError> {
     let lowest = |speed_rad_s: f64| -> Result<f64, ModelError> {
         let nodal_diameter = harmonic.harmonic;

@@ -1,4 +1,4 @@
-//! Whether a mass can carry the modes of a sector.
+//! Check whether a mass can carry the modes of a sector.
 //!
 //! Modes are those of M x = θ K x with the largest θ = 1/λ, orthonormal in M. Directions without mass have θ = 0 and follow
 //! statically, far from all modes that are kept: M need not be definite. Elements whose mass is integrated at few points
@@ -12,16 +12,16 @@ use super::untied::UntiedSector;
 use crate::dynamics::sector::{CyclicMatrix, SectorModel};
 use rubmap_numerics::sector_fourier::harmonic_count;
 
-/// Eigenvalues of a mass scaled to a unit diagonal that may be negative by this much: what assembling and printing twelve
-/// digits leave of zeros (−7.5e-12 seen of C3D15).
+/// Size up to which eigenvalues of a mass scaled to a unit diagonal may be negative: what assembling and printing twelve digits leave of
+/// zeros (−7.5e-12 seen of C3D15).
 pub const ROUND_OFF: f64 = 1e-10;
 
-/// A motion of the wheel whose mass is negative by more than [`ROUND_OFF`].
+/// Motion of the wheel whose mass is negative by more than [`ROUND_OFF`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct NegativeMass {
     /// Nodal diameter of the motion.
     pub nodal_diameter: usize,
-    /// An own DOF that takes part in it.
+    /// Own DOF that takes part in the motion.
     pub dof: usize,
 }
 

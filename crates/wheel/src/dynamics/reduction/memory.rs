@@ -1,10 +1,10 @@
-//! What a reduction will need, before it starts.
+//! Memory that a reduction will need, estimated before it starts.
 
 use super::speed::{BEYOND_COMPARED, COMPARED, TOGETHER};
 use super::untied::UntiedSector;
 use crate::dynamics::sector::{CyclicMatrix, SectorModel};
 
-/// Krylov vectors per mode asked for, seen over many sectors, with a margin.
+/// Number of Krylov vectors per mode asked for, seen over many sectors, with a margin.
 const KRYLOV_VECTORS_PER_MODE: usize = 6;
 
 /// Bytes held at once by the sector's own matrices and its reduction, from the symbolic factorisation. An estimate:

@@ -55,9 +55,8 @@ pub use static_response::{StaticResponse, StaticSpan, static_response};
 
 /// Reduces `sector`.
 ///
-/// One real factor of the untied sector per speed serves every nodal diameter (sector_factor.rs). Deterministic: what runs
-/// in parallel, on the current rayon pool, is independent or summed in a fixed order. Parts that `checkpoints` has
-/// are not computed again.
+/// One real factor of the untied sector per speed serves every nodal diameter (sector_factor.rs). Deterministic: work in parallel, on the
+/// current rayon pool, is independent or summed in a fixed order. Parts that `checkpoints` has are not computed again.
 pub fn reduce(
     sector: &SectorModel,
     options: &ReductionOptions,
@@ -117,7 +116,7 @@ pub fn reduce(
     })
 }
 
-/// The reduced matrices of every nodal diameter (Eq. 6).
+/// Reduced matrices of every nodal diameter (Eq. 6).
 fn project(
     work: &Work<'_>,
     options: &ReductionOptions,

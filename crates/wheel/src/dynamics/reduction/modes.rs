@@ -21,11 +21,11 @@ use rubmap_numerics::vector_block::VectorBlock;
 /// Lowest modes of one nodal diameter at one stiffness.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct Modes {
-    /// λ = ω² ascending, (rad/s)².
+    /// Eigenvalues λ = ω² ascending, (rad/s)².
     pub(super) values: Vec<f64>,
-    /// ‖Kx − λMx‖/‖Kx‖ of each.
+    /// Residual ‖Kx − λMx‖/‖Kx‖ of each.
     pub(super) residuals: Vec<f64>,
-    /// Tied vectors, mass-orthonormal.
+    /// Mode shapes as tied vectors, mass-orthonormal.
     #[serde(with = "matrix_serde")]
     pub(super) vectors: Mat<c64>,
     /// Eigenvalues beyond `values` that are located well enough to be counted.
@@ -33,53 +33,53 @@ pub(super) struct Modes {
 }
 
 impl Modes {
-    /// Values just above the known eigenvalues, by as much as they are known to.
+    /// Upper bounds of the known eigenvalues: above them by as much as they are known to.
     pub(super) fn ceilings(&self) -> Vec<f64> {
         let found = self.values.iter().map(|value| value * (1.0 + 1e-6));
         found.chain(self.beyond.iter().map(|value| value * (1.0 + 2.0 * LOCATED))).collect()
     }
 }
 
-/// What is asked of a search.
+/// Requirements on a search.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Wanted {
-    /// Modes of each nodal diameter; all of them where there are fewer, or fewer with mass.
+    /// Number of modes of each nodal diameter; all of them where there are fewer, or fewer with mass.
     pub(super) count: usize,
-    /// Vectors advanced together; also the multiplicity of an eigenvalue found without luck.
+    /// Number of vectors advanced together; also the largest multiplicity of an eigenvalue that is found without luck.
     pub(super) block: usize,
     /// Whether contact DOF are free.
     pub(super) free: bool,
-    /// Whether the vectors are wanted: without them the iteration's own estimate stands for the residual.
+    /// Whether the vectors are needed: without them the iteration's own estimate stands for the residual.
     pub(super) vectors: bool,
-    /// Accepted ‖Kx − λMx‖/‖Kx‖ of every returned pair; its square is the relative error of λ.
+    /// Accepted residual ‖Kx − λMx‖/‖Kx‖ of every returned pair; its square is the relative error of λ.
     pub(super) tolerance: f64,
-    /// Eigenvalues to locate beyond those: room for a shift between them.
+    /// Number of eigenvalues to locate beyond the modes: room for a shift between them.
     pub(super) beyond: usize,
 }
 
-/// Why no modes were returned.
+/// Reason why no modes were returned.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum ModeError {
-    /// The tolerance was not reached.
+    /// Search that did not reach the tolerance.
     NotConverged { harmonic: usize, residual: f64, block_steps: usize },
-    /// A mode without mass: fewer have it than the modes asked for.
+    /// Mode without mass: fewer have mass than the modes asked for.
     Massless { harmonic: usize },
-    /// A dense decomposition inside the iteration failed.
+    /// Dense decomposition inside the iteration that failed.
     DenseFailed { harmonic: usize },
-    /// The caller's `keep_going` said no.
+    /// Search that the caller's `keep_going` stopped.
     Stopped,
 }
 
-/// An eigenvalue is located, for counting, once its Ritz pair has this error.
+/// Error of a Ritz pair at which its eigenvalue is located well enough to be counted.
 pub(super) const LOCATED: f64 = 1e-4;
-/// Searches whose modes are assembled together: enough to read the factor for many vectors, few enough for these to fit.
+/// Number of searches whose modes are assembled together: enough to read the factor for many vectors, few enough for these to fit.
 const ASSEMBLED: usize = 3;
-/// Block steps before giving up, or enough for eight times the modes asked for.
+/// Number of block steps before giving up; more where eight times the modes asked for need more.
 const MAX_BLOCK_STEPS: usize = 200;
-/// Spaces up to this size are solved densely: the Krylov space would be most of the whole.
+/// Size up to which spaces are solved densely: the Krylov space would be most of the whole.
 const DENSE_SIZE: usize = 200;
 
-/// K and M of the untied sector, with the factor of K.
+/// Pencil of K and M of the untied sector, with the factor of K.
 pub(super) struct Pencil<'a> {
     pub(super) untied: &'a UntiedSector,
     pub(super) stiffness: &'a SparseColMat<usize, f64>,
@@ -87,24 +87,23 @@ pub(super) struct Pencil<'a> {
     pub(super) factor: &'a SectorFactor<'a>,
 }
 
-/// A search under way.
+/// Search under way.
 struct Search<'a> {
     position: usize,
     tied: &'a TiedFactor,
     wanted: Wanted,
-    /// Rows of its vectors.
+    /// Number of rows of the search's vectors.
     rows: usize,
     lanczos: BlockLanczos,
     ritz: Option<Ritz>,
     last_error: f64,
-    /// Size of the basis at which its Ritz pairs are looked at next.
+    /// Size of the basis at which the Ritz pairs are checked next.
     next_look: usize,
 }
 
 impl Pencil<'_> {
-    /// The lowest modes of every nodal diameter asked for, in that order. Deterministic: of a nodal diameter the same bits
-    /// whatever others are asked for; `keep_going(share)` is asked before every block step with a guess at the share of the work
-    /// done.
+    /// Finds the lowest modes of every nodal diameter asked for, in that order. Deterministic: a nodal diameter gets the same bits whatever
+    /// others are asked for; `keep_going(share)` is asked before every block step with a guess at the share of the work done.
     pub(super) fn lowest_modes(
         &self,
         asked: &[(&TiedFactor, Wanted)],
@@ -199,7 +198,7 @@ impl Pencil<'_> {
         }
     }
 
-    /// Modes from Ritz pairs, x = L̂⁻ᴴ y/√θ, and how far the worst is from being accepted.
+    /// Modes from Ritz pairs, x = L̂⁻ᴴ y/√θ, and the distance of the worst from acceptance.
     fn modes(&self, converged: &[(Search<'_>, Ritz)]) -> Result<Vec<(Modes, f64)>, ModeError> {
         let assemble = |(search, ritz): &(Search<'_>, Ritz)| {
             let count = search.wanted.count;
@@ -232,8 +231,8 @@ impl Pencil<'_> {
         Ok(converged.iter().zip(values).map(modes).collect())
     }
 
-    /// The dense solution, `count` modes or as many as have mass, on M x = θ K x like the iteration: the lowest modes are
-    /// then accurate to round-off even where M is nearly singular.
+    /// Solves densely for `count` modes, or as many as have mass, on M x = θ K x like the iteration: the lowest modes are then accurate to
+    /// round-off even where M is nearly singular.
     fn dense(&self, tie: &Tie, rows: usize, count: usize, tolerance: f64) -> Result<Modes, ModeError> {
         let harmonic = tie.harmonic;
         let [m, k] = [self.mass, self.stiffness].map(|matrix| self.untied.tied_dense(matrix, tie, rows));
@@ -258,9 +257,9 @@ impl Pencil<'_> {
         Ok(Modes { values, residuals, vectors, beyond })
     }
 
-    /// ‖Kx − λMx‖/‖Kx‖ of every column, and the largest measure of acceptance, NaN if any is: the same ratio, but what
-    /// the round-off of Kx alone may leave, 64 ε ‖|K||x|‖, counts as the tolerance and no more, for no eigensolver can
-    /// do better on a stiffness of high contrast.
+    /// Residuals ‖Kx − λMx‖/‖Kx‖ of every column, and the largest measure of acceptance, NaN if any is. The measure is the same ratio, but
+    /// the part that the round-off of Kx alone may leave, 64 ε ‖|K||x|‖, counts as the tolerance and no more, for no eigensolver can do
+    /// better on a stiffness of high contrast.
     fn residuals(
         &self,
         tie: &Tie,
@@ -297,7 +296,7 @@ impl Pencil<'_> {
     }
 }
 
-/// λ = 1/θ of the first `count` pairs.
+/// Eigenvalues λ = 1/θ of the first `count` pairs.
 fn values_of(ritz: &Ritz, count: usize, harmonic: usize) -> Result<Vec<f64>, ModeError> {
     let theta = &ritz.values[..count];
     if theta.iter().any(|&theta| theta.is_nan() || theta <= 0.0) {
@@ -307,7 +306,7 @@ fn values_of(ritz: &Ritz, count: usize, harmonic: usize) -> Result<Vec<f64>, Mod
 }
 
 impl Search<'_> {
-    /// Takes the image of the last block; leaves Ritz pairs where the wanted ones seem to have converged.
+    /// Takes the image of the last block; leaves Ritz pairs where the wanted modes seem to have converged.
     fn advance(&mut self, image: VectorBlock) {
         let Wanted { count, block, tolerance, beyond, .. } = self.wanted;
         self.lanczos.absorb(image);

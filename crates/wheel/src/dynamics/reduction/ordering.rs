@@ -1,4 +1,4 @@
-//! The order in which the interior of a sector is eliminated.
+//! Order in which the interior of a sector is eliminated.
 
 use crate::dynamics::sector::{CyclicMatrix, SectorModel};
 use rubmap_numerics::nested_dissection::dissection;

@@ -1,4 +1,4 @@
-//! A reduced wheel: what all simulations of a model start from.
+//! Reduced wheel, from which all simulations of a model start.
 
 use faer::{Mat, c64};
 use serde::{Deserialize, Serialize};
@@ -15,15 +15,15 @@ use rubmap_numerics::matrix_serde;
 pub struct ReducedHarmonic {
     /// Nodal diameter i.
     pub harmonic: usize,
-    /// M_r, Hermitian.
+    /// Mass M_r, Hermitian.
     #[serde(with = "matrix_serde")]
     pub mass: Mat<c64>,
-    /// K_r(Ω).
+    /// Stiffness K_r(Ω).
     pub stiffness: StiffnessPolynomial,
-    /// G_r per unit speed, skew-Hermitian; absent if the sector has none.
+    /// Gyroscopic matrix G_r per unit speed, skew-Hermitian; absent if the sector has none.
     #[serde(with = "matrix_serde::option")]
     pub gyroscopic: Option<Mat<c64>>,
-    /// Its fixed-interface modes at each given speed, with the proof that they are the lowest ones.
+    /// Fixed-interface modes of the nodal diameter at each given speed, with the proof that they are the lowest ones.
     pub certificates: Vec<ModeCertificate>,
 }
 
@@ -34,38 +34,38 @@ pub struct ModeCertificate {
     pub speed_rad_s: f64,
     /// Eigenvalues λ = ω², ascending, (rad/s)².
     pub eigenvalues: Vec<f64>,
-    /// ‖Kx − λMx‖/‖Kx‖ of each.
+    /// Residual ‖Kx − λMx‖/‖Kx‖ of each mode.
     pub residuals: Vec<f64>,
-    /// Whether they are known to be the lowest.
+    /// Proof that the modes are the lowest, as far as there is one.
     pub completeness: Completeness,
 }
 
 impl ReducedHarmonic {
-    /// Largest ‖Kx − λMx‖/‖Kx‖ of its fixed-interface modes.
+    /// Largest residual ‖Kx − λMx‖/‖Kx‖ of the fixed-interface modes.
     pub fn largest_mode_residual(&self) -> f64 {
         self.certificates.iter().flat_map(|certificate| &certificate.residuals).fold(0.0, |m, &r| m.max(r))
     }
 
-    /// SHA-256 of M_r, which tells whether rows of a basis are those that it was projected on.
+    /// Mark of the reduction: SHA-256 of M_r, which tells whether rows of a basis are those that the matrices were projected on.
     pub fn mark(&self) -> [u8; 32] {
         mark(&self.mass)
     }
 }
 
-/// The reduced wheel at every speed: all that simulations need of a sector.
+/// Reduced wheel at every speed: all that simulations need of a sector.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct ReducedWheel {
-    /// N.
+    /// Number N of sectors.
     pub sectors: usize,
     /// Contact nodes from leading to trailing edge.
     pub contact: Vec<ContactNode>,
     /// Speeds of the stiffness matrices, rad/s.
     pub speeds_rad_s: Vec<f64>,
-    /// One per nodal diameter 0 … ⌊N/2⌋.
+    /// Reduced matrices of every nodal diameter 0 … ⌊N/2⌋.
     pub harmonics: Vec<ReducedHarmonic>,
-    /// How far K(Ω) can be trusted between the given speeds.
+    /// Check whether K(Ω) can be trusted between the given speeds.
     pub interpolation: InterpolationCheck,
-    /// The lowest frequencies beside the full sector's, at the given speeds and between them.
+    /// Lowest frequencies beside those of the full sector, at the given speeds and between them.
     pub comparison: Vec<FrequencyComparison>,
 }
 

@@ -1,11 +1,11 @@
-//! Rows of the reduction basis: what any DOF of the sector does in the reduced coordinates.
+//! Rows of the reduction basis: displacement of any DOF of the sector in the reduced coordinates.
 
 use faer::{Mat, c64};
 
 use super::basis::Basis;
 use super::reduced::mark;
 
-/// Υ̂ of one nodal diameter, row by row: u = Υ̂ q for the own DOF in (r, θ, z) components, q being the coordinates of the reduced
+/// Basis Υ̂ of one nodal diameter, row by row: u = Υ̂ q for the own DOF in (r, θ, z) components, q being the coordinates of the reduced
 /// matrices. The DOF of the high face are those of the low one in the next sector.
 #[derive(Clone, Copy)]
 pub struct BasisRows<'a> {
@@ -24,22 +24,22 @@ impl<'a> BasisRows<'a> {
         self.harmonic
     }
 
-    /// Own DOF of the sector.
+    /// Number of own DOF of the sector.
     pub fn dofs(&self) -> usize {
         self.basis.dofs()
     }
 
-    /// Columns.
+    /// Number of columns.
     pub fn unknowns(&self) -> usize {
         self.mass.ncols()
     }
 
-    /// To whose reduction they belong; see [`ReducedHarmonic::mark`](super::ReducedHarmonic::mark).
+    /// Mark of the reduction that the rows belong to; see [`ReducedHarmonic::mark`](super::ReducedHarmonic::mark).
     pub fn mark(&self) -> [u8; 32] {
         mark(self.mass)
     }
 
-    /// The row of own DOF `dof`: real and imaginary part of every column.
+    /// Row of own DOF `dof`: real and imaginary part of every column.
     pub fn row(&self, dof: usize) -> impl Iterator<Item = f64> + use<'a> {
         self.basis.row(dof).flat_map(|value| [value.re, value.im])
     }

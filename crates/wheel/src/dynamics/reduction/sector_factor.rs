@@ -1,4 +1,4 @@
-//! One real factor of the untied sector, and what each nodal diameter adds to it: a small dense factor.
+//! Real factor of the untied sector, and the small dense factor that each nodal diameter adds to it.
 //!
 //! With the interior eliminated once, K_II = L D Lᵀ, a nodal diameter's stiffness over (interior, low face) is
 //!
@@ -21,11 +21,11 @@ use rubmap_numerics::panel::Panel;
 use rubmap_numerics::sparse_product::row_product;
 use rubmap_numerics::vector_block::VectorBlock;
 
-/// The factor of the untied sector's interior at one stiffness.
+/// Factor of the untied sector's interior at one stiffness.
 pub(super) struct SectorFactor<'a> {
     untied: &'a UntiedSector,
     factor: PartialFactor<'a>,
-    /// D^−½
+    /// Scale D^−½.
     scale: Vec<f64>,
 }
 
@@ -37,16 +37,16 @@ pub(super) struct Load<'a> {
 }
 
 impl Load<'_> {
-    /// Real vectors that stand for it.
+    /// Number of real vectors that stand for the load.
     fn width(&self) -> usize {
         self.vectors.parts().width()
     }
 }
 
-/// Tied vectors a load should have: a few, so that loads spread over the threads.
+/// Number of tied vectors a load should have: a few, so that loads spread over the threads.
 pub(super) const COLUMNS: usize = 4;
 
-/// Loads of a few columns each.
+/// Splits `vectors` into loads of a few columns each.
 pub(super) fn split<'t>(tied: &'t TiedFactor, vectors: MatRef<'_, c64>) -> Vec<Load<'t>> {
     let count = vectors.ncols();
     let real = UntiedSector::is_real(&tied.tie);
@@ -57,7 +57,7 @@ pub(super) fn split<'t>(tied: &'t TiedFactor, vectors: MatRef<'_, c64>) -> Vec<L
     (0..count).step_by(COLUMNS).map(load).collect()
 }
 
-/// The vectors of all loads side by side.
+/// Joins the vectors of all loads side by side.
 pub(super) fn join(loads: &[Load<'_>]) -> Mat<c64> {
     let rows = loads.first().map_or(0, |load| load.vectors.size());
     let mut vectors = Mat::zeros(rows, loads.iter().map(|load| load.vectors.count()).sum());
@@ -70,10 +70,9 @@ pub(super) fn join(loads: &[Load<'_>]) -> Mat<c64> {
     vectors
 }
 
-/// A pivot below this fraction of its diagonal entry is round-off: the matrix is singular, as far as double precision
-/// can tell.
+/// Fraction of its diagonal entry below which a pivot is round-off: the matrix is singular, as far as double precision can tell.
 const SINGULAR: f64 = 1e-13;
-/// Real vectors solved together at most: the factor is read once for all of them.
+/// Largest number of real vectors solved together: the factor is read once for all of them.
 const GROUP: usize = 48;
 
 impl<'a> SectorFactor<'a> {
@@ -96,7 +95,7 @@ impl<'a> SectorFactor<'a> {
         Ok(Self { untied, factor, scale })
     }
 
-    /// What nodal diameter `harmonic` adds. Fails where the stiffness with fixed contact DOF is not positive definite.
+    /// Factor of nodal diameter `harmonic`. Fails where the stiffness with fixed contact DOF is not positive definite.
     pub(super) fn tie(
         &self,
         stiffness: &SparseColMat<usize, f64>,
@@ -105,7 +104,7 @@ impl<'a> SectorFactor<'a> {
         TiedFactor::new(self.untied, self.factor.schur(), stiffness, self.untied.tie(harmonic))
     }
 
-    /// x ← L̂⁻ᴴ y for every load.
+    /// Solves x ← L̂⁻ᴴ y for every load.
     pub(super) fn half_adjoint(&self, loads: &mut [Load<'_>]) {
         self.on_boundary(loads, TiedFactor::solve_adjoint);
         self.solve_interior(loads, |panel| {
@@ -114,7 +113,7 @@ impl<'a> SectorFactor<'a> {
         });
     }
 
-    /// y ← L̂⁻¹ M̂ L̂⁻ᴴ y for every load, with `mass` untied.
+    /// Applies y ← L̂⁻¹ M̂ L̂⁻ᴴ y to every load, with `mass` untied.
     pub(super) fn apply(&self, mass: &SparseColMat<usize, f64>, loads: &mut [Load<'_>]) {
         self.on_boundary(loads, TiedFactor::solve_adjoint);
         let images = self.through(loads, usize::MAX, |panel| {
@@ -128,13 +127,13 @@ impl<'a> SectorFactor<'a> {
         self.on_boundary(loads, TiedFactor::solve);
     }
 
-    /// x ← K̂⁻¹ f for every load.
+    /// Solves x ← K̂⁻¹ f for every load.
     pub(super) fn solve(&self, loads: &mut [Load<'_>]) {
         self.half(loads);
         self.half_adjoint(loads);
     }
 
-    /// y ← L̂⁻¹ f for every load: ‖y‖² = fᴴ K̂⁻¹ f.
+    /// Solves y ← L̂⁻¹ f for every load: ‖y‖² = fᴴ K̂⁻¹ f.
     pub(super) fn half(&self, loads: &mut [Load<'_>]) {
         let interior = self.untied.interior();
         // Untied, what acts on the low face would act on the high one again.
@@ -159,9 +158,8 @@ impl<'a> SectorFactor<'a> {
         self.on_boundary(loads, TiedFactor::solve);
     }
 
-    /// Whether the matrix of every nodal diameter is positive definite, contact DOF included, seen without factoring
-    /// each: with S(i) = A + B e^{jiα} + Bᵀ e^{−jiα}, ‖S(i) − S(0)‖ ≤ 4 ‖B‖, and little reaches from face to face
-    /// through a mass. `false` says nothing.
+    /// Whether the matrix of every nodal diameter is positive definite, contact DOF included, seen without factoring each: with S(i) = A +
+    /// B e^{jiα} + Bᵀ e^{−jiα}, ‖S(i) − S(0)‖ ≤ 4 ‖B‖, and a mass couples face to face only weakly. `false` proves nothing.
     pub(super) fn surely_definite(&self, matrix: &SparseColMat<usize, f64>) -> bool {
         let interior = self.untied.interior();
         let schur = self.factor.schur();
@@ -187,15 +185,14 @@ impl<'a> SectorFactor<'a> {
         cholesky(shifted.as_mut(), &tie).is_ok()
     }
 
-    /// Ψ_s = −K̂_ii⁻¹ K̂_ib of one nodal diameter, `n_i × n_b`.
+    /// Static modes Ψ_s = −K̂_ii⁻¹ K̂_ib of one nodal diameter, `n_i × n_b`.
     pub(super) fn static_modes(&self, tied: &TiedFactor) -> Mat<c64> {
         let mut loads = split(tied, tied.at_unit_contact(self.untied.interior()).as_ref());
         self.solve_interior(&mut loads, |panel| self.factor.backward(panel));
         join(&loads).subrows(0, self.untied.internal()).to_owned()
     }
 
-    /// Solves with the dense factor of each nodal diameter, which is read once for all its loads; their last bits hang on which
-    /// these are.
+    /// Solves with the dense factor of each nodal diameter, which is read once for all its loads; their last bits depend on which loads these are.
     fn on_boundary(&self, loads: &mut [Load<'_>], solve: impl Fn(&TiedFactor, MatMut<'_, c64>) + Sync) {
         let interior = self.untied.interior();
         let mut loads: Vec<&mut Load<'_>> = loads.iter_mut().collect();
@@ -235,8 +232,8 @@ impl<'a> SectorFactor<'a> {
         }
     }
 
-    /// Sends the loads, untied, in groups through `work`, and ties what comes out: at most its first `rows` rows, per load.
-    /// Groups in parallel; who is in a group with whom changes no bit.
+    /// Sends the loads, untied, in groups through `work`, and ties the result: at most its first `rows` rows, per load. Groups run in
+    /// parallel; the grouping changes no bit.
     fn through(&self, loads: &[Load<'_>], rows: usize, work: impl Fn(&mut Panel) + Sync) -> Vec<VectorBlock> {
         let width: usize = loads.iter().map(Load::width).sum();
         let count = width.div_ceil(GROUP).max(1).next_multiple_of(rayon::current_num_threads());

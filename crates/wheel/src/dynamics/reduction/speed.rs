@@ -1,5 +1,5 @@
-//! Everything that needs the sector's factor at one speed: modes of every nodal diameter, their count, and the full
-//! sector's own lowest frequencies.
+//! Part of a reduction that needs the sector's factor at one speed: modes of every nodal diameter, their count, and the full sector's own
+//! lowest frequencies.
 
 use faer::Mat;
 use faer::c64;
@@ -19,37 +19,37 @@ use crate::dynamics::error::ModelError;
 use crate::dynamics::sector::SectorModel;
 use rubmap_numerics::matrix_serde;
 
-/// Vectors advanced together in a search; doubled when modes turn out to be missing.
+/// Number of vectors advanced together in a search; doubled when modes turn out to be missing.
 const BLOCK: usize = 4;
-/// Where a search ends: eigenvalues of a higher multiplicity are refused or left unproven.
+/// Largest block of a search: eigenvalues of a higher multiplicity are refused or left unproven.
 pub(super) const LARGEST_BLOCK: usize = 64;
 /// Residual of the modes of the basis: 1e-8 in x is 1e-16 in λ; 1e-9 leaves a margin.
 const MODE_TOLERANCE: f64 = 1e-9;
 /// Residual behind the full sector's frequencies: right to some nine digits.
 pub(super) const FREQUENCY_TOLERANCE: f64 = 3e-5;
-/// Nodal diameters searched together: enough to share solves, few enough for their Krylov bases to fit.
+/// Number of nodal diameters searched together: enough to share solves, few enough for their Krylov bases to fit.
 pub(super) const TOGETHER: usize = 6;
-/// Frequencies of the full sector that the reduced ones are compared with.
+/// Number of frequencies of the full sector that the reduced ones are compared with.
 pub(super) const COMPARED: usize = 10;
-/// Modes of the full sector at a given speed beyond those, which tell what is missing between the speeds.
+/// Number of modes of the full sector at a given speed beyond the compared ones, which tell whether any is missing between the speeds.
 pub(super) const BEYOND_COMPARED: usize = 2;
 
-/// What the searches of one nodal diameter found at one speed.
+/// Results of the searches of one nodal diameter at one speed.
 #[derive(Serialize, Deserialize)]
 pub(super) struct HarmonicPart {
-    /// With fixed contact DOF.
+    /// Modes with fixed contact DOF.
     pub(super) modes: Modes,
-    /// The lowest of the full sector; none where its stiffness is indefinite.
+    /// Lowest modes of the full sector; none where its stiffness is indefinite.
     pub(super) full: Option<Modes>,
-    /// Block that found those.
+    /// Block that found the modes of the full sector.
     pub(super) full_block: usize,
-    /// Ψ_s(0), from the search at rest only.
+    /// Static modes Ψ_s(0), from the search at rest only.
     #[serde(with = "matrix_serde::list")]
     static_modes: Vec<Mat<c64>>,
 }
 
 impl HarmonicPart {
-    /// Ψ_s(0), of a part found at rest.
+    /// Static modes Ψ_s(0), of a part found at rest.
     pub(super) fn static_modes(&self) -> &Mat<c64> {
         &self.static_modes[0]
     }
@@ -58,36 +58,36 @@ impl HarmonicPart {
 /// Circular frequencies of the full sector per nodal diameter, ascending; none where its stiffness is indefinite.
 pub(super) type FullFrequencies = Vec<Option<Vec<f64>>>;
 
-/// What is known at one given speed.
+/// Results at one given speed.
 pub(super) struct SpeedPart {
     pub(super) harmonics: Vec<HarmonicPart>,
     pub(super) completeness: Vec<Completeness>,
 }
 
 impl SpeedPart {
-    /// The full sector's lowest frequencies.
+    /// Lowest frequencies of the full sector.
     pub(super) fn full_frequencies(&self) -> FullFrequencies {
         self.harmonics.iter().map(|part| part.full.as_ref().map(frequencies)).collect()
     }
 }
 
-/// The stiffness at one given speed and its factors.
+/// Stiffness at one given speed and its factors.
 pub(super) struct Factored<'a> {
     pub(super) stiffness: SparseColMat<usize, f64>,
     pub(super) factor: SectorFactor<'a>,
     pub(super) tied: Vec<TiedFactor>,
 }
 
-/// Circular frequencies of those of the modes that are compared.
+/// Circular frequencies of the modes that are compared.
 pub(super) fn frequencies(modes: &Modes) -> Vec<f64> {
     modes.values.iter().take(COMPARED).map(|value| value.sqrt()).collect()
 }
 
-/// The sector on its way through a reduction.
+/// Sector on its way through a reduction.
 pub(super) struct Work<'a> {
     pub(super) sector: &'a SectorModel,
     pub(super) untied: &'a UntiedSector,
-    /// Untied M.
+    /// Mass matrix M of the untied sector.
     pub(super) mass: &'a SparseColMat<usize, f64>,
     pub(super) modes_per_speed: usize,
     pub(super) harmonics: usize,
@@ -95,7 +95,7 @@ pub(super) struct Work<'a> {
 }
 
 impl<'a> Work<'a> {
-    /// Modes, counts and full modes at the given speed number `index`, and the factors they needed.
+    /// Computes modes, counts and full modes at the given speed number `index`, and the factors they needed.
     pub(super) fn at_given_speed(
         &self,
         index: usize,
@@ -218,8 +218,8 @@ impl<'a> Work<'a> {
         Ok(Factored { stiffness, factor, tied })
     }
 
-    /// Counts the modes of the nodal diameters `open`, found with blocks of `block`; returns those to search again, or
-    /// one whose modes are missing for good.
+    /// Counts the modes of the nodal diameters `open`, found with blocks of `block`; returns those to search again, or one whose modes are
+    /// missing for good.
     fn prove(
         &self,
         stiffness: &SparseColMat<usize, f64>,
@@ -248,7 +248,7 @@ impl<'a> Work<'a> {
         Ok(again)
     }
 
-    /// The dense factor of every nodal diameter; the number of the nodal diameter where it has none.
+    /// Dense factor of every nodal diameter; the number of the nodal diameter where it has none.
     pub(super) fn tie(
         &self,
         factor: &SectorFactor<'_>,
@@ -260,7 +260,7 @@ impl<'a> Work<'a> {
             .collect()
     }
 
-    /// The modes of the basis, by blocks of `block`.
+    /// Requirements on the modes of the basis, by blocks of `block`.
     fn wanted(&self, block: usize) -> Wanted {
         Wanted {
             count: self.modes_per_speed,
@@ -272,8 +272,8 @@ impl<'a> Work<'a> {
         }
     }
 
-    /// The full sector's lowest modes, at a given speed or not. At the given ones a few more than are compared: what is
-    /// between the speeds follows from them.
+    /// Requirements on the full sector's lowest modes, at a given speed or not. At the given speeds a few more are needed than are
+    /// compared: the frequencies between the speeds follow from them.
     pub(super) fn wanted_of_full(&self, block: usize, given: bool) -> Wanted {
         let vectors = given && self.sector.speeds_rad_s.len() == 3;
         let count = if vectors { COMPARED + BEYOND_COMPARED } else { COMPARED };
@@ -291,7 +291,7 @@ impl<'a> Work<'a> {
     }
 }
 
-/// What is asked for, as many at a time as both kinds of modes of [`TOGETHER`] nodal diameters.
+/// Searches the modes asked for, as many at a time as both kinds of modes of [`TOGETHER`] nodal diameters.
 pub(super) fn search(
     pencil: &Pencil<'_>,
     asked: &[(&TiedFactor, Wanted)],
@@ -311,7 +311,7 @@ pub(super) fn go_on(watch: Watch<'_>, share: f64, phase: &str) -> Result<(), Red
     if watch(share, phase) { Ok(()) } else { Err(ReductionError::Cancelled) }
 }
 
-/// ` 3`, or `s 0 to 5`.
+/// List of nodal diameters in words: ` 3`, or `s 0 to 5`.
 fn list(members: &[usize]) -> String {
     match members {
         [only] => format!(" {only}"),

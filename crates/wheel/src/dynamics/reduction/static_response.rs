@@ -1,4 +1,4 @@
-//! What a steady load does to the wheel at nodal diameter 0, contact DOF free, at every given speed.
+//! Response of the wheel to a steady load at nodal diameter 0, contact DOF free, at every given speed.
 
 use faer::{Mat, c64};
 use serde::{Deserialize, Serialize};
@@ -13,24 +13,24 @@ use rubmap_numerics::hermitian::eigenpairs;
 /// Solutions of K̂(0) w = f at the given speeds.
 #[derive(Debug, Clone)]
 pub struct StaticResponse {
-    /// W, `own DOF × speeds`: a column for each speed, the same in every sector.
+    /// Solutions W, `own DOF × speeds`: a column for each speed, the same in every sector.
     pub solutions: Mat<f64>,
-    /// What makes solutions between the speeds.
+    /// Span of the solutions, from which solutions between the speeds follow.
     pub span: StaticSpan,
 }
 
-/// K(Ω) and f on the span of such solutions.
+/// Stiffness K(Ω) and load f on the span of the solutions.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct StaticSpan {
     /// Speeds of the stiffness matrices, rad/s.
     pub speeds_rad_s: Vec<f64>,
-    /// WᵀK W for the stiffness at each speed, of one sector, row by row.
+    /// Matrix WᵀK W for the stiffness at each speed, of one sector, row by row.
     stiffness: Vec<Vec<f64>>,
-    /// Wᵀf of one sector.
+    /// Vector Wᵀf of one sector.
     load: Vec<f64>,
 }
 
-/// Loads every sector of the wheel by `load`, a number for each own DOF; by the factors that a reduction makes.
+/// Computes the response to `load` on every sector of the wheel, a number for each own DOF; by the factors that a reduction makes.
 ///
 /// # Errors
 /// Cancellation, and a stiffness that is not positive definite.
@@ -99,7 +99,7 @@ pub fn static_response(
 }
 
 impl StaticSpan {
-    /// Of a stiffness at rest alone.
+    /// Span for a stiffness at rest alone.
     pub fn at_rest() -> Self {
         Self { speeds_rad_s: vec![0.0], stiffness: vec![vec![1.0]], load: vec![1.0] }
     }
@@ -146,5 +146,5 @@ impl StaticSpan {
     }
 }
 
-/// Below this share of the largest an eigenvalue of the stiffness on the span of the solutions is round-off.
+/// Share of the largest eigenvalue below which an eigenvalue of the stiffness on the span of the solutions is round-off.
 const ROUND_OFF: f64 = 1e-13;

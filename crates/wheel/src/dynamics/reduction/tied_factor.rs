@@ -1,4 +1,4 @@
-//! What one nodal diameter adds to the sector's real factor: the dense factor of its tied boundary.
+//! Dense factor of the tied boundary: the part that one nodal diameter adds to the sector's real factor.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::{LltError, cholesky_in_place, cholesky_in_place_scratch};
@@ -10,17 +10,17 @@ use faer::{Mat, MatMut, Par, c64};
 
 use super::untied::{Tie, UntiedSector};
 
-/// Why a matrix has no factor.
+/// Error: a matrix that is not positive definite.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct NotPositiveDefinite {
-    /// Tied row at which elimination found it out.
+    /// Tied row at which elimination found the error.
     pub(super) row: usize,
 }
 
-/// L_S of one nodal diameter: low face first, contact DOF last.
+/// Factor L_S of one nodal diameter: low face first, contact DOF last.
 pub(super) struct TiedFactor {
     pub(super) tie: Tie,
-    /// Rows of the face.
+    /// Number of rows of the face.
     face: usize,
     /// Lower triangle, (face + contact)².
     lower: Mat<c64>,
@@ -54,14 +54,14 @@ impl TiedFactor {
         Ok(Self { face: f, tie, lower, free })
     }
 
-    /// x_F ← L_S⁻¹ x_F for the boundary rows `x`, with those of the contact DOF or without.
+    /// Solves x_F ← L_S⁻¹ x_F for the boundary rows `x`, with those of the contact DOF or without.
     pub(super) fn solve(&self, x: MatMut<'_, c64>) {
         let lower = self.lower.submatrix(0, 0, x.nrows(), x.nrows());
         solve_lower_triangular_in_place(lower, x, Par::Seq);
     }
 
-    /// Contact DOF at unit displacement one by one, the face in equilibrium with them (S_ff x_f = −S_fb), the interior
-    /// still zero: tied vectors, `interior` rows before the boundary's.
+    /// Static shapes of unit displacements of the contact DOF one by one, the face in equilibrium with them (S_ff x_f = −S_fb), the
+    /// interior still zero: tied vectors, `interior` rows before the boundary's.
     pub(super) fn at_unit_contact(&self, interior: usize) -> Mat<c64> {
         let f = self.face;
         let b = self.lower.nrows() - f;
@@ -74,14 +74,14 @@ impl TiedFactor {
         vectors
     }
 
-    /// x_F ← L_S⁻ᴴ x_F, likewise.
+    /// Solves x_F ← L_S⁻ᴴ x_F for the boundary rows `x`, with those of the contact DOF or without.
     pub(super) fn solve_adjoint(&self, x: MatMut<'_, c64>) {
         let lower = self.lower.submatrix(0, 0, x.nrows(), x.nrows());
         solve_upper_triangular_in_place(lower.adjoint(), x, Par::Seq);
     }
 }
 
-/// S(i) = Tᴴ (A_FF − A_FI A_II⁻¹ A_IF) T over (face, contact), both triangles, for A = Σ factor · matrix over
+/// Tied Schur complement S(i) = Tᴴ (A_FF − A_FI A_II⁻¹ A_IF) T over (face, contact), both triangles, for A = Σ factor · matrix over
 /// `terms`; `eliminated` is the Schur complement that elimination of its interior leaves.
 pub(super) fn tied_schur(
     untied: &UntiedSector,
@@ -116,7 +116,8 @@ pub(super) fn tied_schur(
     schur
 }
 
-/// Lower Cholesky factor in place, rows of errors counted from its first; in real arithmetic, four times cheaper, where the nodal diameter is real.
+/// Factorises `matrix` in place, lower Cholesky factor, rows of errors counted from its first; in real arithmetic, four times cheaper,
+/// where the nodal diameter is real.
 pub(super) fn cholesky(mut matrix: MatMut<'_, c64>, tie: &Tie) -> Result<(), NotPositiveDefinite> {
     if !UntiedSector::is_real(tie) {
         return cholesky_of(matrix);

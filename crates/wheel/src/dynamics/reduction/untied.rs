@@ -1,5 +1,4 @@
-//! The sector with its faces untied: one set of real matrices for every nodal diameter (docs/method.md, From a sector to
-//! harmonic matrices).
+//! Sector with its faces untied: one set of real matrices for every nodal diameter (docs/method.md, From a sector to harmonic matrices).
 //!
 //! Rows are the interior in elimination order, the low face, the high face, the contact DOF (and the high copies of
 //! those of them that lie on the low face). A nodal diameter ties the high face to the low one, u_H = e^{jiα} u_L; its
@@ -24,32 +23,32 @@ use rubmap_numerics::sector_fourier::is_single;
 use rubmap_numerics::sparse_product::row_product;
 use rubmap_numerics::vector_block::VectorBlock;
 
-/// How one nodal diameter ties the faces.
+/// Tie of the faces by one nodal diameter.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Tie {
     /// Nodal diameter i.
     pub(super) harmonic: usize,
-    /// e^{jiα}
+    /// Phase e^{jiα} from face to face.
     phase: c64,
-    /// Whether everything about it is real.
+    /// Whether the vectors of the nodal diameter are real.
     single: bool,
 }
 
-/// Numbering of the untied rows, and what a factorisation of them looks like.
+/// Numbering of the untied rows, and the analysis of their factorisation.
 #[derive(Debug)]
 pub(super) struct UntiedSector {
     sectors: usize,
-    /// Rows of the interior.
+    /// Number of rows of the interior.
     interior: usize,
-    /// Rows of one face.
+    /// Number of rows of one face.
     face: usize,
-    /// Contact DOF.
+    /// Number of contact DOF.
     contact: usize,
     /// Contact DOF that lie on the low face: their high copies come last.
     shared: Vec<usize>,
     /// Untied row of each own DOF.
     pub(super) place: Vec<usize>,
-    /// Row on the high face of each low-face DOF; its own row elsewhere.
+    /// Row on the high face of each low-face DOF; the DOF's own row elsewhere.
     pub(super) high: Vec<usize>,
     /// Elimination of the interior, for every matrix of the sector.
     pub(super) analysis: Analysis,
@@ -100,32 +99,32 @@ impl UntiedSector {
         untied
     }
 
-    /// Rows of untied matrices.
+    /// Number of rows of untied matrices.
     pub(super) fn size(&self) -> usize {
         self.interior + 2 * self.face + self.contact + self.shared.len()
     }
 
-    /// Rows of the interior.
+    /// Number of rows of the interior.
     pub(super) fn interior(&self) -> usize {
         self.interior
     }
 
-    /// Rows of one face.
+    /// Number of rows of one face.
     pub(super) fn face(&self) -> usize {
         self.face
     }
 
-    /// Contact DOF n_b.
+    /// Number of contact DOF n_b.
     pub(super) fn contact(&self) -> usize {
         self.contact
     }
 
-    /// Internal rows of tied vectors n_i: interior and low face.
+    /// Number of internal rows n_i of tied vectors: interior and low face.
     pub(super) fn internal(&self) -> usize {
         self.interior + self.face
     }
 
-    /// The tie of nodal diameter `harmonic`.
+    /// Tie of nodal diameter `harmonic`.
     pub(super) fn tie(&self, harmonic: usize) -> Tie {
         let angle = TAU * harmonic as f64 / self.sectors as f64;
         let single = is_single(harmonic, self.sectors);
@@ -149,13 +148,13 @@ impl UntiedSector {
         low.chain(high).chain(contact).chain(shared).collect()
     }
 
-    /// The tied row of an own DOF.
+    /// Tied row of an own DOF.
     pub(super) fn tied_row(&self, dof: usize) -> usize {
         let row = self.place[dof];
         if row < self.internal() { row } else { row - self.face }
     }
 
-    /// The own DOF of a tied row.
+    /// Own DOF of a tied row.
     pub(super) fn dof_of(&self, tied: usize) -> usize {
         let row = if tied < self.internal() { tied } else { tied + self.face };
         self.place
@@ -197,8 +196,7 @@ impl UntiedSector {
         }
     }
 
-    /// Tᴴ y of the untied vectors of `y` from number `first` on that stand for `count` tied ones, the first `rows` rows of
-    /// these.
+    /// Folds Tᴴ y from the untied vectors of `y` from number `first` on that stand for `count` tied ones, the first `rows` rows of these.
     pub(super) fn fold(&self, tie: &Tie, y: &Panel, first: usize, count: usize, rows: usize) -> VectorBlock {
         let mut folded = VectorBlock::zeros(count, rows, tie.single);
         let width = folded.parts().width();
@@ -218,8 +216,8 @@ impl UntiedSector {
         folded
     }
 
-    /// Ŷ(i) x for tied vectors `x`, with `matrix` the untied Yᵀ, which is Y for all but the gyroscopic matrix; as many rows
-    /// as `x` has. Columns in parallel.
+    /// Product Ŷ(i) x for tied vectors `x`, with `matrix` the untied Yᵀ, which is Y for all but the gyroscopic matrix; as many rows as `x`
+    /// has. Columns in parallel.
     pub(super) fn product(
         &self,
         matrix: &SparseColMat<usize, f64>,
@@ -245,7 +243,7 @@ impl UntiedSector {
         product
     }
 
-    /// The first `rows` rows and columns of Ŷ(i), with `matrix` the untied Y.
+    /// Block of Ŷ(i), its first `rows` rows and columns, with `matrix` the untied Y.
     pub(super) fn tied_dense(&self, matrix: &SparseColMat<usize, f64>, tie: &Tie, rows: usize) -> Mat<c64> {
         let boundary = self.boundary(tie);
         let place = |row: usize| match row.checked_sub(self.interior) {

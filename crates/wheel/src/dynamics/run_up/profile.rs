@@ -1,4 +1,4 @@
-//! Ω(t): piecewise cubic, without jumps.
+//! Speed profile Ω(t): piecewise cubic, without jumps.
 
 use std::f64::consts::TAU;
 
@@ -10,14 +10,14 @@ pub struct SpeedProfile {
     pieces: Vec<Piece>,
 }
 
-/// Ω = c₀ + c₁x + c₂x² + c₃x³, x = t − t₀ up to T.
+/// Piece Ω = c₀ + c₁x + c₂x² + c₃x³ of a profile, x = t − t₀ up to T.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Piece {
-    /// t₀, s.
+    /// Start t₀, s.
     start_s: f64,
-    /// T, s.
+    /// Duration T, s.
     duration_s: f64,
-    /// θ at t₀, rad.
+    /// Angle θ at t₀, rad.
     angle_rad: f64,
     speed: [f64; 4],
 }
@@ -33,7 +33,7 @@ impl Piece {
         b + x * (2.0 * c + x * 3.0 * d)
     }
 
-    /// Angle turned since its start.
+    /// Angle turned since the start of the piece.
     fn turned(&self, x: f64) -> f64 {
         let [a, b, c, d] = self.speed;
         x * (a + x * (b / 2.0 + x * (c / 3.0 + x * d / 4.0)))
@@ -51,14 +51,14 @@ impl Piece {
 }
 
 impl SpeedProfile {
-    /// Straight between points (time in s, ascending from 0; speed in rad/s, above 0), at least two of them.
+    /// Profile that is straight between points (time in s, ascending from 0; speed in rad/s, above 0), at least two of them.
     pub fn linear(points: &[(f64, f64)]) -> Self {
         let slopes: Vec<f64> = points.windows(2).map(slope).collect();
         Self::of(points, |i| [slopes[i]; 2])
     }
 
-    /// Through the same points without a corner, and beyond none of two neighbours between them: cubics with the slopes of Fritsch and
-    /// Butland (SIAM J. Sci. Stat. Comput. 5 (1984) 300–304), level at both ends.
+    /// Profile through `points`, as of [`Self::linear`], without a corner, and between two neighbours beyond neither: cubics with the
+    /// slopes of Fritsch and Butland (SIAM J. Sci. Stat. Comput. 5 (1984) 300–304), level at both ends.
     pub fn smooth(points: &[(f64, f64)]) -> Self {
         let secants: Vec<f64> = points.windows(2).map(slope).collect();
         let widths: Vec<f64> = points.windows(2).map(|pair| pair[1].0 - pair[0].0).collect();
@@ -74,7 +74,7 @@ impl SpeedProfile {
         Self::of(points, |i| [at(i), at(i + 1)])
     }
 
-    /// Cubics between `points` with the slopes at both ends of each interval.
+    /// Profile of cubics between `points` with the slopes at both ends of each interval.
     fn of(points: &[(f64, f64)], slopes: impl Fn(usize) -> [f64; 2]) -> Self {
         let mut angle_rad = 0.0;
         let pieces = points.windows(2).enumerate().map(|(i, pair)| {
@@ -92,31 +92,31 @@ impl SpeedProfile {
         Self { pieces: pieces.collect() }
     }
 
-    /// How long it lasts, s.
+    /// Duration of the profile, s.
     pub fn duration_s(&self) -> f64 {
         let last = self.last();
         last.start_s + last.duration_s
     }
 
-    /// Revolutions that it turns.
+    /// Number of revolutions that the profile turns.
     pub fn revolutions(&self) -> f64 {
         let last = self.last();
         (last.angle_rad + last.turned(last.duration_s)) / TAU
     }
 
-    /// Ω at an instant, rad/s; beyond its end that of its end.
+    /// Speed Ω at an instant, rad/s; beyond the end the value at the end.
     pub fn speed_rad_s(&self, time_s: f64) -> f64 {
         let piece = self.pieces[self.piece(time_s)];
         piece.speed((time_s - piece.start_s).clamp(0.0, piece.duration_s))
     }
 
-    /// Ω̇ at an instant, rad/s²; at a corner that behind it.
+    /// Rate Ω̇ at an instant, rad/s²; at a corner that behind it.
     pub fn rate_rad_s2(&self, time_s: f64) -> f64 {
         let piece = self.pieces[self.piece(time_s)];
         piece.rate((time_s - piece.start_s).clamp(0.0, piece.duration_s))
     }
 
-    /// Ω̇ between two instants, cut at the points between; a piece changes the speed by as much as the profile does.
+    /// Rates Ω̇ between two instants, cut at the points between; a piece changes the speed by as much as the profile does.
     pub fn rates(&self, [from_s, to_s]: [f64; 2]) -> SpeedRate {
         let of = |piece: &Piece| {
             let ends = [from_s, to_s].map(|time| (time - piece.start_s).clamp(0.0, piece.duration_s));
@@ -130,13 +130,13 @@ impl SpeedProfile {
         SpeedRate(self.pieces[first..=last].iter().filter_map(of).collect())
     }
 
-    /// Lowest and highest Ω, rad/s: at its points, as nothing lies beyond them.
+    /// Lowest and highest speed Ω, rad/s: at the profile's points, as nothing lies beyond them.
     pub fn range_rad_s(&self) -> (f64, f64) {
         let ends = self.pieces.iter().flat_map(|piece| [piece.speed(0.0), piece.speed(piece.duration_s)]);
         ends.fold((f64::INFINITY, 0.0), |(low, high), speed| (low.min(speed), high.max(speed)))
     }
 
-    /// Lowest Ω between two instants, rad/s: at one of them, or at a point between.
+    /// Lowest speed Ω between two instants, rad/s: at one of them, or at a point between.
     pub fn lowest_rad_s(&self, from_s: f64, to_s: f64) -> f64 {
         let points =
             self.pieces.iter().map(|piece| piece.start_s).filter(|time| (from_s..=to_s).contains(time));
@@ -153,7 +153,7 @@ impl SpeedProfile {
         self.pieces[first..=last].iter().map(of).fold(0.0, f64::max)
     }
 
-    /// When it has turned by `revolutions`.
+    /// Time, s, at which the profile has turned by `revolutions`.
     pub fn time_at(&self, revolutions: f64) -> f64 {
         let angle = TAU * revolutions;
         let next = self.pieces.partition_point(|piece| piece.angle_rad <= angle);
@@ -184,7 +184,7 @@ impl SpeedProfile {
         self.pieces[self.pieces.len() - 1]
     }
 
-    /// Index of the piece of an instant.
+    /// Index of the piece that holds an instant.
     fn piece(&self, time_s: f64) -> usize {
         self.pieces.partition_point(|piece| piece.start_s <= time_s).saturating_sub(1)
     }
@@ -200,7 +200,7 @@ mod tests {
 
     const POINTS: [(f64, f64); 5] = [(0.0, 300.0), (0.5, 300.0), (2.0, 1200.0), (2.5, 1000.0), (4.0, 100.0)];
 
-    /// Ω = Ω₀ + at, θ = Ω₀t + at²/2.
+    /// Constant rate: Ω = Ω₀ + at, θ = Ω₀t + at²/2.
     #[test]
     fn a_constant_rate_turns_as_the_textbook_says() {
         let profile = SpeedProfile::linear(&[(0.0, 200.0), (3.0, 500.0)]);
@@ -215,7 +215,7 @@ mod tests {
         assert_eq!(profile.largest_rate(0.3, 0.9), 100.0);
     }
 
-    /// The speed is the integral of its rates, which jump where a straight profile has a corner and nowhere else.
+    /// Speed as the integral of its rates, which jump where a straight profile has a corner and nowhere else.
     #[test]
     fn rates_change_the_speed_by_as_much() {
         for profile in [SpeedProfile::smooth(&POINTS), SpeedProfile::linear(&POINTS)] {
@@ -244,7 +244,7 @@ mod tests {
         }
     }
 
-    /// The angle against the integral of the speed by a fine sum; speeds go through the points, and not beyond two neighbours.
+    /// Angle against the integral of the speed by a fine sum; speeds go through the points, and not beyond two neighbours.
     #[test]
     fn angles_are_the_integral_of_the_speed() {
         for profile in [SpeedProfile::linear(&POINTS), SpeedProfile::smooth(&POINTS)] {

@@ -1,4 +1,4 @@
-//! Where a run-up is cut.
+//! Cutting of a run-up into segments of one speed.
 
 use std::f64::consts::TAU;
 
@@ -7,62 +7,62 @@ use super::profile::SpeedProfile;
 /// Part of a run-up that is stepped at one speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Segment {
-    /// Its first sample, counted from the start of the run.
+    /// First sample of the segment, counted from the start of the run.
     pub first_sample: u64,
-    /// How many samples it takes.
+    /// Number of samples of the segment.
     pub samples: u64,
-    /// When it begins and ends, s.
+    /// Times at which the segment begins and ends, s.
     pub times_s: [f64; 2],
-    /// Its mean speed, rad/s.
+    /// Mean speed of the segment, rad/s.
     pub speed_rad_s: f64,
-    /// Most that angles within it are off, rad.
+    /// Largest error of angles within the segment, rad.
     pub off_rad: f64,
-    /// Index of the range of speeds that it lies in, from the lowest on.
+    /// Index of the band of speeds that the segment lies in, from the lowest on.
     pub band: u32,
 }
 
-/// How a run-up is cut.
+/// Settings by which a run-up is cut.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cutting {
-    /// Samples of a revolution, at which segments may begin and end.
+    /// Number of samples of a revolution, at which segments may begin and end.
     pub samples_per_revolution: usize,
-    /// Most that angles may be off, rad.
+    /// Largest error of angles, rad.
     pub tolerance_rad: f64,
-    /// Revolutions of a frame, by which the run is told: no segment has part of two.
+    /// Number of revolutions of a frame, by which the run is reported: no segment has part of two.
     pub frame_revolutions: u64,
-    /// Lowest speed of every band over that of the one below: what is chosen for all speeds of a range is chosen once for each.
+    /// Ratio of the lowest speed of every band to that of the band below: choices that hold for all speeds of a range are made once for each band.
     pub band_ratio: f64,
-    /// Most segments.
+    /// Largest number of segments.
     pub most_segments: usize,
 }
 
-/// Why a run cannot be cut.
+/// Reason why a run cannot be cut.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum Uncut {
-    /// The speed changes so fast that angles are off by more than the tolerance from one sample to the next.
+    /// Speed that changes so fast that angles are off by more than the tolerance from one sample to the next.
     #[error(
         "at {speed_rad_s:.1} rad/s the speed changes by {rate_rad_s2:.3e} rad/s², and angles would be off by {off_rad:.1e} rad within a sample"
     )]
     TooFast {
-        /// Where.
+        /// Speed there, rad/s.
         speed_rad_s: f64,
-        /// How fast.
+        /// Rate of the speed there, rad/s².
         rate_rad_s2: f64,
-        /// By how much.
+        /// Error of the angle within a sample, rad.
         off_rad: f64,
     },
-    /// The tolerance takes too many segments.
+    /// Tolerance that takes too many segments.
     #[error("angles are kept to {tolerance_rad:.1e} rad only by more than {most} pieces of one speed")]
     TooMany {
-        /// The tolerance.
+        /// Tolerance of angles, rad.
         tolerance_rad: f64,
-        /// Most of them.
+        /// Largest number of segments.
         most: usize,
     },
 }
 
 impl Cutting {
-    /// Samples of `profile`, all that it reaches.
+    /// Number of samples of `profile`, all that it reaches.
     pub fn samples(&self, profile: &SpeedProfile) -> u64 {
         // What round-off takes from the last one is no sample.
         (profile.revolutions() * self.samples_per_revolution as f64 * (1.0 + 1e-12)) as u64
@@ -117,7 +117,7 @@ impl Cutting {
         if segments <= most { Ok(()) } else { Err(Uncut::TooMany { tolerance_rad, most }) }
     }
 
-    /// A segment between two samples of a revolution.
+    /// Builds a segment between two samples of a revolution.
     fn segment(&self, profile: &SpeedProfile, revolution: u64, band: u32, (from, to): (u64, u64)) -> Segment {
         let per_revolution = self.samples_per_revolution as u64;
         let first_sample = revolution * per_revolution + from;
@@ -145,7 +145,7 @@ impl Cutting {
         }
     }
 
-    /// The last segment with another revolution, if that may be one.
+    /// Joins the last segment with another revolution, if the result may be one segment.
     fn joined<'a>(
         &self,
         profile: &SpeedProfile,
@@ -177,7 +177,7 @@ mod tests {
         }
     }
 
-    /// All samples, one after the other; angles of equal steps against the profile's own.
+    /// Segments hold all samples, one after the other; angles of equal steps are compared with the profile's own.
     #[test]
     fn segments_follow_each_other_and_keep_their_tolerance() {
         let profile = SpeedProfile::smooth(&[(0.0, 60.0), (0.4, 60.0), (0.9, 400.0), (1.4, 90.0)]);
@@ -203,7 +203,7 @@ mod tests {
         }
     }
 
-    /// The revolutions turned until an instant, by halving.
+    /// Revolutions turned until an instant, by halving.
     fn turned(profile: &SpeedProfile, time: f64) -> f64 {
         let (mut low, mut high) = (0.0, profile.revolutions() + 1.0);
         for _ in 0..80 {
@@ -221,7 +221,7 @@ mod tests {
         assert!(segments.iter().all(|segment| (segment.off_rad, segment.speed_rad_s) == (0.0, TAU * 10.0)));
     }
 
-    /// The band is that of the slowest moment, also within a revolution.
+    /// Band of a segment is that of the slowest moment, also within a revolution.
     #[test]
     fn a_dip_within_a_revolution_is_of_the_lower_band() {
         let profile = SpeedProfile::linear(&[(0.0, 100.0), (0.02, 60.0), (0.04, 100.0), (0.2, 100.0)]);

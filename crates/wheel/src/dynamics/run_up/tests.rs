@@ -37,7 +37,7 @@ fn nodes() -> Vec<ContactNode> {
     (0..2).map(node).collect()
 }
 
-/// Five sectors, seven modes each.
+/// Wheel of five sectors, seven modes each.
 fn wheel(coriolis: bool) -> ModalWheel {
     let mut numbers = Numbers(0x1234_5678_9ABC_DEF1);
     let harmonic = |harmonic: usize| {
@@ -69,7 +69,7 @@ fn excitation() -> [EngineOrderExcitation; 1] {
     }]
 }
 
-/// What acts in a run that is taken in parts.
+/// Effects of a run that is taken in parts.
 #[derive(Debug, Clone, Copy, Default)]
 struct Acting {
     touching: bool,
@@ -81,8 +81,8 @@ struct Acting {
     speeding: bool,
 }
 
-/// The same parts one after the other are the run: free, touching, driven, on turning wheels, under friction, mistuned; parts that begin within
-/// a revolution, and clearances that drift about others in each.
+/// Parts of a run, one after the other, are the run: free, touching, driven, on turning wheels, under friction, mistuned; parts that begin
+/// within a revolution, and clearances that drift about others in each.
 #[test]
 fn parts_of_a_run_are_the_run() {
     let touching = Acting { touching: true, ..Acting::default() };
@@ -208,7 +208,7 @@ fn check_parts(scheme: Scheme, acting: Acting) {
     );
 }
 
-/// Between its ends a drift is straight; what presses does so by as much as the casing has grown.
+/// Drift is straight between its ends; a negative clearance presses by as much as the casing has grown.
 #[test]
 fn a_drift_is_linear_between_its_ends() {
     let drift = ClearanceDrift {
@@ -229,7 +229,7 @@ fn a_drift_is_linear_between_its_ends() {
     }
 }
 
-/// A wheel that nothing touches, in so many steps and samples of a revolution.
+/// Wheel that nothing touches, with given steps and samples per revolution.
 fn untouched<'a>(
     (wheel, contact_nodes): (&'a ModalWheel, &'a [ContactNode]),
     damping: &'a ModalDamping,
@@ -256,7 +256,7 @@ fn untouched<'a>(
     }
 }
 
-/// One degree of freedom of mass 1.
+/// Oscillator of one degree of freedom and mass 1.
 struct Oscillator {
     omega: f64,
     zeta: f64,
@@ -271,7 +271,7 @@ impl Oscillator {
         ModalWheel { speed_rad_s, sectors: 1, repeats: 1, harmonics: vec![harmonic] }
     }
 
-    /// Segments, one after the other, of a run from rest; displacements at the samples.
+    /// Runs the segments, one after the other, from rest; returns displacements at the samples.
     fn run_up(&self, segments: &[Segment], samples: usize) -> Vec<f64> {
         let nodes = &nodes()[..1];
         let excitation = [EngineOrderExcitation {
@@ -302,8 +302,8 @@ impl Oscillator {
         found
     }
 
-    /// ẍ + 2ζωẋ + ω²x = cos(n(Ω₀t + at²/2)) from rest, at ascending instants: Duhamel's integral by the trapezoidal rule in the frame
-    /// that turns with the free motion (Lewis, Trans. ASME 54 (1932) 253–261, has it in closed form for no damping).
+    /// Response of ẍ + 2ζωẋ + ω²x = cos(n(Ω₀t + at²/2)) from rest, at ascending instants: Duhamel's integral by the trapezoidal rule in the
+    /// frame that turns with the free motion (Lewis, Trans. ASME 54 (1932) 253–261, has it in closed form for no damping).
     fn duhamel(&self, (start, rate): (f64, f64), instants: &[f64]) -> Vec<f64> {
         let (decay, free) = (self.zeta * self.omega, self.omega * (1.0 - self.zeta * self.zeta).sqrt());
         let pole = c64::new(-decay, free);
@@ -337,7 +337,8 @@ impl Oscillator {
     }
 }
 
-/// Through a resonance fast and slowly, upwards and downwards: off by what the tolerance of the angle allows, and as much less as that is.
+/// Oscillator that passes a resonance fast and slowly, upwards and downwards: off by what the tolerance of the angle allows, and as much
+/// less as the tolerance is.
 #[test]
 fn one_degree_of_freedom_passes_resonance_as_lewis_has_it() {
     let oscillator = Oscillator { omega: 600.0, zeta: 0.002, order: 3 };

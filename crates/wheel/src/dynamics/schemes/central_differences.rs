@@ -16,7 +16,7 @@ use std::f64::consts::PI;
 
 use super::mode_step::ModeStep;
 
-/// ω_max and ω_max h are known to this: a step closer to the limit counts as the limit.
+/// Relative accuracy of ω_max and ω_max h: a step closer to the limit counts as the limit.
 const ROUND_OFF: f64 = 1e-12;
 
 /// Smallest number of steps per revolution with h = 2π/(ΩS) < 2/ω_max.
@@ -30,13 +30,13 @@ pub(super) fn mode_step(omega: f64, zeta: f64, h: f64) -> ModeStep {
     ModeStep { keep: (1.0 - c) / (1.0 + c), receptance: h * h / (1.0 + c) }
 }
 
-/// ż of the same.
+/// Velocity ż of a mode whose last increment is `increment`, as of [`first_increment`].
 pub(super) fn velocity(omega: f64, zeta: f64, h: f64, displacement: f64, increment: f64) -> f64 {
     let ModeStep { keep, receptance } = mode_step(omega, zeta, h);
     ((1.0 + keep) * increment - omega * omega * receptance * displacement) / (2.0 * h)
 }
 
-/// From z⁺ − z⁻ = 2hż, the scheme's own velocity.
+/// First increment of a mode, from z⁺ − z⁻ = 2hż, the scheme's own velocity.
 pub(super) fn first_increment(omega: f64, zeta: f64, h: f64, displacement: f64, velocity: f64) -> f64 {
     let ModeStep { keep, receptance } = mode_step(omega, zeta, h);
     (2.0 * h * velocity + omega * omega * receptance * displacement) / (1.0 + keep)

@@ -1,4 +1,4 @@
-//! The exact propagator of every modal oscillator (docs/method.md, The exact propagator): no error in free motion at any step.
+//! Exact propagator of every modal oscillator (docs/method.md, The exact propagator): no error in free motion at any step.
 //!
 //! ```text
 //! z⁺ = 2a cosθ z − a² z⁻ + b f,   a = e^{−ζωh},  θ = ωh√(1−ζ²),  b = (1 − 2a cosθ + a²)/ω²
@@ -7,15 +7,15 @@
 //! In the terms of [`super`]: keep = a², receptance = b. Exact for a steady force too; the contact force acts and closes
 //! the gap as with central differences, and contact makes the order of a history between one and two.
 //!
-//! Step rule: none from free motion, ω²B ≤ 4 whatever h, with equality only undamped at odd multiples of ωh = π. A mode with ωh near π and little damping, however, changes sign
-//! at every step and costs hardly any energy, so contact that opens and closes from step to step drives it without
-//! bound. Where the wheel may touch, modes beyond [`FOLLOWS`] therefore follow statically, z⁺ = f/ω²: the limit of
-//! heavy damping (a = 0), in the same recursion. What they take from the energy is in the identity's loss. So they do in part of a run
-//! under forces of any kind: what it hands on are velocities, of which increments say nothing at multiples of ωh = π.
+//! Step rule: none from free motion, ω²B ≤ 4 whatever h, with equality only undamped at odd multiples of ωh = π. A mode with ωh near π and
+//! little damping, however, changes sign at every step and costs hardly any energy, so contact that opens and closes from step to step
+//! drives it without bound. Where the wheel may touch, modes beyond [`FOLLOWS`] therefore follow statically, z⁺ = f/ω²: the limit of heavy
+//! damping (a = 0), in the same recursion. The energy that they take is in the identity's loss. They also follow in part of a run under
+//! forces of any kind: such a part hands on velocities, which increments do not determine at multiples of ωh = π.
 
 use super::mode_step::ModeStep;
 
-/// ωh beyond which a mode follows statically where fast modes do: a sixth below the rhythm of the steps, π.
+/// Value of ωh beyond which a mode follows statically where fast modes do: a sixth below the rhythm of the steps, π.
 pub const FOLLOWS: f64 = 5.0 / 6.0 * std::f64::consts::PI;
 
 pub(super) fn mode_step(omega: f64, zeta: f64, h: f64) -> ModeStep {
@@ -36,7 +36,7 @@ pub(super) fn follows(omega: f64, h: f64) -> bool {
     omega * h > FOLLOWS
 }
 
-/// [`mode_step`] of a wheel whose fast modes follow.
+/// Recursion as of [`mode_step`], of a wheel whose fast modes follow.
 pub(super) fn following_mode_step(omega: f64, zeta: f64, h: f64) -> ModeStep {
     if follows(omega, h) {
         ModeStep { keep: 0.0, receptance: 1.0 / (omega * omega) }
@@ -45,11 +45,11 @@ pub(super) fn following_mode_step(omega: f64, zeta: f64, h: f64) -> ModeStep {
     }
 }
 
-/// ζωh beyond which a mode forgets its past within a step, to round-off: e^{−36} = 2e-16. Traced backwards it would be
+/// Value of ζωh beyond which a mode forgets its past within a step, to round-off: e^{−36} = 2e-16. Traced backwards the past would be
 /// larger by as much, and its energy beyond all numbers.
 const FORGETS: f64 = 36.0;
 
-/// From the free motion backwards to −h; 0, as if held until now, for a mode that forgets it.
+/// First increment of a mode, from the free motion backwards to −h; 0, as if held until now, for a mode that forgets its past.
 pub(super) fn first_increment(omega: f64, zeta: f64, h: f64, displacement: f64, velocity: f64) -> f64 {
     if zeta * omega * h > FORGETS {
         return 0.0;
@@ -59,10 +59,11 @@ pub(super) fn first_increment(omega: f64, zeta: f64, h: f64, displacement: f64, 
     displacement * lag + (zeta * omega * h).exp() * swing * sine
 }
 
-/// Least |sin θ| that tells a velocity from an increment.
+/// Least |sin θ| at which an increment determines the velocity.
 const TELLS: f64 = 1e-3;
 
-/// ż of the same; 0 for a mode whose increments do not depend on it: ωh is near a multiple of π, or its past forgotten.
+/// Velocity ż of a mode whose last increment is `increment`; 0 for a mode whose increments do not depend on it: ωh is near a multiple of π,
+/// or its past forgotten.
 pub(super) fn velocity(omega: f64, zeta: f64, h: f64, displacement: f64, increment: f64) -> f64 {
     if zeta * omega * h > FORGETS {
         return 0.0;
@@ -74,7 +75,7 @@ pub(super) fn velocity(omega: f64, zeta: f64, h: f64, displacement: f64, increme
     (increment - displacement * lag) / ((zeta * omega * h).exp() * sine) - zeta * omega * displacement
 }
 
-/// 1 − e^{ζωh} cosθ, without cancellation, and sinθ over the damped frequency.
+/// Factors of the free motion backwards: 1 − e^{ζωh} cosθ, without cancellation, and sinθ over the damped frequency.
 fn backwards(omega: f64, zeta: f64, h: f64) -> (f64, f64) {
     let damped = omega * (1.0 - zeta * zeta).sqrt();
     let theta = damped * h;

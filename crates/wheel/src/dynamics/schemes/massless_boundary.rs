@@ -1,8 +1,7 @@
-//! A boundary without mass (docs/method.md, A boundary without mass; Monjaraz-Tec, Gross and Krack, Computers & Structures 260,
-//! 2022).
+//! Boundary without mass (docs/method.md, A boundary without mass; Monjaraz-Tec, Gross and Krack, Computers & Structures 260, 2022).
 //!
-//! Of every nodal diameter the r lowest modes of the reduced wheel carry the mass. All others follow statically, through
-//! the residual flexibility they leave at the contact DOF:
+//! The r lowest modes of every nodal diameter of the reduced wheel carry the mass. All others follow statically, through the residual
+//! flexibility they leave at the contact DOF:
 //!
 //! ```text
 //! u_b = Φ_b η + F f,   F = Σ_{m>r} φ_m φ_mᴴ/ω_m²        (= K⁻¹ − Φ_b Ω_r⁻² Φ_bᴴ, without its cancellation)
@@ -32,8 +31,8 @@ use super::super::sector::ContactNode;
 use super::central_differences;
 use rubmap_numerics::hermitian::eigenvalues;
 
-/// Fewest steps per revolution with h < 1/ω_c; the largest number there is if the modes left out leave no flexibility:
-/// fewer of them than contact nodes cannot close every gap, and what holds a node would be the ridge of a singular F.
+/// Fewest steps per revolution with h < 1/ω_c; the largest number there is if the modes left out leave no flexibility: fewer of them than
+/// contact nodes cannot close every gap, and nodes would be held by the ridge of a singular F.
 pub(super) fn smallest_stable_steps(wheel: &ModalWheel, kept: usize, contact_nodes: &[ContactNode]) -> u64 {
     if contact_nodes.is_empty() {
         return 1;
@@ -47,7 +46,7 @@ pub(super) fn smallest_stable_steps(wheel: &ModalWheel, kept: usize, contact_nod
     }
 }
 
-/// ω_c in rad/s; none if F is singular.
+/// Frequency ω_c, rad/s, of the wheel with every contact node held; none if F is singular.
 fn closed_frequency(wheel: &ModalWheel, kept: usize, contact_nodes: &[ContactNode]) -> Option<f64> {
     let normals = outward_normals(contact_nodes);
     let residual = residual_flexibility(wheel, kept, &normals, &normals);
@@ -69,7 +68,7 @@ fn closed_frequency(wheel: &ModalWheel, kept: usize, contact_nodes: &[ContactNod
     largest.is_finite().then(|| largest.sqrt())
 }
 
-/// F of the modes beyond the `kept` lowest, per nodal diameter.
+/// Residual flexibility F of the modes beyond the `kept` lowest, per nodal diameter.
 pub fn residual_flexibility(
     wheel: &ModalWheel,
     kept: usize,
@@ -87,7 +86,7 @@ pub fn residual_flexibility(
     )
 }
 
-/// The largest number of kept modes per nodal diameter that is stable with `steps` per revolution; none if not even one is.
+/// Largest number of kept modes per nodal diameter that is stable with `steps` per revolution; none if not even one is.
 pub fn most_kept_modes(wheel: &ModalWheel, contact_nodes: &[ContactNode], steps: u64) -> Option<usize> {
     let modes = wheel.harmonics.iter().map(|harmonic| harmonic.omega.len()).max()?;
     // ω_c grows with every mode that is kept.

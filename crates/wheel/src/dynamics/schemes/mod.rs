@@ -31,22 +31,22 @@ pub use mode_step::ModeStep;
 use super::modal_wheel::{ModalHarmonic, ModalWheel};
 use super::sector::ContactNode;
 
-/// How a run is integrated; chosen once per run.
+/// Scheme of time integration; chosen once per run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scheme {
-    /// The paper's (Eqs 8–10).
+    /// Central differences, the paper's scheme (Eqs 8–10).
     CentralDifferences,
-    /// The exact propagator of every mode.
+    /// Exact propagator of every mode.
     ExactModal,
-    /// The lowest modes carry the mass, the boundary follows statically.
+    /// Boundary without mass: the lowest modes carry the mass, the boundary follows statically.
     MasslessBoundary {
-        /// Modes integrated per nodal diameter.
+        /// Number of modes integrated per nodal diameter.
         kept_modes: usize,
     },
 }
 
 impl Scheme {
-    /// Modes that are integrated of a nodal diameter with `modes` of them.
+    /// Number of modes that are integrated of a nodal diameter with `modes` of them.
     pub fn integrated_modes(self, modes: usize) -> usize {
         match self {
             Self::CentralDifferences | Self::ExactModal => modes,
@@ -54,14 +54,13 @@ impl Scheme {
         }
     }
 
-    /// Real unknowns of `wheel` that are integrated.
+    /// Number of real unknowns of `wheel` that are integrated.
     pub fn integrated_unknowns(self, wheel: &ModalWheel) -> usize {
         let of = |h: &ModalHarmonic| self.integrated_modes(h.omega.len()) * if h.single { 1 } else { 2 };
         wheel.harmonics.iter().map(of).sum()
     }
 
-    /// Fewest steps per revolution that are stable for `wheel`, whose blades may touch a casing at `contact_nodes`
-    /// (empty: they do not).
+    /// Fewest steps per revolution that are stable for `wheel`, whose blades may touch a casing at `contact_nodes` (empty: they never touch).
     pub fn smallest_stable_steps(self, wheel: &ModalWheel, contact_nodes: &[ContactNode]) -> u64 {
         match self {
             Self::CentralDifferences => {
@@ -74,7 +73,7 @@ impl Scheme {
         }
     }
 
-    /// The recursion of a mode (ω, ζ) at step h, of a wheel whose fast modes follow or not.
+    /// Recursion of a mode (ω, ζ) at step h, of a wheel whose fast modes follow or not.
     pub fn mode_step(self, omega: f64, zeta: f64, h: f64, follow: bool) -> ModeStep {
         match self {
             Self::CentralDifferences => central_differences::mode_step(omega, zeta, h),
@@ -83,8 +82,8 @@ impl Scheme {
         }
     }
 
-    /// d = z(0) − z(−h) of the free motion with z(0) = `displacement` and ż(0) = `velocity`; of a mode that follows statically, which has no
-    /// past, from where nothing moves it.
+    /// First increment d = z(0) − z(−h) of the free motion with z(0) = `displacement` and ż(0) = `velocity`; for a mode that follows
+    /// statically, which has no past, the increment from its place at rest.
     pub fn first_increment(
         self,
         (omega, zeta): (f64, f64),
@@ -103,8 +102,8 @@ impl Scheme {
         }
     }
 
-    /// ż at the end of a step of a mode with displacement z and increment d = z − z⁻: the inverse of
-    /// [`Self::first_increment`]; 0 for a mode that follows statically.
+    /// Velocity ż at the end of a step of a mode with displacement z and increment d = z − z⁻: the inverse of [`Self::first_increment`]; 0
+    /// for a mode that follows statically.
     pub fn velocity(self, omega: f64, zeta: f64, h: f64, z: f64, d: f64, follow: bool) -> f64 {
         match self {
             Self::CentralDifferences => central_differences::velocity(omega, zeta, h, z, d),
@@ -132,7 +131,7 @@ mod tests {
         }
     }
 
-    /// Traced backwards by a step these would be 1e113 times as large, and no number at all.
+    /// Mode that forgets its past within a step: traced backwards by a step its numbers would be 1e113 times as large, and no number at all.
     #[test]
     fn a_mode_that_forgets_its_past_within_a_step_starts_as_if_held() {
         for h in [13.0, 130.0] {

@@ -1,6 +1,6 @@
-//! The numbers of the recursion of a mode.
+//! Numbers of the recursion of a mode.
 
-/// The numbers of one mode's recursion.
+/// Numbers of one mode's recursion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ModeStep {
     /// Share of the increment that survives a step.
@@ -10,12 +10,12 @@ pub struct ModeStep {
 }
 
 impl ModeStep {
-    /// c of the energy identity.
+    /// Dissipation c of the energy identity.
     pub fn dissipation(self) -> f64 {
         (1.0 - self.keep) / (1.0 + self.keep)
     }
 
-    /// 1/B of the energy identity; 0 for a mode that no force moves.
+    /// Inertia 1/B of the energy identity; 0 for a mode that no force moves.
     pub fn inertia(self) -> f64 {
         let b = (1.0 + self.dissipation()) * self.receptance;
         if b > 0.0 { 1.0 / b } else { 0.0 }

@@ -1,4 +1,4 @@
-//! What couples the modes within a step that is linearised: mistuning, and Coriolis forces.
+//! Coupling of the modes within a linearised step: mistuning, and Coriolis forces.
 //!
 //! With them a step is that of [`driven`](crate::dynamics::oscillators::driven), in which forces at engine orders, being the same for all
 //! states, leave no trace:
@@ -16,12 +16,12 @@ use faer::{Accum, Mat, MatMut, MatRef, Par, c64};
 use crate::dynamics::coriolis::swing_matrix;
 use crate::dynamics::integrate::{Passage, Unknown};
 
-/// Over the unknowns of a passage; empty where nothing couples them.
+/// Coupling of the unknowns of a return map; empty where nothing couples them.
 #[derive(Debug)]
 pub(super) struct Coupling {
-    /// Unknowns of every mistuned family, with R M.
+    /// Unknowns of every mistuned family, with the matrix R M.
     mistuned: Vec<(Vec<usize>, Mat<f64>)>,
-    /// Unknowns of every nodal diameter, with S.
+    /// Unknowns of every nodal diameter, with the matrix S.
     turned: Vec<(Range<usize>, Mat<f64>)>,
 }
 
@@ -53,7 +53,7 @@ impl Coupling {
         self.mistuned.is_empty() && self.turned.is_empty()
     }
 
-    /// Takes R M z from `swing`.
+    /// Subtracts R M z from `swing`.
     pub(super) fn pull(&self, z: MatRef<'_, f64>, mut swing: MatMut<'_, f64>) {
         for (own, stiffness) in &self.mistuned {
             let gathered = Mat::from_fn(own.len(), z.ncols(), |i, column| z[(own[i], column)]);
@@ -66,7 +66,7 @@ impl Coupling {
         }
     }
 
-    /// S of `swing`.
+    /// Multiplies `swing` by S.
     pub(super) fn turn(&self, mut swing: MatMut<'_, f64>) {
         for (own, s) in &self.turned {
             let mut rows = swing.rb_mut().subrows_mut(own.start, own.len());
@@ -76,7 +76,7 @@ impl Coupling {
     }
 }
 
-/// The entry of S as a real matrix over real and imaginary parts.
+/// Entry of S as a real matrix over real and imaginary parts.
 fn part(s: &Mat<c64>, to: Unknown, from: Unknown) -> f64 {
     let value = s[(to.family, from.family)];
     match (to.imaginary, from.imaginary) {

@@ -1,37 +1,37 @@
-//! Responses of light damping, followed from heavier damping.
+//! Responses at light damping, followed from heavier damping.
 //!
-//! What decays slowly keeps the search from coming close enough for Newton's method. With some times the damping the response is found from where
-//! the march begins; from there it is followed in geometric steps, each solved from the one before, a step that fails being halved (its ratio
-//! replaced by the root).
+//! Motion that decays slowly keeps the search from coming close enough for Newton's method. With several times the damping the response is
+//! found from where the march begins; from there it is followed in geometric steps, each solved from the one before, a step that fails
+//! being halved (its ratio replaced by the root).
 
 use super::periodic::{NotFound, Periodic, Search, find};
 use crate::dynamics::integrate::{Passage, Simulation};
 use crate::dynamics::oscillators::ModalDamping;
 
-/// Times the damping that is wanted with which a response is sought first.
+/// Factors of the damping with which a response is sought first.
 const HEAVIER: [f64; 2] = [4.0, 16.0];
 
-/// ζ that no mode has more of then: beyond 1 nothing vibrates.
+/// Largest ζ of any mode with such a factor: beyond 1 nothing vibrates.
 const MOST_DAMPING: f64 = 0.5;
 
-/// First ratio of damping of a step.
+/// First ratio of the damping before a step to that after it.
 const STEP: f64 = 2.0;
 
-/// Least ratio: where even this step fails the branch has ended, or turned.
+/// Least ratio of a step: where even this step fails the branch has ended, or turned.
 const LEAST_STEP: f64 = 1.02;
 
-/// A response, and the times the damping of its scene from which it was followed.
+/// Response, and the factor of the damping of its scene from which it was followed.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Followed {
     pub(super) periodic: Periodic,
     pub(super) from: f64,
 }
 
-/// The periodic response of the scene of `simulation` that continues the one which the search from `start` comes to with heavier damping, until
-/// `search.most` passages are `taken`.
+/// Follows the periodic response that the search from `start` finds with heavier damping to that of the scene of `simulation`, until
+/// `search.most` maps are `taken`.
 ///
 /// # Errors
-/// [`NotFound`]: of the search with the heaviest damping, or of the last step; at once of a scene without damping.
+/// [`NotFound`]: of the search with the heaviest damping, or of the last step; at once for a scene without damping.
 pub(super) fn follow(
     simulation: &Simulation<'_>,
     start: &[f64],

@@ -1,8 +1,8 @@
-//! The periodic response of a wheel that touches mildly, by harmonic balance with many harmonics: a literal oracle that shares no map, no step
-//! and no contact solver with what it is held against.
+//! Periodic response of a wheel that touches mildly, by harmonic balance with many harmonics: a literal reference that shares no map, no
+//! step and no contact solver with the code that it checks.
 //!
-//! Modes with mass, z̈ + 2ζωż + ω²z = −Aλ, are Fourier series over a revolution; those without give the boundary W_r λ, and the forces follow
-//! instant by instant from 0 ≤ c − p − Aᵀz + W_r λ ⊥ λ ≥ 0, of which all sets of touching blades are tried.
+//! Modes with mass, z̈ + 2ζωż + ω²z = −Aλ, are Fourier series over a revolution; modes without mass give the boundary W_r λ, and the forces
+//! follow instant by instant from 0 ≤ c − p − Aᵀz + W_r λ ⊥ λ ≥ 0, of which all sets of touching blades are tried.
 
 use std::f64::consts::TAU;
 
@@ -48,13 +48,13 @@ fn wheel() -> ModalWheel {
     }
 }
 
-/// A real oscillator: ω and what its coordinate moves at every blade.
+/// Real oscillator: ω and the displacement of every blade per unit of its coordinate.
 struct Oscillator {
     omega: f64,
     row: [f64; SECTORS],
 }
 
-/// Those of a family.
+/// Oscillators of a family.
 fn oscillators(wheel: &ModalWheel, family: usize) -> Vec<Oscillator> {
     let parts = wheel.harmonics.iter().flat_map(|modes| {
         let weight = (if modes.single { 1.0 } else { 2.0 } / SECTORS as f64).sqrt();
@@ -91,7 +91,7 @@ impl Balance {
         Self { kept, flexibility, orders, instants: 16 * orders }
     }
 
-    /// Numbers of the series of an oscillator: mean, then cosine and sine of every order.
+    /// Number of terms of an oscillator's series: mean, then cosine and sine of every order.
     fn numbers(&self) -> usize {
         2 * self.orders + 1
     }
@@ -110,7 +110,7 @@ impl Balance {
         at
     }
 
-    /// The forces then, with the lobe grown to a share of its height: the one set of touching blades that all conditions hold for.
+    /// Contact forces at an angle, with the lobe grown to a share of its height: the one set of touching blades that all conditions hold for.
     fn forces(&self, series: &[f64], angle: f64, grown: f64) -> [f64; SECTORS] {
         let free = self.free(series, angle);
         let gaps: [f64; SECTORS] = std::array::from_fn(|sector| {
@@ -135,7 +135,7 @@ impl Balance {
         panic!("no set of blades may touch")
     }
 
-    /// What is left of every order of every equation of motion.
+    /// Residual of every order of every equation of motion.
     fn residual(&self, series: &[f64], grown: f64) -> Vec<f64> {
         let numbers = self.numbers();
         let mut left = vec![0.0; series.len()];
@@ -172,7 +172,7 @@ impl Balance {
         left
     }
 
-    /// The response, the lobe growing in steps, each by Newton's method with differences.
+    /// Solves for the response, the lobe growing in steps, each by Newton's method with differences.
     fn solve(&self) -> Vec<f64> {
         let size = self.kept.len() * self.numbers();
         let mut series = vec![0.0; size];

@@ -1,8 +1,7 @@
-//! Steady states directly (docs/method.md, Steady states): periodic responses as fixed points of the map over a passage, and
-//! whether they last.
+//! Steady states, found directly (docs/method.md, Steady states): periodic responses as fixed points of a return map, and their stability.
 //!
-//! [`response`] is the whole of it for a scene: [`periodic`] finds a response, [`stability`] says whether it lasts. [`tangent`] is the
-//! derivative of the map and [`multipliers`] are its eigenvalues. [`branch`] follows a response while a number of its scene changes.
+//! [`response`] is the whole of it for a scene: [`periodic`] finds a response, [`stability`] judges it. [`tangent`] is the derivative of
+//! the map and [`multipliers`] are its eigenvalues. [`branch`] follows a response while a number of its scene changes.
 
 pub mod branch;
 mod coupling;

@@ -1,40 +1,40 @@
-//! Floquet multipliers: the eigenvalues of the derivative of the map at a periodic motion, by which what disturbs it grows from one
-//! passage to the next.
+//! Floquet multipliers: the eigenvalues of the derivative of the map at a periodic motion, by which disturbances grow from one map to the next.
 
 use faer::{Mat, c64};
 
 use super::tangent::Tangent;
 use rubmap_numerics::arnoldi;
 
-/// Numbers of a state up to which all multipliers are found at once.
+/// Size of a state up to which all multipliers are found at once.
 const DENSE: usize = 100;
 
-/// Of every unknown in the vector that the search begins with, over the largest of the hint.
+/// Share of every unknown, relative to the largest of the hint, in the vector that the search begins with.
 const EVENLY: f64 = 1e-3;
 
-/// Residual, relative to the value, at which the leading pair counts as found; what follows is told to a tenth of that.
+/// Residual, relative to the value, at which the leading pair counts as found; the others are found to ten times as much.
 const TOLD: f64 = 1e-3;
 
-/// The same, relative to its distance from what neither grows nor decays.
+/// Residual, relative to the distance from neutral growth |μ| = 1, at which the leading pair counts as found.
 const CERTAIN: f64 = 0.05;
 
-/// Most products of the search for the largest.
+/// Largest number of products in the search for the largest multipliers.
 pub const MOST_PRODUCTS: usize = 200;
 
-/// A multiplier with its credentials.
+/// Floquet multiplier with its credentials.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Multiplier {
-    /// μ; of a complex pair both are listed.
+    /// Multiplier μ; of a complex pair both are listed.
     pub value: c64,
-    /// ‖T v − μ v‖ / ‖v‖.
+    /// Residual ‖T v − μ v‖ / ‖v‖.
     pub residual: f64,
-    /// Share of every nodal diameter in what grows, by energy.
+    /// Share of every nodal diameter in the growing disturbance, by energy.
     pub shares: Vec<f64>,
-    /// What grows, as a state.
+    /// Growing disturbance, as a state.
     pub vector: Vec<c64>,
 }
 
-/// The `count` largest multipliers, or one more, as far as they were found; their residuals say. `hint`: a state with a share of what grows most.
+/// Largest multipliers, `count` or one more, as far as they were found, with their residuals. `hint`: a state with a share of the
+/// disturbance that grows most.
 pub fn multipliers(tangent: &Tangent<'_>, count: usize, hint: &[f64]) -> Vec<Multiplier> {
     let size = tangent.size();
     if size == 0 {

@@ -1,4 +1,4 @@
-//! A mass on a spring that a shaken stop with a spring of its own meets from one side: what one mode is with a boundary without mass.
+//! Mass on a spring that a shaken stop with a spring of its own meets from one side: the equation of one mode with a boundary without mass.
 //!
 //! ```text
 //! η̈ + 2ζω η̇ + ω² η = −φ λ,   λ = max(0, (φη + p − c)/F),   p = A cos Ωt
@@ -30,12 +30,12 @@ use crate::dynamics::sector::ContactNode;
 const OMEGA: f64 = 1.0;
 const ZETA: f64 = 0.05;
 const SHAPE: f64 = 1.0;
-/// 1/F: the stop is three times as stiff as the spring.
+/// Stiffness 1/F of the stop: three times that of the spring.
 const STOP: f64 = 3.0;
 const CLEARANCE: f64 = 0.3;
 const AMPLITUDE: f64 = 0.5;
 
-/// η and η̇.
+/// State η and η̇.
 type State = [f64; 2];
 type Matrix = [[f64; 2]; 2];
 
@@ -48,11 +48,11 @@ fn times(a: &Matrix, x: State) -> State {
     [a[0][0] * x[0] + a[0][1] * x[1], a[1][0] * x[0] + a[1][1] * x[1]]
 }
 
-/// One of the phases, at a speed Ω of the stop.
+/// Linear phase, touching or free, at a speed Ω of the stop.
 struct Phase {
     speed: f64,
     stiffness: f64,
-    /// Force at rest and amplitude of the harmonic one.
+    /// Static force and amplitude of the harmonic force.
     force: (f64, f64),
 }
 
@@ -66,14 +66,14 @@ impl Phase {
         Self { speed, stiffness, force }
     }
 
-    /// The motion that the forces alone keep up.
+    /// Motion that the forces alone keep up.
     fn forced(&self, t: f64) -> State {
         let transfer = c64::new(self.stiffness - self.speed.powi(2), 2.0 * ZETA * OMEGA * self.speed);
         let x = c64::from_polar(self.force.1, self.speed * t) / transfer;
         [x.re + self.force.0 / self.stiffness, (x * c64::new(0.0, self.speed)).re]
     }
 
-    /// What a disturbance becomes after `t`.
+    /// Transition matrix of a disturbance over the time `t`.
     fn transition(&self, t: f64) -> Matrix {
         let decay = ZETA * OMEGA;
         let damped = (self.stiffness - decay * decay).sqrt();
@@ -92,12 +92,12 @@ impl Phase {
     }
 }
 
-/// Whether the stop is met, and by how much.
+/// Overlap of mass and stop: positive where the stop is met.
 fn overlap(x: State, speed: f64, t: f64) -> f64 {
     SHAPE * x[0] + AMPLITUDE * (speed * t).cos() - CLEARANCE
 }
 
-/// The state after a period, and its derivative.
+/// State after a period, and its derivative.
 fn flow(mut x: State, speed: f64) -> (State, Matrix) {
     let period = TAU / speed;
     let (mut t, mut derivative) = (0.0, [[1.0, 0.0], [0.0, 1.0]]);
@@ -129,7 +129,7 @@ fn flow(mut x: State, speed: f64) -> (State, Matrix) {
     (x, derivative)
 }
 
-/// The periodic response near `x`, with its multipliers' sum and product, by Newton's method on the closed forms.
+/// Periodic response near `x`, with its multipliers' sum and product, by Newton's method on the closed forms.
 fn exact(mut x: State, speed: f64) -> (State, f64, f64) {
     for _ in 0..40 {
         let (end, d) = flow(x, speed);
@@ -143,7 +143,7 @@ fn exact(mut x: State, speed: f64) -> (State, f64, f64) {
     (x, d[0][0] + d[1][1], d[0][0] * d[1][1] - d[0][1] * d[1][0])
 }
 
-/// The same as a wheel of one sector with a second mode that does not move but yields.
+/// Wheel of one sector with this mode, and a second mode that does not move but yields.
 fn stopped_mode(speed: f64) -> ModalWheel {
     let stiff = 1e3;
     let yielding = (STOP.recip()).sqrt() * stiff;
@@ -172,7 +172,7 @@ fn stopped_mode(speed: f64) -> ModalWheel {
     }
 }
 
-/// All but its wheel.
+/// Simulation of the mode against the stop, without its wheel.
 struct Stop {
     node: [ContactNode; 1],
     damping: ModalDamping,
@@ -195,7 +195,7 @@ impl Stop {
         }
     }
 
-    /// The map over a period of the stop.
+    /// Calls `act` with the return map over a period of the stop.
     fn with<T>(&self, speed: f64, act: impl FnOnce(&mut Passage<'_>) -> T) -> T {
         let wheel = stopped_mode(speed);
         let simulation = Simulation {
@@ -260,7 +260,7 @@ fn response_and_multipliers_are_those_of_the_closed_forms() {
     }
 }
 
-/// Ω near `speed` where the response of the closed forms near `x` has this multiplier, 1 or −1: Newton's method with differences.
+/// Speed Ω near `speed` where the response of the closed forms near `x` has this multiplier, 1 or −1: Newton's method with differences.
 fn exact_change(x: State, speed: f64, multiplier: f64) -> f64 {
     let off = |u: [f64; 3]| {
         let x = [u[0], u[1]];
@@ -291,8 +291,7 @@ fn exact_change(x: State, speed: f64, multiplier: f64) -> f64 {
     u[2]
 }
 
-/// A branch around two folds, where the closed forms have them: found as the places where it turns back, and as those where a
-/// multiplier passes 1.
+/// Branch around two folds, where the closed forms have them: found as the places where it turns back, and as those where a multiplier passes 1.
 #[test]
 fn branches_turn_back_and_change_their_stability_where_the_closed_forms_do() {
     let stop = Stop::new(8_000);
@@ -348,8 +347,8 @@ fn branches_turn_back_and_change_their_stability_where_the_closed_forms_do() {
     assert_eq!(folds, 2);
 }
 
-/// With few steps the multipliers are off, and jump wherever a phase ends in another step: a flip is as far from that of the closed forms as
-/// finer steps say, and no more is said than the steps explain.
+/// Flips at few steps, whose multipliers are off, and jump wherever a phase ends in another step: a flip is as far from that of the closed
+/// forms as finer steps indicate, and no farther than the steps explain.
 #[test]
 fn flips_lie_within_the_error_that_finer_steps_tell() {
     let leading = |stop: &Stop, motion: &Motion| {

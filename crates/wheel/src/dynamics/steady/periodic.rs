@@ -1,76 +1,76 @@
-//! Periodic responses: fixed points of the map over a passage.
+//! Periodic responses: fixed points of a return map.
 //!
-//! Anderson acceleration first, which asks for nothing but the map; where it stalls, Newton's method with the exact derivative, whose
-//! equations are solved by their products.
+//! Anderson acceleration comes first, which needs nothing but the map; where it stalls, Newton's method with the exact derivative, whose
+//! equations are solved by products.
 
 use super::tangent::Tangent;
 use crate::dynamics::integrate::{Passage, PassageError};
 use rubmap_numerics::anderson::Anderson;
 use rubmap_numerics::gmres;
 
-/// Differences that Anderson acceleration looks back at.
+/// Number of differences that Anderson acceleration uses.
 pub(super) const DEPTH: usize = 60;
 
-/// Passages within which the residual has to halve, or acceleration has stalled.
+/// Number of maps within which the residual has to halve, or acceleration has stalled.
 const PATIENCE: usize = 60;
 
-/// What the equations of a Newton step are solved to, and their most products.
+/// Tolerance to which the equations of a Newton step are solved, and their most products.
 const SOLVED: f64 = 1e-4;
 const PRODUCTS: usize = 200;
 
 /// Shares of a Newton step that are tried.
 const SHARES: [f64; 5] = [1.0, 0.5, 0.25, 0.1, 0.03];
 
-/// Passages that a search takes beyond its most: of a Newton step the state's own, its last product, and all shares.
+/// Number of maps that a search takes beyond its most: of a Newton step the state's own, its last product, and all shares.
 pub const MOST_BEYOND: u64 = 7;
 
-/// How a periodic response is sought.
+/// Settings of the search for a periodic response.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Search {
-    /// ‖P(x) − x‖ / ‖x‖ at which it is found, in the norm of energies.
+    /// Residual ‖P(x) − x‖ / ‖x‖ at which a response is found, in the norm of energies.
     pub tolerance: f64,
-    /// Passages that are taken as they come, before.
+    /// Number of maps that are taken as they come, before acceleration begins.
     pub marched: usize,
-    /// Most passages, products of the derivative among them.
+    /// Largest number of maps, products of the derivative among them.
     pub most: usize,
 }
 
-/// A periodic response.
+/// Periodic response.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Periodic {
-    /// x, as of [`Passage::state`].
+    /// State x, as of [`Passage::state`].
     pub state: Vec<f64>,
-    /// ‖P(x) − x‖ / ‖x‖.
+    /// Residual ‖P(x) − x‖ / ‖x‖.
     pub residual: f64,
 }
 
-/// None was found.
+/// Reason why no periodic response was found.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum NotFound {
-    /// The search came no closer.
+    /// Search that came no closer.
     #[error("no periodic response was found in {passages} passages: the best repeats to {residual:.1e}")]
     Stalled {
-        /// Smallest ‖P(x) − x‖ / ‖x‖.
+        /// Smallest residual ‖P(x) − x‖ / ‖x‖.
         residual: f64,
-        /// That were taken.
+        /// Number of maps that were taken.
         passages: usize,
     },
-    /// The caller asked to stop.
+    /// Search that the caller stopped.
     #[error("cancelled")]
     Cancelled,
-    /// The map has no value where the search went.
+    /// Map that has no value where the search went.
     #[error(transparent)]
     Passage(#[from] PassageError),
 }
 
-/// The best state so far.
+/// Best state so far.
 struct Best {
     state: Vec<f64>,
     image: Vec<f64>,
     residual: f64,
 }
 
-/// The periodic response that the search from `start` comes to. `go_on` is asked before every passage.
+/// Finds the periodic response that the search from `start` converges to. `go_on` is asked before every map.
 ///
 /// # Errors
 /// [`NotFound`].
@@ -142,7 +142,7 @@ fn accelerate(
     Ok(best)
 }
 
-/// (I − T)⁻¹ (P(x) − x), in at most `products` of T.
+/// Newton step (I − T)⁻¹ (P(x) − x), in at most `products` of T.
 fn newton_step(passage: &mut Passage<'_>, at: &Best, products: usize) -> Result<Vec<f64>, PassageError> {
     // What touches on its way is to be that of this state.
     passage.map(&at.state)?;
@@ -156,7 +156,7 @@ fn newton_step(passage: &mut Passage<'_>, at: &Best, products: usize) -> Result<
     Ok(gmres::solve(product, &off, SOLVED, PRODUCTS.min(products)).x)
 }
 
-/// The largest share of `step` that comes closer.
+/// State at the largest share of `step` that comes closer.
 fn along(passage: &mut Passage<'_>, from: &Best, step: &[f64]) -> Option<Best> {
     for share in SHARES {
         let state: Vec<f64> = from.state.iter().zip(step).map(|(x, step)| x + share * step).collect();
@@ -169,7 +169,7 @@ fn along(passage: &mut Passage<'_>, from: &Best, step: &[f64]) -> Option<Best> {
     None
 }
 
-/// ‖P(x) − x‖ / ‖x‖; 0 at rest.
+/// Residual ‖P(x) − x‖ / ‖x‖; 0 at rest.
 pub(super) fn repeats(state: &[f64], image: &[f64]) -> f64 {
     let off: f64 = state.iter().zip(image).map(|(x, image)| (image - x).powi(2)).sum();
     let size: f64 = image.iter().map(|x| x * x).sum();

@@ -1,4 +1,4 @@
-//! The periodic response of a scene: sought from where its march begins, judged, and reached or not.
+//! Periodic response of a scene: sought from where its march begins, judged, and checked by a march.
 
 use super::damping::{Followed, follow};
 use super::multipliers::MOST_PRODUCTS;
@@ -12,54 +12,55 @@ use crate::dynamics::integrate::{
     Detail, Outcome, Passage, PassageError, Revolutions, Run, Simulation, Trace,
 };
 
-/// ‖P(x) − x‖ / ‖x‖ at which a response is found.
+/// Residual ‖P(x) − x‖ / ‖x‖ at which a response is found.
 const FOUND: f64 = 1e-8;
 
-/// Revolutions that are taken as they come before acceleration begins.
+/// Number of revolutions that are taken as they come before acceleration begins.
 const MARCHED: usize = 3;
 
-/// Multipliers that are told.
+/// Number of multipliers that are reported.
 pub const MULTIPLIERS: usize = 4;
 
 /// Fewest revolutions of a search after the ramp, with the multipliers and the revolution that is recorded.
 pub const LEAST_REVOLUTIONS: u64 = 10;
 
-/// ‖x − x*‖ / ‖x*‖ from where a march has to come back to a response that is called stable.
+/// Relative distance ‖x − x*‖ / ‖x*‖ from which a march has to come back to a response that is called stable.
 const BESIDE: f64 = 1e-3;
 
-/// Revolutions for which the same has to touch: one that repeats after some of them may look alike in between.
+/// Number of revolutions for which the contact has to be that of the response: a response that repeats after some of them may look alike in
+/// between.
 const LASTING: usize = 8;
 
-/// Share of the way there that is left of one that is coming back, but slowly.
+/// Share of the distance at most left to a march that is coming back, but slowly.
 const COMING: f64 = 0.25;
 
-/// A periodic response with its credentials.
+/// Periodic response with its credentials.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Response {
-    /// The state at the beginning of a revolution.
+    /// State at the beginning of a revolution.
     pub start: Stepped,
-    /// Revolutions after which it repeats: 1, but under an orbit that takes longer to come round.
+    /// Revolutions after which the response repeats: 1, except under an orbit that takes longer to come round.
     pub period: usize,
-    /// ‖P(x) − x‖ / ‖x‖ over the passage of the search, in the norm of energies.
+    /// Residual ‖P(x) − x‖ / ‖x‖ over the map of the search, in the norm of energies.
     pub residual: f64,
-    /// Whether it lasts.
+    /// Stability of the response.
     pub floquet: Floquet,
-    /// Whether the march from where the scene begins comes to it; none if nobody asked, or it does not last.
+    /// Whether the march from where the scene begins arrives at the response; none if nobody asked, or it does not last.
     pub arrives: Option<bool>,
-    /// Times the damping of the scene from which it was followed, where the search with that damping stalled.
+    /// Factor of the damping of the scene from which the response was followed, where the search with that damping stalled.
     pub followed_from: Option<f64>,
 }
 
-/// What a search came to.
+/// Result of a search.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sought {
-    /// The response, or why there is none.
+    /// Response, or why there is none.
     pub response: Result<Response, NotFound>,
-    /// Revolutions of the wheel that it took, all passages and products of derivatives counted.
+    /// Revolutions of the wheel that the search took, all maps and products of derivatives counted.
     pub revolutions: f64,
 }
 
-/// Memory that a search holds, in bytes, beside that of a run: of so many unknowns (numbers z) and pairs of sector and contact node, twice as
+/// Memory that a search holds, in bytes, beside that of a run: for `unknowns` numbers z and `pairs` of sector and contact node, twice as
 /// many with friction.
 pub fn memory(unknowns: usize, pairs: usize) -> usize {
     let state = 2 * unknowns;
@@ -67,9 +68,8 @@ pub fn memory(unknowns: usize, pairs: usize) -> usize {
     size_of::<f64>() * (state * (4 * DEPTH).max(MOST_PRODUCTS) + unknowns * pairs)
 }
 
-/// Seeks the periodic response of the scene of `simulation`, as it is recorded there being of no matter, in at most `limit`
-/// revolutions, and in as many again from heavier damping; with `control`, whether a march comes to it in as many. `go_on` is asked now
-/// and then.
+/// Seeks the periodic response of the scene of `simulation`, whose recording is ignored, in at most `limit` revolutions, and in as many
+/// again from heavier damping; with `control`, also whether a march arrives at it in as many. `go_on` is asked now and then.
 pub fn seek(simulation: &Simulation<'_>, limit: usize, control: bool, go_on: &dyn Fn() -> bool) -> Sought {
     let mut revolutions = 0.0;
     let response = match Passage::about_half(simulation) {
@@ -129,7 +129,7 @@ fn respond(
     Ok(Response { start: passage.stepped(&state), period, residual, floquet, arrives, followed_from })
 }
 
-/// The state once all has grown, marched from where the scene begins.
+/// State once all has grown, marched from where the scene begins.
 fn begin(
     simulation: &Simulation<'_>,
     passage: &mut Passage<'_>,
@@ -159,17 +159,17 @@ fn begin(
     }
 }
 
-/// A response, and what touches on its way.
+/// Periodic response, and the trace of its contact.
 struct Orbit<'a> {
     state: &'a [f64],
     trace: Trace,
-    /// Passages for which the same has to touch.
+    /// Number of maps for which the contact has to be that of the response.
     lasting: usize,
 }
 
 impl Orbit<'_> {
-    /// Whether a march from `x` comes to it in `most` passages: until, for some revolutions, what touches is what touches on it, from where on
-    /// multipliers tell the rest. One that has still to come so far, but has come closer from a thousandth beside, does.
+    /// Whether a march from `x` arrives at the response in `most` maps: until, for some revolutions, the contact is that of the response, from
+    /// where on multipliers tell the rest. A march from a thousandth beside that has not yet come so far, but has come closer, counts too.
     fn attracts(
         &self,
         passage: &mut Passage<'_>,
@@ -211,8 +211,8 @@ fn length(x: &[f64]) -> f64 {
     x.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
-/// Runs `simulation` on `response` instead of from where its scene begins: one period, repeated for all that it asks for; what it records of
-/// chosen revolutions is of as many from the first on that are alike.
+/// Runs `simulation` on `response` instead of from where its scene begins: one period, repeated for all revolutions asked for. Details of
+/// chosen revolutions are recorded over as many equivalent ones, counted from the first.
 pub fn record(simulation: &Simulation<'_>, response: &Response, watch: &dyn Fn(f64) -> bool) -> Run {
     let casing = simulation.casing.map(|casing| Casing { ramp_revolutions: 0.0, ..casing.clone() });
     let grown = |of: &EngineOrderExcitation| EngineOrderExcitation { ramp_revolutions: 0.0, ..of.clone() };

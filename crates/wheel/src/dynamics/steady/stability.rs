@@ -1,4 +1,4 @@
-//! Whether a periodic response lasts, and how it would end if not.
+//! Stability of a periodic response, and how it is lost.
 
 use std::f64::consts::{PI, TAU};
 
@@ -9,49 +9,51 @@ use super::periodic::repeats;
 use super::tangent::Tangent;
 use crate::dynamics::integrate::{Passage, PassageError};
 
-/// What becomes of what disturbs a periodic response.
+/// Stability of a periodic response: `stable` where all disturbances decay, `narrow` where they do so only if small, `flip`, `fold` or
+/// `neimark_sacker` by the way in which a disturbance grows, `undecided` where the multipliers could not be found well enough.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Stability {
-    /// All of it decays.
+    /// Disturbances all decay.
     Stable,
-    /// It decays if it is small enough for the same nodes to touch at the same steps, but a march from a thousandth beside the response did
-    /// not come back.
+    /// Disturbances decay if they are small enough for the same nodes to touch at the same steps, but a march from a thousandth beside the
+    /// response did not come back.
     Narrow,
-    /// It grows, and changes its sign from one passage to the next: the period doubles, which two lobes show on odd engine orders.
+    /// Disturbance that grows, and changes its sign from one passage to the next: the period doubles, which two lobes show on odd engine orders.
     Flip,
-    /// It grows in one direction: another response of the same period, or one of less symmetry, takes over.
+    /// Disturbance that grows in one direction: another response of the same period, or one of less symmetry, takes over.
     Fold,
-    /// It grows and turns: a second frequency, and lines split.
+    /// Disturbance that grows and turns: a second frequency, and lines split.
     NeimarkSacker,
-    /// The multipliers could not be found well enough to tell.
+    /// Multipliers that could not be found well enough to decide.
     Undecided,
 }
 
-/// The multipliers of a response over whole passages of lobes.
+/// Floquet multipliers of a response over whole passages of lobes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Floquet {
-    /// Passages of a lobe; 1 but for a response that is another one at every second, third … lobe, and in scenes that tell the lobes apart.
-    /// Revolutions where there are no lobes.
+    /// Number of lobes that pass between repetitions; 1 except for a response that is another one at every second, third … lobe, and in
+    /// scenes that tell the lobes apart. Revolutions where there are no lobes.
     pub lobes: usize,
-    /// The same in [passages over a lobe](Passage::over_lobes), which are longer where effects tell lobes apart.
+    /// Number of [maps over a lobe](Passage::over_lobes) between repetitions; such maps are longer where effects tell lobes apart.
     pub passages: usize,
-    /// The largest, largest first.
+    /// Largest multipliers, in descending order.
     pub multipliers: Vec<Multiplier>,
-    /// What they say.
+    /// Stability that the multipliers show.
     pub stability: Stability,
-    /// Engine orders of what repeats with these passages: all multiples of this.
+    /// Engine orders of a response that repeats after these passages: all multiples of this number.
     pub orders: f64,
-    /// Revolutions that it took to find them.
+    /// Revolutions that it took to find the multipliers.
     pub revolutions: f64,
 }
 
-/// ‖F(x) − x‖ / ‖x‖ up to which a response repeats after so many lobes.
+/// Residual ‖F(x) − x‖ / ‖x‖ up to which a response repeats after a number of lobes.
 const REPEATS: f64 = 1e-6;
 
 impl Floquet {
-    /// `count` multipliers of the response `state` that `passage` maps to itself. `hint`: a state with a share of what disturbs it longest.
+    /// Multipliers, `count` of them, of the response `state` that `passage` maps to itself. `hint`: a state with a share of the most
+    /// lasting disturbance.
     ///
     /// # Errors
     /// As of [`Passage::map`].

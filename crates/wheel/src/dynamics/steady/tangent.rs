@@ -1,4 +1,4 @@
-//! The derivative of the map over a [`Passage`].
+//! Derivative of the return map, a [`Passage`].
 //!
 //! Within one sequence of sets of nodes that touch, a step is affine in the state. With mass at the contact,
 //!
@@ -6,12 +6,12 @@
 //! δd = keep·δd − pull·δz,  δz += δd,   δλ_A = W_AA⁻¹ A δz,   δz −= R Aᵀ δλ_A,  δd alike
 //! ```
 //!
-//! A being the normal displacement of the nodes that touch per unit of every mode, R the receptances; without, δλ acts on the step
+//! A being the normal displacement of the nodes that touch per unit of every mode, R the receptances; without mass, δλ acts on the step
 //! after. With friction the forces act along other rows than A, B = A + μ…, so that it is Bᵀ δλ_A that pushes, and W_AA is not symmetric;
-//! mistuning and Coriolis forces are in `coupling`. Waves of an elastic casing are taken as the wheel sees them: they open
-//! gaps, and are pressed, by rows of A that stay, and turn back by nΩh after each step. Exact as long as no state nearby lets another set touch; where one does, the derivative jumps, and this is the one on the side
-//! that was traced. Sets change at steps, so that what it
-//! says of the motion in continuous time is of first order in the step, where the response itself is of second.
+//! mistuning and Coriolis forces are in `coupling`. Waves of an elastic casing are taken as the wheel sees them: they open gaps, and are
+//! pressed, by rows of A that stay, and turn back by nΩh after each step. The derivative is exact as long as no state nearby lets another
+//! set touch; where one does, the derivative jumps, and this is the one on the side that was traced. Sets change at steps, so that for the
+//! motion in continuous time the derivative is of first order in the step, where the response itself is of second.
 
 use std::f64::consts::TAU;
 use std::ops::Range;
@@ -27,7 +27,7 @@ use crate::dynamics::flexible_casing::{CasingMotion, LinearWave};
 use crate::dynamics::integrate::{Passage, Touching, Trace, Unknown};
 use crate::dynamics::schemes::{ModeStep, Scheme};
 
-/// The derivative at a state that was mapped.
+/// Derivative of the map at a state that was mapped.
 #[derive(Debug)]
 pub struct Tangent<'a> {
     passage: &'a Passage<'a>,
@@ -35,9 +35,9 @@ pub struct Tangent<'a> {
     keep: Vec<f64>,
     pull: Vec<f64>,
     receptance: Vec<f64>,
-    /// A of all contact nodes, `unknowns × (sector, node)`.
+    /// Rows A of all contact nodes, `unknowns × (sector, node)`.
     rows: Mat<f64>,
-    /// B of the same; absent without friction.
+    /// Rows B of all contact nodes, `unknowns × (sector, node)`; absent without friction.
     sliding: Option<Mat<f64>>,
     coupling: Coupling,
     nodes: usize,
@@ -45,7 +45,7 @@ pub struct Tangent<'a> {
 }
 
 impl<'a> Tangent<'a> {
-    /// At the last state that `passage` mapped.
+    /// Derivative at the last state that `passage` mapped.
     pub fn of(passage: &'a Passage<'a>) -> Self {
         let simulation = passage.simulation();
         let (wheel, touching) = (simulation.wheel, simulation.casing.is_some());
@@ -79,12 +79,12 @@ impl<'a> Tangent<'a> {
         }
     }
 
-    /// Rows and columns.
+    /// Number of rows and columns.
     pub fn size(&self) -> usize {
         self.passage.size()
     }
 
-    /// Sums of `of` every number of a state, nodal diameter by nodal diameter.
+    /// Sums of `of` over the numbers of a state, for every nodal diameter.
     pub(super) fn shares(&self, of: impl Fn(usize) -> f64) -> Vec<f64> {
         let n = self.keep.len();
         let mut shares = vec![0.0; self.passage.simulation().wheel.harmonics.len()];
@@ -100,7 +100,7 @@ impl<'a> Tangent<'a> {
         shares
     }
 
-    /// What becomes of these states, one a column, in the unknowns of the passage.
+    /// Applies the derivative to `states`, one a column, in the unknowns of the map.
     pub fn apply(&self, mut states: MatMut<'_, f64>) {
         self.passage.take(states.ncols());
         let (n, wheel) = (self.keep.len(), self.passage.unknowns().len());
@@ -165,13 +165,13 @@ impl<'a> Tangent<'a> {
         }
     }
 
-    /// The same of one.
+    /// Applies the derivative to one state.
     pub fn follow(&self, state: &mut [f64]) {
         let rows = state.len();
         self.apply(MatMut::from_column_major_slice_mut(state, rows, 1));
     }
 
-    /// A free step of modes that do not know of each other.
+    /// Takes a free step of modes that are not coupled.
     fn advance(&self, mut z: MatMut<'_, f64>, mut d: MatMut<'_, f64>) {
         for column in 0..z.ncols() {
             let z = z.rb_mut().col_mut(column).try_as_col_major_mut().map(|z| z.as_slice_mut());
@@ -184,7 +184,7 @@ impl<'a> Tangent<'a> {
         }
     }
 
-    /// The same of modes that are coupled.
+    /// Takes a free step of modes that are coupled.
     fn advance_coupled(&self, mut z: MatMut<'_, f64>, mut d: MatMut<'_, f64>) {
         let swing = |i: usize, column: usize| {
             let (z, d) = (z[(i, column)], d[(i, column)]);
@@ -201,7 +201,7 @@ impl<'a> Tangent<'a> {
         }
     }
 
-    /// Sees the casing's part of z or d from a wheel that has turned by `revolutions` more.
+    /// Transforms the casing's part of z or d to a wheel that has turned by `revolutions` more.
     fn turn_casing(&self, mut half: MatMut<'_, f64>, revolutions: f64) {
         for column in half.rb_mut().col_iter_mut() {
             if let Some(column) = column.try_as_col_major_mut() {
@@ -210,13 +210,13 @@ impl<'a> Tangent<'a> {
         }
     }
 
-    /// `rows` of a set, `unknowns × nodes`.
+    /// Entries of `rows` for a set, `unknowns × nodes`.
     fn of_set(&self, rows: &Mat<f64>, set: &Touching) -> Mat<f64> {
         let place = |&(sector, node): &(usize, usize)| sector * self.nodes + node;
         Mat::from_fn(self.keep.len(), set.places.len(), |i, j| rows[(i, place(&set.places[j]))])
     }
 
-    /// What modal forces move within a step, in their place.
+    /// Replaces modal forces by their displacements within a step.
     fn move_by(&self, mut force: MatMut<'_, f64>) {
         for column in 0..force.ncols() {
             for (i, receptance) in self.receptance.iter().enumerate() {
@@ -237,8 +237,8 @@ impl<'a> Tangent<'a> {
     }
 }
 
-/// Displacement of `directions` at all sectors per unit of every unknown, `unknowns × (sector, direction)`; of a casing that moves along its
-/// normals.
+/// Displacements of `directions` at all sectors per unit of every unknown, `unknowns × (sector, direction)`; of a casing that moves along
+/// its normals.
 fn rows(passage: &Passage<'_>, directions: &[Direction], waves: &[LinearWave<'_>]) -> Mat<f64> {
     let wheel = passage.simulation().wheel;
     let (unknowns, casing, sectors) = (passage.unknowns(), passage.casing_unknowns(), wheel.sectors);

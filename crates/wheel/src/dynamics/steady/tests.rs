@@ -46,7 +46,7 @@ fn wheel(sectors: usize) -> ModalWheel {
     ModalWheel { speed_rad_s: SPEED, sectors, repeats: 1, harmonics }
 }
 
-/// A scene that owns what a simulation borrows.
+/// Scene that owns what a simulation borrows.
 struct Scene {
     wheel: ModalWheel,
     nodes: Vec<ContactNode>,
@@ -97,7 +97,7 @@ impl Scene {
         }
     }
 
-    /// The end of a march from rest.
+    /// State at the end of a march from rest.
     fn march(&self, revolutions: usize) -> Vec<InitialMode> {
         let run = Simulation { revolutions, ..self.simulation() }.run(&|_| true);
         match run.outcome {
@@ -117,7 +117,7 @@ fn difference(a: &[f64], b: &[f64]) -> Vec<f64> {
     a.iter().zip(b).map(|(a, b)| a - b).collect()
 }
 
-/// The rate at which what starts beside a response leaves or joins it, and in how many passages it was measured.
+/// Rate at which motions that start beside a response leave or join it, and the number of maps over which it was measured.
 fn rate_beside(passage: &mut Passage<'_>, response: &[f64], growth: f64) -> (f64, usize) {
     let start = if growth < 1.0 { 1e-3 } else { 1e-9 };
     let mut numbers = Numbers(3);
@@ -138,7 +138,7 @@ fn rate_beside(passage: &mut Passage<'_>, response: &[f64], growth: f64) -> (f64
     ((sizes[last] / sizes[from]).powf(1.0 / (last - from) as f64), last - from)
 }
 
-/// Without contact a mode comes back by e^{λT} after a passage, turned by its nodal diameter where sectors change their numbers.
+/// Free motion: a mode comes back by e^{λT} after a map, turned by its nodal diameter where sectors change their numbers.
 #[test]
 fn a_wheel_in_free_motion_has_the_multipliers_of_its_modes() {
     let zeta = 0.01;
@@ -176,7 +176,7 @@ fn a_wheel_in_free_motion_has_the_multipliers_of_its_modes() {
     }
 }
 
-/// The derivative against differences, where contact lasts, opens and closes; of maps with and without renumbering, with odd and even N.
+/// Derivative against differences, where contact lasts, opens and closes; of maps with and without renumbering, with odd and even N.
 #[test]
 fn the_tangent_is_the_limit_of_differences() {
     for scheme in SCHEMES {
@@ -209,8 +209,8 @@ fn the_tangent_is_the_limit_of_differences() {
     }
 }
 
-/// A response that is called stable is where a long march ends, and attracts what starts a thousandth away as fast as its largest
-/// multiplier says; one that is called unstable repels what starts near it so. The map over whole lobes says the same.
+/// Response that is called stable: a long march ends there, and it attracts motions that start a thousandth away as fast as its largest
+/// multiplier predicts; one that is called unstable repels them so. The map over whole lobes agrees.
 #[test]
 fn what_starts_near_a_response_leaves_or_joins_it_as_its_multipliers_say() {
     let (mut stable, mut unstable) = (0, 0);
@@ -248,7 +248,7 @@ fn what_starts_near_a_response_leaves_or_joins_it_as_its_multipliers_say() {
     assert!(stable > 2 && unstable > 0, "{stable} stable and {unstable} unstable responses");
 }
 
-/// Seven sectors would want a fourteenth of a revolution.
+/// Wheel of seven sectors, which would need a fourteenth of a revolution.
 #[test]
 fn a_passage_takes_whole_steps() {
     let scene = Scene::new(7, 2, 0.01, Scheme::ExactModal);
@@ -257,7 +257,7 @@ fn a_passage_takes_whole_steps() {
     assert_eq!(Passage::over_lobes(&unlike, 1).unwrap().steps(), STEPS + 1);
 }
 
-/// Scenes drawn at random: whatever is called stable, and reached by a march, is where a long march ends; sensors show the same.
+/// Scenes drawn at random: every response that is called stable, and reached by a march, is where a long march ends; sensors agree.
 #[test]
 fn what_is_stable_and_reached_is_where_long_marches_end() {
     let mut numbers = Numbers(11);
@@ -318,7 +318,7 @@ fn what_is_stable_and_reached_is_where_long_marches_end() {
     assert!(reached >= 8 && others > 0, "{reached} reached, {others} not");
 }
 
-/// What is recorded of chosen revolutions is what a march records of them once it repeats.
+/// Details recorded of chosen revolutions are those that a march records once it repeats.
 #[test]
 fn details_of_a_response_are_those_of_its_march() {
     for scheme in SCHEMES {
@@ -364,8 +364,8 @@ fn details_of_a_response_are_those_of_its_march() {
     }
 }
 
-/// Marches of random scenes that end because they repeat, against what 400 more revolutions make of them, on the bits of a march that was told
-/// its length. All begin aside of what symmetry they have.
+/// Marches of random scenes that end because they repeat, against 400 more revolutions, on the bits of a march of given length. All begin
+/// away from any symmetry they have.
 #[test]
 fn a_march_that_ends_has_come_as_close_as_it_says() {
     let mut numbers = Numbers(23);
@@ -447,8 +447,8 @@ fn a_march_that_ends_has_come_as_close_as_it_says() {
     assert!(ended >= 24 && several > 0 && others > 0, "{ended} ended, {several} after several, {others} not");
 }
 
-/// Lightly damped scenes drawn at random, where the search from the march alone stalls within 400 revolutions: some are followed from heavier
-/// damping, and what is found then is a response of the scene itself, which attracts or not as it says.
+/// Lightly damped scenes drawn at random, where the search from the march alone stalls within 400 revolutions: some are followed from
+/// heavier damping, and the response found then is one of the scene itself, which attracts or not as it is judged.
 #[test]
 fn light_damping_is_followed_from_heavier() {
     let mut numbers = Numbers(31);

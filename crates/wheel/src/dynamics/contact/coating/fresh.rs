@@ -1,10 +1,10 @@
-//! A coating as it is laid on.
+//! Coating as it is laid on, without wear.
 
 use std::f64::consts::TAU;
 
 use crate::dynamics::sector::ContactNode;
 
-/// What a coating is made of, stresses in the model's units.
+/// Material of a coating, stresses in the model's units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CoatingMaterial {
     /// Young's modulus E, force/length².
@@ -15,71 +15,69 @@ pub struct CoatingMaterial {
     pub hardening: f64,
 }
 
-/// An unworn coating.
+/// Coating without wear.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Coating {
     pub(super) material: CoatingMaterial,
     pub(super) thickness: f64,
     pub(super) rods_around: usize,
-    /// A of the rods of every row.
+    /// Area A of the rods of every row.
     pub(super) areas: Vec<f64>,
 }
 
-/// A coating that cannot be simulated.
+/// Error: a coating that cannot be simulated.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum CoatingError {
-    /// A modulus, a thickness or a hardening that is not a positive number, or a negative yield stress.
+    /// Modulus, thickness or hardening that is not a positive number, or a negative yield stress.
     #[error(
         "the coating needs a positive modulus, hardening and thickness and a yield stress of 0 or more, not E = {}, K = {}, \
          t0 = {thickness} and σ_Y = {}", .material.modulus, .material.hardening, .material.yield_stress
     )]
     NotPositive {
-        /// As given.
+        /// Material as given.
         material: CoatingMaterial,
-        /// As given.
+        /// Thickness as given.
         thickness: f64,
     },
     /// Hardening so small that stresses no longer determine strains.
     #[error("the coating's hardening {hardening} must be at least {least}, a millionth of its modulus")]
     HardensTooLittle {
-        /// K.
+        /// Hardening K as given.
         hardening: f64,
-        /// Least K.
+        /// Least hardening K.
         least: f64,
     },
-    /// Blades would share rods.
+    /// Number of rods so small that blades would share rods.
     #[error(
         "{rods_around} rods around are too few for {sectors} blades: at least {least}, four from blade to blade"
     )]
     TooFewRods {
-        /// As given.
+        /// Number of rods around, as given.
         rods_around: usize,
-        /// N.
+        /// Number N of sectors.
         sectors: usize,
-        /// 4N.
+        /// Least number of rods, 4N.
         least: usize,
     },
-    /// A row of rods without area: the node is the only one, lies on the axis, or has the same radius and axial coordinate as
-    /// its neighbours.
+    /// Row of rods without area: the node is the only one, lies on the axis, or has the same radius and axial coordinate as its neighbours.
     #[error(
         "contact node {node} sweeps no area of the casing, so no coating can be in front of it: give at least two contact nodes \
          off the axis that differ in radius or axial coordinate"
     )]
     NoArea {
-        /// Contact node, from the leading edge from 0.
+        /// Index of the contact node, from the leading edge from 0.
         node: usize,
     },
 }
 
-/// Least rods from one blade to the next.
+/// Least number of rods from one blade to the next.
 pub const RODS_PER_SECTOR: usize = 4;
 
 /// Least K/E: below it round-off of a strain is stress enough to matter.
 pub const LEAST_HARDENING: f64 = 1e-6;
 
 impl Coating {
-    /// A coating of `thickness` cut into `rods_around` rods in front of each of `contact_nodes` (leading to trailing edge) of a
-    /// wheel of `sectors`.
+    /// Coating of `thickness` cut into `rods_around` rods in front of each of `contact_nodes` (leading to trailing edge) of a wheel of `sectors`.
     ///
     /// The area of a node's rods is 2πr/`rods_around` times half the way to its neighbours in the meridional plane: all rods
     /// together cover the surface that the contact nodes sweep.
@@ -147,7 +145,7 @@ mod tests {
         meridian.iter().map(node).collect()
     }
 
-    /// Guldin: a cone between radii 3 and 6, slant height 5, has the area 2π·4.5·5.
+    /// Area of the swept surface by Guldin's rule: a cone between radii 3 and 6, slant height 5, has the area 2π·4.5·5.
     #[test]
     fn rods_cover_the_swept_surface() {
         let contact = nodes(&[[3.0, 0.0], [3.6, 0.8], [5.4, 3.2], [6.0, 4.0]]);

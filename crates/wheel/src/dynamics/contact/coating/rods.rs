@@ -1,19 +1,19 @@
-//! Which rod a contact node presses.
+//! Rods that contact nodes press.
 
 use std::f64::consts::TAU;
 
-/// Places of the contact nodes of all sectors over the rods, of which number j stands at the angles from 2πj/R to 2π(j + 1)/R.
+/// Places of the contact nodes of all sectors over the rods; rod j stands at the angles from 2πj/R to 2π(j + 1)/R.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct RodPlaces {
     rods: u64,
     sectors: u64,
     steps: u64,
-    /// θ_k in rods: whole and fraction.
+    /// Angles θ_k in rods: whole and fraction.
     nodes: Vec<(u64, f64)>,
 }
 
 impl RodPlaces {
-    /// For nodes at `angles_rad` in sector 0, R `rods` around, and `steps` per revolution.
+    /// Places of nodes at `angles_rad` in sector 0, with R `rods` around and `steps` per revolution.
     pub(super) fn new(angles_rad: &[f64], rods: usize, sectors: usize, steps: usize) -> Self {
         let place = |theta: &f64| {
             let place = (theta / TAU).rem_euclid(1.0) * rods as f64;
@@ -29,7 +29,7 @@ impl RodPlaces {
 
     /// Rod in front of `node` of `sector` at `step` of the revolution (0 ≤ step < S), at the angle θ_k + sα + 2πq/S.
     ///
-    /// sα + 2πq/S are R(sS + qN)/(NS) rods, exactly.
+    /// The angle sα + 2πq/S is R(sS + qN)/(NS) rods, exactly.
     #[inline(always)]
     pub(super) fn rod(&self, step: usize, sector: usize, node: usize) -> usize {
         let parts = self.sectors * self.steps;
@@ -67,7 +67,7 @@ mod tests {
         }
     }
 
-    /// Blades never meet on a rod, and none jumps one, with the fewest rods and steps allowed.
+    /// Blades never meet on a rod, and none skips one, with the fewest rods and steps allowed.
     #[test]
     fn blades_pass_every_rod_and_share_none() {
         let (rods, sectors) = (40, 10);

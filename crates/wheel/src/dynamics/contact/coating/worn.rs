@@ -1,30 +1,29 @@
-//! The state of a coating: what the blades have worn off so far.
+//! State of a coating that the blades have worn.
 
 use super::super::super::sector::ContactNode;
 use super::fresh::{Coating, CoatingMaterial};
 use super::rods::RodPlaces;
 use rubmap_numerics::complementarity::law::BilinearLaw;
 
-/// A tip is on the metal from this share of the thickness: what contact solutions are accurate to, with much to spare.
+/// Share of the thickness from which on a tip is on the metal: the accuracy of contact solutions, with much to spare.
 const ON_METAL: f64 = 1.0 - 1e-9;
 
-/// A coating with its wear. Rods are counted in the direction of rotation from the package's x axis, rows are contact nodes from
-/// the leading edge.
+/// Coating with its wear. Rods are counted in the direction of rotation from the package's x axis, rows are contact nodes from the leading edge.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WornCoating {
     coating: Coating,
     places: RodPlaces,
     /// Slopes of the law of every row.
     slopes: Vec<[f64; 2]>,
-    /// ε_p, `[rod][row]`.
+    /// Plastic strains ε_p, `[rod][row]`.
     plastic_strain: Vec<f64>,
     plastic_work: f64,
     reached_metal: bool,
 }
 
 impl WornCoating {
-    /// The unworn `coating` in front of the `contact_nodes` of `sectors`, for runs of `steps` per revolution, at least
-    /// as many as rods, so that no blade jumps one.
+    /// Unworn `coating` in front of the `contact_nodes` of `sectors`, for runs of `steps` per revolution, at least as many as rods, so that
+    /// no blade skips one.
     pub fn new(coating: Coating, contact_nodes: &[ContactNode], sectors: usize, steps: usize) -> Self {
         let angles: Vec<_> = contact_nodes.iter().map(|node| node.position[1]).collect();
         let CoatingMaterial { modulus, hardening, .. } = coating.material;
@@ -56,7 +55,7 @@ impl WornCoating {
         BilinearLaw { start, knee: knee.min(thickness), stop: thickness, slopes: self.slopes[row] }
     }
 
-    /// Keeps what a penetration into the unworn coating, pressed once a step's forces are known, wears off a rod.
+    /// Records the wear of a rod by a penetration into the unworn coating, pressed once a step's forces are known.
     #[inline(always)]
     pub fn press(&mut self, rod: usize, row: usize, penetration: f64) {
         let CoatingMaterial { modulus, yield_stress, hardening } = self.coating.material;
@@ -73,12 +72,12 @@ impl WornCoating {
         }
     }
 
-    /// The coating before it was worn.
+    /// Coating before it was worn.
     pub fn unworn(&self) -> &Coating {
         &self.coating
     }
 
-    /// Energy that a rod at a penetration would give back, force·length.
+    /// Energy that a rod at `penetration` would give back, force·length.
     #[cfg(test)]
     fn elastic_energy(&self, rod: usize, row: usize, penetration: f64) -> f64 {
         let strain =
@@ -102,13 +101,13 @@ impl WornCoating {
         self.plastic_strain.chunks_exact(self.coating.areas.len()).map(depths).collect()
     }
 
-    /// Volume of what was worn off, Σ A w, length³.
+    /// Volume of the coating worn off, Σ A w, length³.
     pub fn removed_volume(&self) -> f64 {
         let removed = |rod: &[f64]| rod.iter().enumerate().map(|(row, e)| self.volume(row) * e).sum::<f64>();
         self.plastic_strain.chunks_exact(self.coating.areas.len()).map(removed).sum()
     }
 
-    /// A t0 of a rod.
+    /// Volume A t0 of a rod.
     fn volume(&self, row: usize) -> f64 {
         self.coating.areas[row] * self.coating.thickness
     }
@@ -145,12 +144,12 @@ mod tests {
         WornCoating::new(Coating::new(material, THICKNESS, 100, &nodes(), 5).unwrap(), &nodes(), 5, 100)
     }
 
-    /// w/t0 of a monotone push to strain ε and its unloading, with linear hardening.
+    /// Worn share w/t0 of a monotone push to strain ε and its unloading, with linear hardening.
     fn worn(strain: f64) -> f64 {
         (E * strain - YIELD) / (E + K)
     }
 
-    /// Monotone push: σ = σ_Y + EK/(E+K)(ε − σ_Y/E); an identical second pass adds nothing, a deeper one the difference.
+    /// Monotone push of a rod: σ = σ_Y + EK/(E+K)(ε − σ_Y/E); an identical second pass adds nothing, a deeper one the difference.
     #[test]
     fn follows_the_closed_form_of_a_rod() {
         let mut coating = coating(K);
@@ -182,7 +181,7 @@ mod tests {
         assert_eq!((coating.worn_depths(), coating.plastic_work()), (depths, work));
     }
 
-    /// Two flexible tips that push each other away.
+    /// Flexible tips, two, that push each other away.
     struct Tips;
 
     impl ContactOperator for Tips {
@@ -201,8 +200,8 @@ mod tests {
         }
     }
 
-    /// Pushed in, out, and in further, step by step as in a run: the work done on the rods is what they store and what they
-    /// wear, and the depth follows from the deepest penetration alone.
+    /// Tips pushed in, out, and in further, step by step as in a run: the work done on the rods is what they store and what they wear, and
+    /// the depth follows from the deepest penetration alone.
     #[test]
     fn work_is_elastic_energy_plus_plastic_work() {
         let mut coating = coating(K);
@@ -243,7 +242,7 @@ mod tests {
         }
     }
 
-    /// The coating holds a tip up to its own strength, the metal from there on.
+    /// Coating that holds a tip up to its own strength, and the metal from there on.
     #[test]
     fn a_worn_through_coating_meets_the_metal() {
         let mut coating = coating(K);
@@ -258,7 +257,7 @@ mod tests {
         assert!(law.start <= law.knee && law.knee <= law.stop);
     }
 
-    /// K → ∞: nothing yields, nothing wears.
+    /// Coating with K → ∞: nothing yields, nothing wears.
     #[test]
     fn a_coating_that_hardens_without_bound_is_elastic() {
         let mut coating = coating(1e15);

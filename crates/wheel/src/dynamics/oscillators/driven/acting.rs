@@ -1,4 +1,4 @@
-//! Known modal forces, and what a step exchanges with them.
+//! Known modal forces, and the energy that a step exchanges with them.
 
 use faer::c64;
 use pulp::Simd;
@@ -10,7 +10,7 @@ use super::super::recursion::Exchange;
 use super::super::segment::Segment;
 use rubmap_numerics::aligned::Aligned;
 
-/// A force on the modes of a nodal diameter that is known beforehand.
+/// Force on the modes of a nodal diameter that is known beforehand.
 #[derive(Debug)]
 pub(super) struct Excitation {
     /// Index of the nodal diameter.
@@ -21,7 +21,7 @@ pub(super) struct Excitation {
     im: Aligned,
 }
 
-/// The factor of its amplitudes.
+/// Course of an excitation: the factor of its amplitudes.
 #[derive(Debug)]
 enum Course {
     EngineOrder(ModalExcitation),
@@ -29,7 +29,7 @@ enum Course {
 }
 
 impl Excitation {
-    /// At an engine order, on nodal diameters that are where `segments` say.
+    /// Excitation at an engine order, on nodal diameters at `segments` of the state.
     pub(super) fn engine_order(force: ModalExcitation, segments: &[Segment]) -> Self {
         let Segment { integrated, length, .. } = segments[force.harmonic];
         let (mut re, mut im) = (Aligned::zeros(length), Aligned::zeros(length));
@@ -39,7 +39,7 @@ impl Excitation {
         Self { harmonic: force.harmonic, course: Course::EngineOrder(force), re, im }
     }
 
-    /// The Euler force on the wheel at rest in its frame.
+    /// Excitation by the Euler force on the wheel at rest in its frame.
     pub(super) fn euler(force: &EulerForce, segments: &[Segment]) -> Self {
         let Segment { integrated, length, .. } = segments[0];
         let mut re = Aligned::zeros(length);
@@ -58,18 +58,18 @@ impl Excitation {
 /// Modal forces of the step under way.
 #[derive(Debug)]
 pub(super) struct Acting {
-    /// φᴴf of contact on the nodal diameter under way.
+    /// Modal forces φᴴf of contact on the nodal diameter under way.
     pub(super) contact: Aligned,
-    /// Of forces at engine orders and the Euler force on all of them; empty without.
+    /// Modal forces at engine orders and of the Euler force on all nodal diameters; empty without.
     pub(super) excitation: Aligned,
-    /// Of which nodal diameters these are more than 0.
+    /// Whether `excitation` acts on each nodal diameter.
     pub(super) excited: Vec<bool>,
-    /// Of mistuning on all of them; empty without.
+    /// Modal forces of mistuning on all nodal diameters; empty without.
     pub(super) mistuning: Aligned,
 }
 
 impl Acting {
-    /// Has the forces of `excitations` on nodal diameter `index` act that there are `revolutions` after the start.
+    /// Sets the forces of `excitations` on nodal diameter `index` to those `revolutions` after the start.
     #[inline(always)]
     pub(super) fn excite<S: Simd>(
         &mut self,
@@ -103,7 +103,7 @@ impl Acting {
         self.excited[index]
     }
 
-    /// Those on the part of nodal diameter `index` that begins at `start`, of contact if it is `loaded`.
+    /// Modal forces on the part of nodal diameter `index` that begins at `start`, with contact if it is `loaded`.
     #[inline(always)]
     pub(super) fn on<S: Simd>(
         &self,
@@ -122,7 +122,7 @@ impl Acting {
     }
 }
 
-/// Modal forces on one part of a nodal diameter; none of them where nothing of the kind acts.
+/// Modal forces on one part of a nodal diameter; absent where nothing of the kind acts.
 #[derive(Clone, Copy)]
 pub(super) struct Forces<'a, S: Simd> {
     pub(super) contact: Option<&'a [S::f64s]>,
@@ -131,7 +131,7 @@ pub(super) struct Forces<'a, S: Simd> {
 }
 
 impl<S: Simd> Forces<'_, S> {
-    /// Their sum on vector `m`.
+    /// Sum of the forces on vector `m`.
     #[inline(always)]
     pub(super) fn sum(&self, simd: S, m: usize) -> S::f64s {
         let mut sum = simd.splat_f64s(0.0);
@@ -142,7 +142,7 @@ impl<S: Simd> Forces<'_, S> {
     }
 }
 
-/// [`Exchange`] and works in lanes, works twice.
+/// Sums of [`Exchange`] and works of effects in lanes, works twice.
 pub(super) struct DrivenSums<S: Simd> {
     contact: S::f64s,
     excitation: S::f64s,
@@ -157,7 +157,7 @@ impl<S: Simd> DrivenSums<S> {
         Self { contact: zero, excitation: zero, mistuning: zero, loss: zero }
     }
 
-    /// Counts the final swing of vector `m` under `forces`.
+    /// Adds the exchange of the final swing of vector `m` under `forces`.
     #[inline(always)]
     pub(super) fn count(&mut self, simd: S, swing: S::f64s, loss: S::f64s, forces: &Forces<'_, S>, m: usize) {
         self.loss = simd.mul_add_e_f64s(loss, simd.mul_f64s(swing, swing), self.loss);
@@ -172,7 +172,7 @@ impl<S: Simd> DrivenSums<S> {
         }
     }
 
-    /// Adds the works of effects to `work`, and returns the rest.
+    /// Adds the works of effects to `work`, and returns the exchange with contact and damping.
     #[inline(always)]
     pub(super) fn total(self, simd: S, work: &mut EffectWork) -> Exchange {
         work.excitation += 0.5 * simd.reduce_sum_f64s(self.excitation);

@@ -1,4 +1,4 @@
-//! The Euler force on the vibration ([`super::super::super::euler`]), a circulatory force, in the layout of the oscillators.
+//! Euler force on the vibration ([`super::super::super::euler`]), a circulatory force, in the layout of the oscillators.
 
 use faer::{Mat, c64};
 use pulp::Simd;
@@ -9,20 +9,20 @@ use super::super::rows::RowBlock;
 use super::super::segment::Segment;
 use rubmap_numerics::aligned::Aligned;
 
-/// −½Ω̇ g z of every nodal diameter.
+/// Circulatory force −½Ω̇ g z of every nodal diameter.
 #[derive(Debug)]
 pub(super) struct Circulation {
     rate: SpeedRate,
-    /// ½g = (−½g)ᴴ of every nodal diameter: rows that load its modes with −½ g of a displacement.
+    /// Rows ½g = (−½g)ᴴ of every nodal diameter, which load its modes with −½ g of a displacement.
     rows: Vec<RowBlock>,
-    /// The numbers of all rows of the largest.
+    /// Numbers of all rows of the largest nodal diameter.
     all: Vec<usize>,
-    /// −½ g z of the nodal diameter under way.
+    /// Product −½ g z of the nodal diameter under way.
     pushed: Aligned,
 }
 
 impl Circulation {
-    /// None without gyroscopic matrices.
+    /// Circulatory force of `rate`; none without gyroscopic matrices.
     pub(super) fn new(rate: &SpeedRate, wheel: &ModalWheel, segments: &[Segment]) -> Option<Self> {
         let of = |(harmonic, segment): (&ModalHarmonic, &Segment)| {
             let g = harmonic.gyroscopic.as_ref()?;
@@ -40,7 +40,7 @@ impl Circulation {
         })
     }
 
-    /// Adds what acts on the displacements `z` of nodal diameter `index`, `revolutions` after the start, to its `forces`.
+    /// Adds the force on the displacements `z` of nodal diameter `index`, `revolutions` after the start, to its `forces`.
     #[inline(always)]
     pub(super) fn push<S: Simd>(
         &mut self,

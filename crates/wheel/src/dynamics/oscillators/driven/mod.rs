@@ -7,8 +7,8 @@
 //! z⁺ − z⁻ = S (keep·d − pull·z + receptance·f + d),   d⁺ = z⁺ − z⁻ − d,   z⁺ = z + d⁺
 //! ```
 //!
-//! A step is completed before the next one is predicted: of one nodal diameter after the other, or with mistuning, which pulls
-//! at what all of them have come to, in two passes over the mode shapes. Contact forces move S R φᴴ f within a step.
+//! A step is completed before the next one is predicted: of one nodal diameter after the other, or with mistuning, whose pull depends on
+//! the displacements of all of them, in two passes over the mode shapes. Contact forces move S R φᴴ f within a step.
 
 mod acting;
 mod circulation;
@@ -35,7 +35,7 @@ use rubmap_numerics::aligned::Aligned;
 use rubmap_numerics::sector_fourier::SectorFourier;
 use turning::Turning;
 
-/// What drives the oscillators, and the numbers of the step under way.
+/// Drive of the oscillators: forces other than contact, and the numbers of the step under way.
 #[derive(Debug)]
 pub(crate) struct Drive {
     excitations: Vec<Excitation>,
@@ -44,16 +44,16 @@ pub(crate) struct Drive {
     turning: Option<Turning>,
     circulation: Option<Circulation>,
     acting: Acting,
-    /// z⁺ − z⁻ of a step that is not counted yet, otherwise 0.
+    /// Swings z⁺ − z⁻ of a step that is not counted yet, otherwise 0.
     swing: Aligned,
-    /// What contact forces move one nodal diameter by, or its swing before S.
+    /// Displacements of one nodal diameter by contact forces, or its swing before S.
     moved: Aligned,
-    /// Its swing after S.
+    /// Swing of one nodal diameter after S.
     turned: Aligned,
 }
 
 impl Drive {
-    /// None if nothing but contact moves the modes. Steps last `step` seconds, contact forces act along `loaded`.
+    /// Drive of the oscillators; none if only contact moves the modes. Steps last `step` seconds, contact forces act along `loaded`.
     pub(crate) fn new(
         wheel: &ModalWheel,
         contact_nodes: usize,
@@ -106,8 +106,8 @@ impl Drive {
         wheel.turns() || effects.mistuning.is_some() || effects.forces_are_known()
     }
 
-    /// Gives the drive's forces after `revolutions` their part in the first increments d = z − z⁻, which are those of free motion:
-    /// without it the start would be of first order in h only.
+    /// Adds the part of the drive's forces after `revolutions` to the first increments d = z − z⁻, which are those of free motion: without
+    /// it the start would be of first order in h only.
     pub(crate) fn start(
         &mut self,
         wheel: &ModalWheel,
@@ -118,13 +118,12 @@ impl Drive {
         self.add_to_increments(wheel, initial, oscillators, revolutions, -1.0);
     }
 
-    /// −∂f/∂z of mistuning between the Fourier columns of every family that it couples.
+    /// Stiffness −∂f/∂z of mistuning between the Fourier columns of every family that it couples.
     pub(crate) fn mistuned(&self) -> Vec<Mat<f64>> {
         self.mistuning.as_ref().map(|mistuning| mistuning.stiffness(&self.places)).unwrap_or_default()
     }
 
-    /// The counterpart of [`Self::start`] after `revolutions`: leaves the increments that free motion has at the same
-    /// velocities, as `read` finds them.
+    /// Reverses [`Self::start`] after `revolutions`: leaves the increments that free motion has at the same velocities, as `read` finds them.
     pub(crate) fn end(
         &mut self,
         wheel: &ModalWheel,
@@ -182,12 +181,12 @@ impl Drive {
         self.swing.fill(0.0);
     }
 
-    /// z⁺ − z⁻ of every mode in a step that is not complete.
+    /// Swings z⁺ − z⁻ of every mode in a step that is not complete.
     pub(crate) fn swung(&self) -> &[f64] {
         &self.swing
     }
 
-    /// Known forces on nodal diameter `index`, `revolutions` after the start, and the Euler force on its displacements in `z`.
+    /// Computes the known forces on nodal diameter `index`, `revolutions` after the start, and the Euler force on its displacements in `z`.
     #[inline(always)]
     fn force<S: Simd>(&mut self, simd: S, of: (usize, Segment), revolutions: f64, z: &[f64]) {
         let Self { acting, excitations, circulation, .. } = self;
@@ -199,7 +198,7 @@ impl Drive {
         }
     }
 
-    /// Forces of mistuning in the state `z`.
+    /// Computes the forces of mistuning in the state `z`.
     #[inline(always)]
     fn pull<S: Simd>(&mut self, simd: S, z: &[f64]) {
         if let Some(mistuning) = &mut self.mistuning {
@@ -208,7 +207,7 @@ impl Drive {
     }
 }
 
-/// All forces of the state z, so many revolutions after the start, beside the step loop.
+/// Computation, beside the step loop, of all forces of the state z, a number of revolutions after the start.
 struct Prepare<'a>(&'a mut Drive, &'a Oscillators, f64);
 
 impl WithSimd for Prepare<'_> {
@@ -225,7 +224,7 @@ impl WithSimd for Prepare<'_> {
 }
 
 impl Oscillators {
-    /// Families that a step resolves in every nodal diameter, ω²B ≤ 3.
+    /// Number of families that a step resolves in every nodal diameter, ω²B ≤ 3.
     fn resolved_families(&self) -> usize {
         let of = |segment: &Segment| {
             let resolved = |m: &usize| {
@@ -260,7 +259,8 @@ impl Oscillators {
         sums.total(simd, work)
     }
 
-    /// The same, then takes a step free of contact, `revolutions` after the start, and reads rows as [`Self::project`] does.
+    /// Completes the last step by `loads` as [`Self::complete_driven`] does, then takes a step free of contact, `revolutions` after the
+    /// start, and reads rows as [`Self::project`] does.
     #[inline(always)]
     pub(crate) fn complete_and_predict_driven<S: Simd>(
         &mut self,
@@ -366,7 +366,7 @@ impl Oscillators {
         sums.total(simd, work)
     }
 
-    /// The step of one nodal diameter, `revolutions` after the start, under the drive's forces and, if it is `loaded`, those of contact.
+    /// Takes the step of one nodal diameter, `revolutions` after the start, under the drive's forces and, if it is `loaded`, those of contact.
     #[inline(always)]
     fn swing<S: Simd>(&mut self, simd: S, index: usize, drive: &mut Drive, revolutions: f64, loaded: bool) {
         let segment = self.segments[index];
@@ -402,7 +402,7 @@ impl Oscillators {
         }
     }
 
-    /// What a unit force along `from` moves along `to` within a step, per nodal diameter, Coriolis forces included.
+    /// Flexibility within a step, per nodal diameter: displacements along `to` by a unit force along `from`, Coriolis forces included.
     pub(crate) fn turned_flexibility(
         &self,
         wheel: &ModalWheel,

@@ -1,4 +1,4 @@
-//! S of a step ([`super::super::super::coriolis`]) in the layout of the oscillators.
+//! Swing matrix S of a step ([`super::super::super::coriolis`]) in the layout of the oscillators.
 
 use faer::{Mat, c64};
 use pulp::Simd;
@@ -9,19 +9,19 @@ use super::super::Oscillators;
 use super::super::rows::{Loads, RowBlock, Rows};
 use super::super::segment::Segment;
 
-/// What Coriolis forces make of the swing of a step.
+/// Effect of Coriolis forces on the swing of a step.
 #[derive(Debug)]
 pub(super) struct Turning {
-    /// Sᴴ of every nodal diameter: rows that load its modes with S of a swing.
+    /// Rows Sᴴ of every nodal diameter, which load its modes with S of a swing.
     swings: Vec<RowBlock>,
-    /// The numbers of all rows of the largest.
+    /// Numbers of all rows of the largest nodal diameter.
     all: Vec<usize>,
-    /// φ R Sᴴ of the rows that contact loads: rows that load the modes with S R φᴴ f.
+    /// Rows φ R Sᴴ of the rows that contact loads: they load the modes with S R φᴴ f.
     loads: Option<Rows>,
 }
 
 impl Turning {
-    /// None without Coriolis forces. Contact forces act along `loaded`.
+    /// Effect of Coriolis forces; none without them. Contact forces act along `loaded`.
     pub(super) fn new(
         wheel: &ModalWheel,
         oscillators: &Oscillators,
@@ -50,7 +50,7 @@ impl Turning {
         Some(Self { swings: swings.collect(), all, loads })
     }
 
-    /// S of the swing of nodal diameter `index`, into the head of `out`.
+    /// Turns the swing of nodal diameter `index` by S, into the head of `out`.
     #[inline(always)]
     pub(super) fn turn<S: Simd>(
         &self,
@@ -63,7 +63,7 @@ impl Turning {
         self.swings[index].load(simd, segment, rows, (swing, segment.length), out);
     }
 
-    /// The rows that load the modes with what `loads` move within a step, under the same forces.
+    /// Loads with rows that give the modes the displacement by `loads` within a step, under the same forces.
     pub(super) fn moving<'a>(&'a self, loads: Loads<'a>) -> Loads<'a> {
         Loads { rows: self.loads.as_ref().unwrap_or(loads.rows), ..loads }
     }

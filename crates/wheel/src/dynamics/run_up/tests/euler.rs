@@ -1,4 +1,4 @@
-//! The Euler force against a Runge–Kutta integration of z̈ + 2ζωż + Ωgż + (ω² + ½Ω̇g)z = Ω̇f.
+//! Euler force against a Runge–Kutta integration of z̈ + 2ζωż + Ωgż + (ω² + ½Ω̇g)z = Ω̇f.
 
 use faer::{Mat, c64};
 
@@ -50,7 +50,7 @@ fn start() -> State {
     state
 }
 
-/// By segments.
+/// State at the end of the profile, stepped by segments.
 fn stepped(profile: &SpeedProfile, scheme: Scheme, turning: bool, tolerance_rad: f64) -> (State, f64) {
     let cutting = Cutting {
         samples_per_revolution: SAMPLES,
@@ -87,7 +87,7 @@ fn stepped(profile: &SpeedProfile, scheme: Scheme, turning: bool, tolerance_rad:
     (state, end_s)
 }
 
-/// By Runge–Kutta; `share` of the Euler force acts on the vibration.
+/// State at `end_s` by Runge–Kutta; `share` of the Euler force acts on the vibration.
 fn integrated(profile: &SpeedProfile, turning: bool, share: f64, end_s: f64) -> State {
     let g = gyroscopic();
     let derivative = |t: f64, state: &State| {
@@ -140,7 +140,8 @@ fn off(found: &State, expected: &State) -> f64 {
     largest(&|a, b| (a[0] - b[0]).norm()) / largest(&|_, b| b[0].norm())
 }
 
-/// Speeding up and slowing down, straight and smoothly, with and without Coriolis forces: of second order in the length of the pieces.
+/// Euler force while speeding up and slowing down, straight and smoothly, with and without Coriolis forces: of second order in the length
+/// of the pieces.
 #[test]
 fn the_euler_force_is_that_of_the_rotating_frame() {
     let points = [(0.0, 60.0), (0.05, 110.0), (0.1, 200.0), (0.15, 80.0)];
@@ -165,8 +166,8 @@ fn the_euler_force_is_that_of_the_rotating_frame() {
     }
 }
 
-/// A heavily damped mode many times faster than the steps follows, has no past that is handed on, and drives no other by Coriolis forces:
-/// energies are those of a static load, however often the run is cut.
+/// Heavily damped mode, many times faster than the steps, that follows, has no past that is handed on, and drives no other by Coriolis
+/// forces: energies are those of a static load, however often the run is cut.
 #[test]
 fn what_follows_is_handed_on_without_a_blow() {
     let omega = [10.0, 40_000.0];

@@ -1,4 +1,4 @@
-//! From beside a branch to it: Newton's method on its points of a plane.
+//! Correction from beside a branch to it: Newton's method for its point in a plane.
 //!
 //! ```text
 //! [ I − T   −∂P/∂p ] [ δx ]   [ P(x) − x ]
@@ -13,46 +13,46 @@ use crate::dynamics::steady::periodic::repeats;
 use crate::dynamics::steady::tangent::Tangent;
 use rubmap_numerics::gmres;
 
-/// ‖P(x) − x‖ / ‖x‖ at which a point is found.
+/// Residual ‖P(x) − x‖ / ‖x‖ at which a point is found.
 pub const FOUND: f64 = 1e-8;
 
-/// Most steps of Newton's method: from a good prediction it takes two to four.
+/// Largest number of steps of Newton's method: from a good prediction it takes two to four.
 const STEPS: usize = 8;
 
-/// What its equations are solved to, and their most products.
+/// Tolerance to which the equations of a Newton step are solved, and their most products.
 const SOLVED: f64 = 1e-3;
 const PRODUCTS: usize = 200;
 
-/// Shares of a step that are tried.
+/// Shares of a Newton step that are tried.
 const SHARES: [f64; 3] = [1.0, 0.5, 0.25];
 
-/// Relative change of p, or of its span if that is more, over which the map is differenced.
+/// Relative change of p, or of the span if that is more, over which the map is differenced.
 const DIFFERENCE: f64 = 1e-7;
 
-/// A point of a branch.
+/// Point of a branch.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Found {
-    /// Where and what.
+    /// Motion at the point.
     pub motion: Motion,
-    /// ‖P(x) − x‖ / ‖x‖.
+    /// Residual ‖P(x) − x‖ / ‖x‖.
     pub residual: f64,
-    /// Steps of Newton's method.
+    /// Number of steps of Newton's method.
     pub steps: usize,
-    /// Revolutions of the wheel that it took.
+    /// Revolutions of the wheel that the correction took.
     pub revolutions: f64,
 }
 
-/// A motion beside a branch.
+/// Motion beside a branch.
 struct Beside {
     motion: Motion,
     state: Vec<f64>,
-    /// P(x) − x.
+    /// Difference P(x) − x.
     off: Vec<f64>,
     residual: f64,
 }
 
 impl Branch<'_> {
-    /// The point of the branch that lies beside `guess` in the plane across `along`, a direction of the scene at `at`.
+    /// Solves for the point of the branch that lies beside `guess` in the plane across `along`, a direction of the scene at `at`.
     ///
     /// # Errors
     /// [`Lost`].
@@ -82,7 +82,7 @@ impl Branch<'_> {
         Err(Lost::NotFound { residual: best.residual })
     }
 
-    /// ‖P(x) − x‖ / ‖x‖ of a motion.
+    /// Residual ‖P(x) − x‖ / ‖x‖ of a motion.
     ///
     /// # Errors
     /// [`Lost`].
@@ -90,7 +90,7 @@ impl Branch<'_> {
         Ok(self.beside(motion.clone(), &mut 0.0)?.residual)
     }
 
-    /// Whether what a lap changes of two motions, P(x) − x, points the one way at `a` and the other at `b`.
+    /// Whether the changes of two motions over a lap, P(x) − x, point one way at `a` and the other at `b`.
     ///
     /// # Errors
     /// [`Lost`].
@@ -113,7 +113,7 @@ impl Branch<'_> {
         Ok(Beside { residual: repeats(&state, &image), motion, state, off })
     }
 
-    /// The step from `best`, in the modes there.
+    /// Newton step from `best`, in the modes there.
     fn step(&self, best: &Beside, along: &Motion, at: f64, revolutions: &mut f64) -> Result<Motion, Lost> {
         let value = best.motion.value;
         let change = DIFFERENCE * value.abs().max(self.span);
@@ -147,7 +147,7 @@ impl Branch<'_> {
         })?
     }
 
-    /// ∂(P(x) − x)/∂p, the motion staying what it is.
+    /// Slope ∂(P(x) − x)/∂p at a fixed motion.
     fn slope(&self, best: &Beside, change: f64, revolutions: &mut f64) -> Result<Vec<f64>, Lost> {
         let (here, there) = (best.motion.value, best.motion.value + change);
         let moved = self.carried(&best.motion.state, here, there)?;
@@ -166,7 +166,7 @@ impl Branch<'_> {
     }
 }
 
-/// ‖x‖, by which changes are measured; 1 at rest.
+/// Norm ‖x‖, by which changes are measured; 1 at rest.
 pub(super) fn size(x: &[f64]) -> f64 {
     let length = dot(x, x).sqrt();
     if length > 0.0 { length } else { 1.0 }

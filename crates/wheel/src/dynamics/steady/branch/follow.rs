@@ -1,38 +1,39 @@
-//! Along a branch, point by point: predicted on the line through the last two, corrected across it.
+//! Steps along a branch, point by point: predicted on the line through the last two, corrected across it.
 
 use super::correct::{Found, dot, size};
 use super::{Branch, Lost, Motion, add};
 use crate::dynamics::initial::Stepped;
 
-/// Arclength of the first step, and the least.
+/// Arclength of the first step, and the least of any.
 const FIRST: f64 = 0.01;
 const LEAST: f64 = 1e-6;
 
-/// Most arclength of a step.
+/// Largest arclength of a step.
 const MOST: f64 = 0.25;
 
-/// Most of a step that may be p's, as a share of its range: a picture of a branch has so many points across.
+/// Largest change of p in a step, as a share of its range: it sets how many points a picture of a branch has across.
 pub const MOST_OF_SPAN: f64 = 0.02;
 
-/// By what a step grows or shrinks, and steps of Newton's method up to which it grows, from which on it shrinks.
+/// Factors by which a step grows and shrinks, and steps of Newton's method up to which it grows, from which on it shrinks.
 const GROWTH: f64 = 1.4;
 const SHRINKAGE: f64 = 0.5;
 const EASY: usize = 4;
 const HARD: usize = 7;
 
-/// Cosine of the angle up to which a branch may turn within a step: what turns more is another branch.
+/// Cosine of the angle up to which a branch may turn within a step: a point beyond belongs to another branch.
 const TURNS: f64 = 0.7;
 
-/// The same of a step so short that it may be a corner: branches have them where another node begins to touch.
+/// Cosine of the angle up to which a branch may turn within a step so short that it may be a corner: branches have corners where another
+/// node begins to touch.
 const CORNER: f64 = 0.1;
 const SHORT: f64 = 1e-3;
 
-/// The end of a branch so far.
+/// End of a branch so far.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Front {
-    /// The last point.
+    /// Last point.
     pub last: Motion,
-    /// The one before; none where the branch begins.
+    /// Point before the last; none where the branch begins.
     pub before: Option<Motion>,
     /// Direction of the first step, per unit of arclength.
     pub first: Motion,
@@ -40,23 +41,23 @@ pub struct Front {
     pub step: f64,
 }
 
-/// What became of a step.
+/// Result of a step along a branch.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Step {
-    /// The next point.
+    /// Next point, within the range.
     Point(Found),
-    /// The same, where the branch leaves the range.
+    /// Next point, at the edge where the branch leaves the range.
     Edge(Found),
 }
 
 impl Front {
-    /// Where a branch begins, to be followed towards larger (`sign` 1) or smaller values (−1).
+    /// Front at the beginning of a branch, to be followed towards larger (`sign` 1) or smaller values (−1).
     pub fn new(start: Motion, span: f64, sign: f64) -> Self {
         let first = Motion { value: sign * span, state: Stepped::default() };
         Self { last: start, before: None, first, step: FIRST }
     }
 
-    /// The same to be followed in the direction of `state`, which is as large as the motion itself.
+    /// Front at the beginning of a branch, to be followed in the direction of `state`, which is as large as the motion itself.
     pub fn aside(start: Motion, state: Stepped) -> Self {
         let first = Motion { value: 0.0, state };
         Self { last: start, before: None, first, step: FIRST }
@@ -69,11 +70,11 @@ impl Front {
 }
 
 impl Branch<'_> {
-    /// The next point of the branch, within `range`, and at its edge exactly; `front` knows afterwards how far to go next, and has still
-    /// to be moved. Where a step fails, shorter ones are tried.
+    /// Solves for the next point of the branch, within `range`, and at its edge exactly; `front` then has the length of the next step, and
+    /// has still to be moved. Where a step fails, shorter ones are tried.
     ///
     /// # Errors
-    /// Why the shortest of them failed.
+    /// [`Lost`] of the shortest step that failed.
     pub fn next(&self, front: &mut Front, range: (f64, f64)) -> Result<Step, Lost> {
         loop {
             let along = self.direction(front)?;
@@ -118,7 +119,7 @@ impl Branch<'_> {
         }
     }
 
-    /// The point of the branch at `share` of the way from `a` to `b`, two of its points.
+    /// Point of the branch at `share` of the way from `a` to `b`, two of its points.
     ///
     /// # Errors
     /// [`Lost`].
@@ -160,7 +161,7 @@ impl Branch<'_> {
         self.correct(guess, &Motion { value: self.span, state: Stepped::default() }, edge)
     }
 
-    /// In the modes at the last point, of length one.
+    /// Direction in which the branch goes on, in the modes at the last point, of length one.
     fn direction(&self, front: &Front) -> Result<Motion, Lost> {
         let Some(before) = &front.before else { return Ok(front.first.clone()) };
         let back = self.difference(&front.last, before)?;
@@ -169,13 +170,13 @@ impl Branch<'_> {
         Ok(Motion { value: scale * back.value, state: add(&Stepped::default(), &back.state, scale) })
     }
 
-    /// b − a in the modes at a.
+    /// Difference b − a in the modes at a.
     fn difference(&self, a: &Motion, b: &Motion) -> Result<Motion, Lost> {
         let state = self.carried(&b.state, b.value, a.value)?;
         Ok(Motion { value: b.value - a.value, state: add(&state, &a.state, -1.0) })
     }
 
-    /// Of two directions at `at`, in the metric there.
+    /// Inner product of two directions at `at`, in the metric there.
     fn product(&self, a: &Motion, b: &Motion, at: &Motion) -> Result<f64, Lost> {
         let (inner, size) = self.at(at.value, |passage| {
             let size = size(&passage.state_of(&at.state));

@@ -1,30 +1,30 @@
-//! Where something happens between points of a branch: it turns back, or its stability changes.
+//! Location of special points between points of a branch: where it turns back, or its stability changes.
 
 use super::correct::Found;
 use super::{Branch, Lost, Motion};
 use crate::dynamics::initial::Stepped;
 
-/// Share of p to which a place is found.
+/// Share of p to which a place is located.
 pub const PLACE: f64 = 1e-6;
 
-/// Share of the wider side at which golden section looks.
+/// Share of the wider side at which golden section tries a point.
 const GOLDEN: f64 = 0.382;
 
-/// Most points between two that are looked at.
+/// Largest number of points between two that are tried.
 const LOOKS: usize = 30;
 
-/// A place that was found.
+/// Place on a branch that was located.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Place<T> {
-    /// The point there.
+    /// Motion at the place.
     pub motion: Motion,
-    /// What was asked of it.
+    /// Data that the caller computed of the motion.
     pub told: T,
-    /// How far away it may be, in p.
+    /// Error of the place, in p.
     pub error: f64,
 }
 
-/// A point that was looked at.
+/// Point that was tried.
 #[derive(Clone)]
 struct Look<T> {
     /// Arclength, along the chords between the first points.
@@ -34,10 +34,9 @@ struct Look<T> {
 }
 
 impl Branch<'_> {
-    /// Where, between the first and the last of three points that follow each other, `height` of a point is largest; the point
-    /// in the middle is no lower than both. Found where a parabola through the three highest has its summit, again and again; by golden section
-    /// where that does not halve its steps (Brent 1973, chapter 5). `blur` is how far off the height that is told of a point may be: wherever
-    /// points that were looked at are as high as that, the summit may be.
+    /// Place where `height` of a point is largest between the first and the last of three consecutive points, of which the middle one is no lower
+    /// than both. It is located at the summit of a parabola through the three highest, again and again; by golden section where that does not halve
+    /// its steps (Brent 1973, chapter 5). `blur` is the error of a point's height: wherever tried points are as high within it, the summit may be.
     ///
     /// # Errors
     /// [`Lost`].
@@ -84,8 +83,8 @@ impl Branch<'_> {
         Ok(Place { motion, told, error })
     }
 
-    /// Where between `a` and `b` the sign of `told` changes, which differs there: by chords (Illinois), also where it jumps. What is told is
-    /// that of the last point where it is positive, if there was one.
+    /// Place between `a` and `b` at which the sign of `told` changes, which differs there: by chords (Illinois), also where it jumps. The
+    /// data returned are those of the last point where it is positive, if there was one.
     ///
     /// # Errors
     /// [`Lost`].
@@ -128,7 +127,7 @@ impl Branch<'_> {
     }
 }
 
-/// Safety of [`off_by_steps`]: what is left of an error of first order, and of jumps, that agree by chance.
+/// Safety factor of [`off_by_steps`]: for the part of an error of first order, and of jumps, that agree by chance.
 const SAFETY: f64 = 2.0;
 
 /// Growth of a motion at a place, with more steps of time than the branch was followed with.
@@ -140,9 +139,9 @@ pub struct FinerGrowth {
     pub growth: f64,
 }
 
-/// Error of a zero in p from finite steps of time: `2 · max_k |g_k − g| k/(k − 1) / |slope|`, where g is the growth at the place, `here`, g_k that
-/// with k times the steps, and slope is dg/dp. Contacts that begin and end within a step leave multipliers an error of first order, which jumps
-/// wherever one moves into the next step.
+/// Error of a zero in p from finite steps of time: `2 · max_k |g_k − g| k/(k − 1) / |slope|`, where g is the growth at the place, `here`,
+/// g_k the growth with k times the steps, and slope is dg/dp. Contacts that begin and end within a step leave multipliers an error of first
+/// order, which jumps wherever one moves into the next step.
 pub fn off_by_steps(here: f64, slope: f64, finer: &[FinerGrowth]) -> f64 {
     let off = finer.iter().map(|finer| (finer.growth - here).abs() * finer.times / (finer.times - 1.0));
     SAFETY * off.fold(0.0, f64::max) / slope.abs()
@@ -162,7 +161,7 @@ impl Branch<'_> {
     }
 }
 
-/// Of the parabola through three points, kept away from the middle one, which is the highest.
+/// Summit of the parabola through three points, kept away from the middle one, which is the highest.
 fn summit_of([(a, f), (b, g), (c, h)]: [(f64, f64); 3]) -> f64 {
     let (left, right) = ((b - a) * (g - h), (b - c) * (g - f));
     let s = b - 0.5 * ((b - a) * left - (b - c) * right) / (left - right);
@@ -178,7 +177,7 @@ fn summit_of([(a, f), (b, g), (c, h)]: [(f64, f64); 3]) -> f64 {
     }
 }
 
-/// Of those that have another on either side.
+/// Index of the highest point among those that have another on either side.
 fn highest<T>(points: &[Look<T>], height: impl Fn(&Motion, &T) -> f64) -> usize {
     let height = |&index: &usize| height(&points[index].motion, &points[index].told);
     (1..points.len() - 1).max_by(|a, b| height(a).total_cmp(&height(b))).unwrap_or(1)

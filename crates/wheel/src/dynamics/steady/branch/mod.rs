@@ -1,8 +1,8 @@
-//! Branches: what becomes of a periodic response while a number of its scene changes (docs/method.md, Branches).
+//! Branches: periodic responses followed while a number of their scene changes (docs/method.md, Branches).
 //!
 //! A branch is a curve of (x, p) with P_p(x) = x. It is followed by its arclength instead of by p, and so around folds (Seydel, Practical
 //! Bifurcation and Stability Analysis, chapter 4): [`correct`] is Newton's method from beside the curve back to it, [`follow`] the steps
-//! along it, [`locate`] finds where it turns back or its stability changes.
+//! along it, [`locate`] finds points where it turns back or its stability changes.
 //!
 //! Modes depend on the speed. Vectors of one speed are carried to another by the [`Family`], as states are.
 
@@ -13,23 +13,23 @@ pub mod locate;
 use crate::dynamics::initial::{Stepped, SteppedMode, SteppedWave};
 use crate::dynamics::integrate::{Passage, PassageError, Simulation};
 
-/// A scene at any value of the number that a branch is followed over. Steps per revolution are the same at all of them: the map
-/// would jump with them.
+/// Family of scenes, one at any value of the number p that a branch is followed over. Steps per revolution are the same at all of them: the
+/// map would jump with them.
 pub trait Family {
-    /// Calls `act` once with the passage of the scene at `value` that `lap` asks for.
+    /// Calls `act` once with the return map of the scene at `value` that `lap` asks for.
     ///
     /// # Errors
-    /// There is no such passage.
+    /// If there is no such map.
     fn with(&self, value: f64, lap: Lap, act: &mut dyn FnMut(&mut Passage<'_>)) -> Result<(), Unreachable>;
 
-    /// A motion, or a difference of two, of the scene at `from` in the modes that it has at `to`.
+    /// Carries a motion, or a difference of two, of the scene at `from` over to the modes that it has at `to`.
     ///
     /// # Errors
-    /// There are none.
+    /// If there are no such modes.
     fn carry(&self, state: &Stepped, from: f64, to: f64) -> Result<Stepped, Unreachable>;
 }
 
-/// Why there is no scene at a value.
+/// Reason why there is no scene at a value.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
 pub struct Unreachable(pub String);
@@ -40,17 +40,17 @@ impl From<PassageError> for Unreachable {
     }
 }
 
-/// After what responses repeat.
+/// Time after which responses repeat.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Lap {
-    /// The shortest time that the symmetry of the scene allows, the sectors having changed their numbers.
+    /// Shortest time that the symmetry of the scene allows, the sectors having changed their numbers.
     Symmetric,
-    /// So many lobes.
+    /// Time in which this number of lobes pass.
     Lobes(usize),
 }
 
 impl Lap {
-    /// The map of which such responses are fixed points.
+    /// Return map of which such responses are fixed points.
     ///
     /// # Errors
     /// As of [`Passage::shortest`].
@@ -62,53 +62,53 @@ impl Lap {
     }
 }
 
-/// A motion of the scene at a value, or per unit of arclength a direction there.
+/// Motion of the scene at a value, or per unit of arclength a direction there.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Motion {
-    /// p.
+    /// Value of p.
     pub value: f64,
-    /// Where all is at the beginning of a revolution.
+    /// State at the beginning of a revolution.
     pub state: Stepped,
 }
 
-/// Why a branch was not found where it was sought.
+/// Reason why a branch was not found where it was sought.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Lost {
-    /// The scene cannot be run there.
+    /// Scene that cannot be run there.
     #[error("{0}")]
     Unreachable(#[from] Unreachable),
-    /// The map has no value there.
+    /// Map that has no value there.
     #[error(transparent)]
     Passage(#[from] PassageError),
-    /// Newton's method came no closer.
+    /// Search by Newton's method that came no closer.
     #[error("the search came no closer than {residual:.1e}")]
     NotFound {
-        /// Smallest ‖P(x) − x‖ / ‖x‖.
+        /// Smallest residual ‖P(x) − x‖ / ‖x‖.
         residual: f64,
     },
-    /// What was found lies in another direction.
+    /// Response that was found, but in another direction.
     #[error("the next response that was found does not continue it")]
     Turned,
-    /// The caller asked to stop.
+    /// Search that the caller stopped.
     #[error("cancelled")]
     Cancelled,
 }
 
-/// What is followed, and how it is measured.
+/// Branch to follow, and its measure.
 #[derive(Clone, Copy)]
 pub struct Branch<'a> {
-    /// The scenes.
+    /// Scenes of the branch.
     pub family: &'a dyn Family,
-    /// After what their responses repeat.
+    /// Time after which responses repeat.
     pub lap: Lap,
-    /// Change of p that counts as much as a motion that changes by all it is.
+    /// Change of p that counts as much as a change of the motion by its own size.
     pub span: f64,
-    /// Asked now and then whether to go on.
+    /// Question whether to go on, asked now and then.
     pub go_on: &'a dyn Fn() -> bool,
 }
 
 impl Branch<'_> {
-    /// What `act` makes of the passage at `value`.
+    /// Result of `act` on the return map at `value`.
     fn at<T>(&self, value: f64, act: impl FnOnce(&mut Passage<'_>) -> T) -> Result<T, Lost> {
         if !(self.go_on)() {
             return Err(Lost::Cancelled);
@@ -118,13 +118,13 @@ impl Branch<'_> {
         made.ok_or_else(|| Unreachable("there is no scene".to_owned()).into())
     }
 
-    /// A motion or a direction of the scene at `at` in the modes at `to`.
+    /// Motion or direction of the scene at `at`, in the modes at `to`.
     fn carried(&self, from: &Stepped, at: f64, to: f64) -> Result<Stepped, Lost> {
         Ok(if at == to { from.clone() } else { self.family.carry(from, at, to)? })
     }
 }
 
-/// a + share · b, mode by mode and wave by wave.
+/// Sum a + share · b, mode by mode and wave by wave.
 fn add(a: &Stepped, b: &Stepped, share: f64) -> Stepped {
     let mut sum = a.clone();
     for more in &b.modes {

@@ -13,7 +13,7 @@ use crate::dynamics::steady::branch::{Branch, Family, Lap, Motion, Unreachable};
 use crate::dynamics::steady::response::seek;
 use crate::dynamics::steady::stability::{Floquet, Stability};
 
-/// A scene over its speed; its modes do not depend on it.
+/// Family of a scene over its speed; the modes do not depend on it.
 struct OverSpeed(Scene);
 
 impl Family for OverSpeed {
@@ -32,7 +32,7 @@ impl Family for OverSpeed {
     }
 }
 
-/// What multipliers say of a motion, and what grows most, as large as the motion.
+/// Multipliers of a motion, and the disturbance that grows most, as large as the motion.
 fn tell(family: &OverSpeed, lap: Lap, motion: &Motion) -> (Floquet, Stepped) {
     let mut told = None;
     let act = &mut |passage: &mut Passage<'_>| {
@@ -52,8 +52,8 @@ fn growth(of: &Floquet) -> f64 {
     of.multipliers[0].value.norm() - 1.0
 }
 
-/// From the flips of a wheel of one blade: what is found beside them repeats after twice the time, is another
-/// motion half-way, and becomes ever more so.
+/// Branches from the flips of a wheel of one blade: responses found beside them repeat after twice the time, are another motion half-way,
+/// and become ever more so.
 #[test]
 fn a_branch_of_doubled_period_begins_at_a_flip() {
     let mut numbers = Numbers(17);
@@ -99,7 +99,7 @@ fn a_branch_of_doubled_period_begins_at_a_flip() {
     assert!(flips > 2 && doubled > 1, "{flips} flips, {doubled} of which with a branch");
 }
 
-/// Whether a branch of twice the period leaves from `flip`, rather than that the search comes back to the one that was there.
+/// Whether a branch of twice the period leaves from `flip`, rather than the search coming back to the branch that was there.
 fn doubles(branch: &Branch<'_>, flip: Motion, grows: Stepped, passages: usize) -> bool {
     let twice = Branch { lap: Lap::Lobes(2 * passages), ..*branch };
     let once = Branch { lap: Lap::Lobes(passages), ..*branch };

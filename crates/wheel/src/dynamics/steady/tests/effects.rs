@@ -9,14 +9,14 @@ use crate::dynamics::flexible_casing::{CasingWave, FlexibleCasing};
 use crate::dynamics::integrate::revolutions_over_lobe;
 use crate::dynamics::orbit::Orbit;
 
-/// Which effects a scene has.
+/// Effects of a scene.
 #[derive(Debug, Clone, Copy, Default)]
 struct Which {
     mistuning: bool,
     excitation: bool,
     coriolis: bool,
     friction: bool,
-    /// κ.
+    /// Whirl ratio κ.
     orbit: Option<f64>,
     casing: bool,
 }
@@ -56,7 +56,7 @@ const CASES: [Which; 9] = [
     },
 ];
 
-/// A scene that owns its effects, too.
+/// Scene that owns its effects, too.
 struct Affected {
     scene: Scene,
     deviations: Option<Vec<f64>>,
@@ -66,7 +66,7 @@ struct Affected {
     casing: Option<FlexibleCasing>,
 }
 
-/// Breathing, bending that meets both lobes alike, bending that does not, and waves that the sectors cannot tell from another.
+/// Waves of a casing: breathing, bending that meets both lobes alike, bending that does not, and waves that the sectors cannot tell from another.
 const WAVES: [CasingWave; 4] = [
     CasingWave { nodal_diameter: 0, omega: 9000.0, modal_mass: 1e-3 },
     CasingWave { nodal_diameter: 2, omega: 3100.0, modal_mass: 2e-3 },
@@ -114,14 +114,14 @@ impl Affected {
         Simulation { effects, ..self.scene.simulation() }
     }
 
-    /// The state after a march from rest.
+    /// State after a march from rest.
     fn march(&self, revolutions: usize, passage: &mut Passage<'_>) -> Vec<f64> {
         let history = ends(Simulation { revolutions, ..self.simulation() }.run(&|_| true));
         passage.state(&history.end, &history.casing_end)
     }
 }
 
-/// Random g of every nodal diameter, skew-Hermitian, a few tenths of the frequencies over Ω.
+/// Adds random g to every nodal diameter, skew-Hermitian, a few tenths of the frequencies over Ω.
 fn add_coriolis(wheel: &mut ModalWheel) {
     let mut numbers = Numbers(29);
     for harmonic in &mut wheel.harmonics {
@@ -145,7 +145,7 @@ fn off(a: &[f64], b: &[f64]) -> f64 {
     length(&difference(a, b)) / length(b)
 }
 
-/// By hand: what turns past the wheel is the same after these steps of 3600, with the number of every sector moved by so many.
+/// Recurrences found by hand: the scene is the same after these steps of 3600, with the number of every sector moved by so many.
 #[test]
 fn passages_are_the_shortest_that_the_whole_scene_allows() {
     let of = |which, change: &dyn Fn(&mut Affected)| {
@@ -192,7 +192,7 @@ fn what_never_repeats_is_refused_and_says_why() {
     assert_eq!(refused, PassageError::Coating);
 }
 
-/// The map is what a run does: over all revolutions after which the scene is as it was, in one piece and in pieces that renumber the sectors.
+/// Map against a run: over all revolutions after which the scene is the same again, in one piece and in pieces that renumber the sectors.
 #[test]
 fn passages_go_where_runs_go() {
     for scheme in SCHEMES {
@@ -222,7 +222,7 @@ fn passages_go_where_runs_go() {
     }
 }
 
-/// Exact within a sequence of sets that touch: what is left is round-off of differences, 1e-16/1e-7, and of the map.
+/// Derivative within a sequence of sets that touch, where it is exact: up to round-off of differences, 1e-16/1e-7, and of the map.
 #[test]
 fn tangents_under_effects_are_the_limit_of_differences() {
     for scheme in SCHEMES {
@@ -260,8 +260,8 @@ fn tangents_under_effects_are_the_limit_of_differences() {
     }
 }
 
-/// A run that begins with a response found goes on in it from its first sample on, and what starts beside it joins or leaves it at the rate of
-/// its largest multiplier.
+/// Run that begins with a response found: it goes on in the response from its first sample on, and motions that start beside it join or
+/// leave it at the rate of its largest multiplier.
 #[test]
 fn responses_under_effects_repeat_and_attract_as_their_multipliers_say() {
     let mut stable = 0;
@@ -304,7 +304,8 @@ fn responses_under_effects_repeat_and_attract_as_their_multipliers_say() {
     assert!(stable > SCHEMES.len() * CASES.len() / 2, "{stable} stable responses");
 }
 
-/// What is stable and reached is where a march of 400 revolutions ends, which sensors show: 1e-8 in energies, and what stiff contact makes of it.
+/// Stable responses that are reached: a march of 400 revolutions ends there, which sensors show to 1e-8 in energies, and to what stiff
+/// contact makes of it.
 #[test]
 fn responses_under_effects_are_where_long_marches_end() {
     let mut reached = 0;
@@ -342,8 +343,8 @@ fn responses_under_effects_are_where_long_marches_end() {
     assert!(reached > SCHEMES.len() * CASES.len() / 2, "{reached} reached");
 }
 
-/// Without contact: e^{λT} of the wheel as one matrix, z̈ + (D + Ωg) ż + (ω² + M) z = 0, mistuning being written sector by sector. What steps
-/// make of the coupling is of second order in h, so that half of it leaves a quarter of the error.
+/// Wheel without contact: e^{λT} of the wheel as one matrix, z̈ + (D + Ωg) ż + (ω² + M) z = 0, mistuning being written sector by sector.
+/// The error of the coupling by steps is of second order in h, so that half of h leaves a quarter of it.
 #[test]
 fn a_free_wheel_that_is_mistuned_and_turns_has_the_multipliers_of_its_matrix() {
     for scheme in SCHEMES {
@@ -370,7 +371,7 @@ fn a_free_wheel_that_is_mistuned_and_turns_has_the_multipliers_of_its_matrix() {
     }
 }
 
-/// e^{λT} of a revolution, of the modes that the scheme integrates.
+/// Multipliers e^{λT} of a revolution, of the modes that the scheme integrates.
 fn matrix_multipliers(affected: &Affected) -> Vec<c64> {
     let Scene { wheel, damping, scheme, .. } = &affected.scene;
     let kept = scheme.integrated_modes(MODES);
