@@ -13,7 +13,7 @@ use rubmap::dynamics::reduction::{
     BasisRows, Checkpoints, Completeness, NoCheckpoints, ReducedWheel, ReductionOptions, reduce,
 };
 use rubmap::dynamics::sector::{CyclicMatrix, SectorModel};
-use rubmap::numerics::hermitian::generalised_eigenvalues;
+use rubmap::numerics::dense::generalised_eigenvalues;
 use rubmap::package::{raw::RawPackage, to_sector};
 
 use crate::fixtures::{TOP_SPEED, WheelRecipe, small_impeller, wheel};

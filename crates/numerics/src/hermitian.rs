@@ -29,7 +29,7 @@ pub struct Eigenpairs<T> {
 ///
 /// faer's divide and conquer deflates against an absolute threshold (seen with 0.24.4: a matrix of norm 2.5e-9 came
 /// back with eigenvectors good to seven digits), so the matrix is brought to norm one first, by a power of two.
-pub fn eigenpairs<T: ComplexField<Real = f64>>(a: MatRef<'_, T>) -> Result<Eigenpairs<T>, EigenError> {
+pub(crate) fn eigenpairs<T: ComplexField<Real = f64>>(a: MatRef<'_, T>) -> Result<Eigenpairs<T>, EigenError> {
     let scale = power_of_two(a.norm_max());
     let eigen =
         scaled(a, 1.0 / scale).self_adjoint_eigen(Side::Lower).map_err(|_| EigenError::NotConverged)?;
@@ -38,7 +38,7 @@ pub fn eigenpairs<T: ComplexField<Real = f64>>(a: MatRef<'_, T>) -> Result<Eigen
 }
 
 /// All eigenvalues of a Hermitian matrix, ascending.
-pub fn eigenvalues<T: ComplexField<Real = f64>>(a: MatRef<'_, T>) -> Result<Vec<f64>, EigenError> {
+pub(crate) fn eigenvalues<T: ComplexField<Real = f64>>(a: MatRef<'_, T>) -> Result<Vec<f64>, EigenError> {
     let scale = power_of_two(a.norm_max());
     let values = scaled(a, 1.0 / scale).self_adjoint_eigenvalues(Side::Lower);
     Ok(values.map_err(|_| EigenError::NotConverged)?.into_iter().map(|v| v * scale).collect())
@@ -56,7 +56,7 @@ fn scaled<T: ComplexField<Real = f64>>(a: MatRef<'_, T>, factor: f64) -> Mat<T> 
 /// All eigenpairs of K x = λ M x, both `n × n` Hermitian, M positive definite.
 ///
 /// Uses M = L Lᴴ to reach the standard problem L⁻¹ K L⁻ᴴ; several times cheaper than QZ and keeps λ real.
-pub fn generalised_eigenpairs<T: ComplexField<Real = f64>>(
+pub(crate) fn generalised_eigenpairs<T: ComplexField<Real = f64>>(
     k: MatRef<'_, T>,
     m: MatRef<'_, T>,
 ) -> Result<Eigenpairs<T>, EigenError> {
@@ -67,7 +67,7 @@ pub fn generalised_eigenpairs<T: ComplexField<Real = f64>>(
 }
 
 /// Eigenvalues of K x = λ M x, ascending.
-pub fn generalised_eigenvalues<T: ComplexField<Real = f64>>(
+pub(crate) fn generalised_eigenvalues<T: ComplexField<Real = f64>>(
     k: MatRef<'_, T>,
     m: MatRef<'_, T>,
 ) -> Result<Vec<f64>, EigenError> {

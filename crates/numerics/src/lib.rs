@@ -9,6 +9,7 @@ pub mod arnoldi;
 pub mod block_lanczos;
 pub mod complementarity;
 pub mod convergence;
+pub mod dense;
 #[cfg(test)]
 #[path = "../../../tests/properties/fixed.rs"]
 mod fixed;

@@ -1,11 +1,12 @@
 //! Stress in reduced coordinates, from the mesh and the basis of a reduction.
 
 use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
-use faer::{Mat, Par, Side, c64};
+use faer::{Mat, Par, c64};
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
 use super::reduced::{HarmonicStress, StaticStress, StaticWheel};
 use crate::own_load::own_load;
+use rubmap_numerics::dense::Dense;
 use rubmap_solid::load::centrifugal;
 use rubmap_solid::mesh::SectorMesh;
 use rubmap_solid::stress::NodalStress;
@@ -120,5 +121,5 @@ impl<'a> StressMaker<'a> {
 
 /// Cholesky factor L of K_r(0) = L Lᴴ; every reduction has it.
 pub(super) fn lower(reduced: &ReducedHarmonic) -> Option<Mat<c64>> {
-    Some(reduced.stiffness.coefficients[0].llt(Side::Lower).ok()?.L().to_owned())
+    c64::lower_factor(reduced.stiffness.coefficients[0].as_ref())
 }

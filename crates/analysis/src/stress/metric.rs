@@ -2,9 +2,10 @@
 
 use faer::linalg::matmul::matmul;
 use faer::linalg::triangular_solve::solve_upper_triangular_in_place;
-use faer::{Accum, Mat, MatMut, MatRef, Par, Side, c64};
+use faer::{Accum, Mat, MatMut, MatRef, Par, c64};
 
 use super::sums::{LANES, Sums};
+use rubmap_numerics::dense::Dense;
 
 /// Share of the mean of G's eigenvalues that is added to all of them, far above the rounding error of single precision.
 const ADDED: f64 = 1e-4;
@@ -47,10 +48,8 @@ impl Metric {
         let mean = (0..unknowns).map(|k| gram[(k, k)].re).sum::<f64>() / unknowns.max(1) as f64;
         (0..unknowns).for_each(|k| gram[(k, k)] += ADDED * mean);
         // Where nothing is stressed, energy alone orders as well.
-        let lower = gram.llt(Side::Lower);
-        Self {
-            lower: lower.map_or_else(|_| Mat::identity(unknowns, unknowns), |factor| factor.L().to_owned()),
-        }
+        let lower = c64::lower_factor(gram.as_ref());
+        Self { lower: lower.unwrap_or_else(|| Mat::identity(unknowns, unknowns)) }
     }
 
     /// Solves y = Fᴴ x̃ for the coordinates x̃ of the columns, in place.

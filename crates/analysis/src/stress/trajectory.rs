@@ -11,7 +11,8 @@ use super::make::lower;
 use super::metric::Metric;
 use super::reduced::ReducedStress;
 use super::sums::LANES;
-use rubmap_numerics::hermitian::{EigenError, eigenpairs};
+use rubmap_numerics::dense::eigenpairs;
+use rubmap_numerics::hermitian::EigenError;
 use rubmap_wheel::dynamics::reduction::ReducedHarmonic;
 use rubmap_wheel::dynamics::states::WheelStates;
 

@@ -12,8 +12,8 @@
 //! them is stable with them. A force moves S R φᴴ f within its step: the contact operator is no longer symmetric, but positive definite
 //! still. The order in h is two, whatever the scheme.
 
-use faer::linalg::solvers::DenseSolveCore;
 use faer::{Mat, MatRef, c64};
+use rubmap_numerics::dense::Dense;
 
 /// Swing matrix S of one nodal diameter over the integrated modes, whose receptances are given.
 pub(crate) fn swing_matrix(g: MatRef<'_, c64>, speed_rad_s: f64, step: f64, receptance: &[f64]) -> Mat<c64> {
@@ -22,5 +22,5 @@ pub(crate) fn swing_matrix(g: MatRef<'_, c64>, speed_rad_s: f64, step: f64, rece
     let system = Mat::from_fn(modes, modes, |i, j| {
         g[(i, j)] * (factor * receptance[i]) + if i == j { c64::ONE } else { c64::ZERO }
     });
-    system.partial_piv_lu().inverse()
+    c64::inverse(system.as_ref())
 }

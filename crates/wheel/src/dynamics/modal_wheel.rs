@@ -15,7 +15,8 @@ use faer::{Mat, c64};
 
 use super::error::ModelError;
 use super::reduction::reduced::{ReducedHarmonic, ReducedWheel};
-use rubmap_numerics::hermitian::{EigenError, Eigenpairs, generalised_eigenpairs, generalised_eigenvalues};
+use rubmap_numerics::dense::{generalised_eigenpairs, generalised_eigenvalues};
+use rubmap_numerics::hermitian::{EigenError, Eigenpairs};
 use rubmap_numerics::sector_fourier::is_single;
 
 /// Effects of rotation that a wheel has at a speed.

@@ -17,7 +17,7 @@ use faer::{Mat, c64};
 use super::error::ModelError;
 use super::modal_wheel::{ModalHarmonic, RotationEffects, modal_harmonic};
 use super::reduction::ReducedWheel;
-use rubmap_numerics::hermitian::eigenvalues;
+use rubmap_numerics::dense::eigenvalues;
 
 /// Natural frequencies |ν| of one nodal diameter's waves in the rotating frame, rad/s, ascending.
 #[derive(Debug, Clone, PartialEq)]

@@ -18,7 +18,7 @@ use super::integrate::{Outcome, Run, SensorRow, Simulation};
 use super::modal_wheel::{ModalHarmonic, ModalWheel};
 use super::schemes::Scheme;
 use super::sector::ContactNode;
-use rubmap_numerics::hermitian::generalised_eigenpairs;
+use rubmap_numerics::dense::generalised_eigenpairs;
 
 const LENGTH: f64 = 10.0;
 const MODULUS: f64 = 900.0;

@@ -6,7 +6,7 @@ use faer::{Mat, c64};
 use super::super::direction::Direction;
 use super::super::modal_wheel::{ModalHarmonic, ModalWheel};
 use super::super::sector::ContactNode;
-use rubmap_numerics::hermitian::eigenvalues;
+use rubmap_numerics::dense::eigenvalues;
 use rubmap_numerics::sector_fourier::is_single;
 
 /// Outward normals of the contact nodes as directions.

@@ -16,11 +16,12 @@
 //! Left out here: the vibration's own velocity v turns the sliding, by v/rΩ, and with it the force, by μλ v/rΩ across the rotation: small
 //! beside μλ, but a damping, which [`disc`](super::disc) has in full.
 
-use faer::{Mat, Side, c64};
+use faer::{Mat, c64};
 
 use super::super::direction::Direction;
 use super::super::sector::ContactNode;
 use super::flexibility::outward_normals;
+use rubmap_numerics::dense::Dense;
 use rubmap_numerics::p_matrix::non_positive_minor;
 use rubmap_numerics::sector_fourier::is_single;
 
@@ -209,7 +210,7 @@ fn is_positive_definite(block: &Mat<c64>, ridge: f64) -> bool {
     let hermitian = Mat::from_fn(block.nrows(), block.ncols(), |i, j| {
         0.5 * (block[(i, j)] + block[(j, i)].conj()) + if i == j { ridge } else { 0.0 }
     });
-    hermitian.llt(Side::Lower).is_ok()
+    c64::lower_factor(hermitian.as_ref()).is_some()
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! Trace of contact over a return map: all that the linearised flow needs to know of it.
 
-use faer::linalg::solvers::DenseSolveCore;
-use faer::{Mat, Side};
+use faer::Mat;
+use rubmap_numerics::dense::Dense;
 
 /// Contact nodes that touched together.
 #[derive(Debug, Clone)]
@@ -46,11 +46,9 @@ impl Trace {
         }
         if self.sets.last().is_none_or(|last| last.places != places) {
             let w = Mat::from_fn(places.len(), places.len(), w);
-            let stiffness = match w.llt(Side::Lower) {
-                Ok(factor) if symmetric => factor.inverse(),
-                // Not symmetric, or as far from definite as round-off.
-                _ => w.partial_piv_lu().inverse(),
-            };
+            let definite = symmetric.then(|| f64::definite_inverse(w.as_ref())).flatten();
+            // Not symmetric, or as far from definite as round-off.
+            let stiffness = definite.unwrap_or_else(|| f64::inverse(w.as_ref()));
             self.sets.push(Touching { places, stiffness });
         }
         self.instants.push((step, self.sets.len() - 1));

@@ -19,7 +19,7 @@ use super::modes::Modes;
 use super::sector_factor::{SectorFactor, join, split};
 use super::tied_factor::TiedFactor;
 use super::untied::UntiedSector;
-use rubmap_numerics::hermitian::generalised_eigenpairs;
+use rubmap_numerics::dense::generalised_eigenpairs;
 use rubmap_numerics::orthonormal::orthonormal_basis;
 
 /// Number of inverse iterations before giving up.

@@ -4,15 +4,14 @@
 //! the face (Haynsworth). One real factor of K − σM serves every nodal diameter whose modes leave a gap at σ.
 
 use faer::sparse::SparseColMat;
-use faer::traits::ComplexField;
-use faer::traits::ext::ComplexFieldExt;
-use faer::{Mat, MatRef, Side};
+use faer::{Mat, c64};
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 use serde::{Deserialize, Serialize};
 
 use super::modes::{LOCATED, Modes};
 use super::tied_factor::tied_schur;
 use super::untied::{Tie, UntiedSector};
+use rubmap_numerics::dense::Dense;
 use rubmap_numerics::multifrontal::Inertia;
 
 /// Number of eigenvalues below a shift.
@@ -98,9 +97,9 @@ fn negative_on_face(
     let face = schur.submatrix(0, 0, untied.face(), untied.face());
     if UntiedSector::is_real(tie) {
         let real = Mat::from_fn(face.nrows(), face.ncols(), |i, j| face[(i, j)].re);
-        negative_eigenvalues(real.as_ref())
+        f64::negative_eigenvalues(real.as_ref())
     } else {
-        negative_eigenvalues(face)
+        c64::negative_eigenvalues(face)
     }
 }
 
@@ -160,54 +159,9 @@ fn best_shift(ladders: &[Ladder], waiting: &[usize], failed: &[f64]) -> Option<f
         .map(|(_, _, shift)| shift)
 }
 
-/// Number of negative eigenvalues of a Hermitian matrix, from the blocks of its Bunch–Kaufman factor.
-fn negative_eigenvalues<T: ComplexField<Real = f64>>(matrix: MatRef<'_, T>) -> usize {
-    let factor = matrix.lblt(Side::Lower);
-    let (diagonal, below) = (factor.B_diag().column_vector(), factor.B_subdiag().column_vector());
-    let mut negative = 0;
-    let mut i = 0;
-    while i < matrix.nrows() {
-        let (a, coupling) = (diagonal[i].real(), below[i].abs());
-        if coupling == 0.0 {
-            negative += usize::from(a < 0.0);
-            i += 1;
-        } else {
-            let b = diagonal[i + 1].real();
-            negative += if a * b < coupling * coupling {
-                1
-            } else if a < 0.0 {
-                2
-            } else {
-                0
-            };
-            i += 2;
-        }
-    }
-    negative
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use faer::c64;
-
-    #[test]
-    fn inertia_of_an_indefinite_matrix() {
-        // U diag(λ) Uᴴ with known signs; zero diagonal entries force 2 × 2 blocks.
-        let n = 12;
-        let start =
-            Mat::from_fn(n, n, |i, j| c64::new(((i * 3 + j * j) as f64).sin(), ((i + 5 * j) as f64).cos()));
-        let u = start.qr().compute_thin_Q();
-        for negative in 0..=n {
-            let scaled = Mat::from_fn(n, n, |i, j| {
-                u[(i, j)] * (j as f64 + 1.0) * if j < negative { -1.0 } else { 1.0 }
-            });
-            assert_eq!(negative_eigenvalues((scaled * u.adjoint()).as_ref()), negative);
-        }
-        let swap =
-            Mat::from_fn(4, 4, |i, j| c64::new(0.0, if i + j == 3 { i as f64 - j as f64 } else { 0.0 }));
-        assert_eq!(negative_eigenvalues(swap.as_ref()), 2);
-    }
 
     #[test]
     fn one_shift_serves_all_it_can() {

@@ -8,7 +8,8 @@ use super::findings::{InterpolationCheck, InterpolationVerdict};
 use super::reduced::ReducedHarmonic;
 use crate::dynamics::error::ModelError;
 use crate::dynamics::sector::SectorModel;
-use rubmap_numerics::hermitian::{EigenError, generalised_eigenvalues};
+use rubmap_numerics::dense::generalised_eigenvalues;
+use rubmap_numerics::hermitian::EigenError;
 
 /// Fraction of K0's entries above which K2 entries cannot be the round-off of matrices written with six digits or more.
 const QUADRATIC_LIMIT: f64 = 1e-5;

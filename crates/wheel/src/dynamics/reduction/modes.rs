@@ -14,7 +14,7 @@ use super::sector_factor::{COLUMNS, Load, SectorFactor, join};
 use super::tied_factor::TiedFactor;
 use super::untied::{Tie, UntiedSector};
 use rubmap_numerics::block_lanczos::{BlockLanczos, Ritz};
-use rubmap_numerics::hermitian::generalised_eigenpairs;
+use rubmap_numerics::dense::generalised_eigenpairs;
 use rubmap_numerics::matrix_serde;
 use rubmap_numerics::vector_block::VectorBlock;
 

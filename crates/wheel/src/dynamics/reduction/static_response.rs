@@ -8,7 +8,7 @@ use super::sector_factor::{SectorFactor, join, split};
 use super::untied::UntiedSector;
 use crate::dynamics::error::ModelError;
 use crate::dynamics::sector::{CyclicMatrix, SectorModel};
-use rubmap_numerics::hermitian::eigenpairs;
+use rubmap_numerics::dense::eigenpairs;
 
 /// Solutions of K̂(0) w = f at the given speeds.
 #[derive(Debug, Clone)]

@@ -1,14 +1,12 @@
 //! Dense factor of the tied boundary: the part that one nodal diameter adds to the sector's real factor.
 
-use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::linalg::cholesky::llt::factor::{LltError, cholesky_in_place, cholesky_in_place_scratch};
 use faer::linalg::triangular_solve::{solve_lower_triangular_in_place, solve_upper_triangular_in_place};
 use faer::prelude::ReborrowMut;
 use faer::sparse::SparseColMat;
-use faer::traits::ComplexField;
 use faer::{Mat, MatMut, Par, c64};
 
 use super::untied::{Tie, UntiedSector};
+use rubmap_numerics::dense::Dense;
 
 /// Error: a matrix that is not positive definite.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -120,28 +118,14 @@ pub(super) fn tied_schur(
 /// where the nodal diameter is real.
 pub(super) fn cholesky(mut matrix: MatMut<'_, c64>, tie: &Tie) -> Result<(), NotPositiveDefinite> {
     if !UntiedSector::is_real(tie) {
-        return cholesky_of(matrix);
+        return c64::factor_in_place(matrix).map_err(|row| NotPositiveDefinite { row });
     }
     let mut real = Mat::from_fn(matrix.nrows(), matrix.ncols(), |i, j| matrix[(i, j)].re);
-    cholesky_of(real.as_mut())?;
+    f64::factor_in_place(real.as_mut()).map_err(|row| NotPositiveDefinite { row })?;
     for j in 0..matrix.ncols() {
         for i in j..matrix.nrows() {
             matrix[(i, j)] = c64::new(real[(i, j)], 0.0);
         }
     }
     Ok(())
-}
-
-fn cholesky_of<T: ComplexField>(matrix: MatMut<'_, T>) -> Result<(), NotPositiveDefinite> {
-    let scratch = cholesky_in_place_scratch::<T>(matrix.nrows(), Par::Seq, faer::prelude::default());
-    let stack = &mut MemBuffer::new(scratch);
-    cholesky_in_place(
-        matrix,
-        faer::prelude::default(),
-        Par::Seq,
-        MemStack::new(stack),
-        faer::prelude::default(),
-    )
-    .map(|_| ())
-    .map_err(|LltError::NonPositivePivot { index }| NotPositiveDefinite { row: index })
 }

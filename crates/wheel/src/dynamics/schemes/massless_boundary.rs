@@ -21,15 +21,14 @@
 //! 36 times as far as central differences on random wheels, with perfect credentials), steps below half of it did not.
 //! Keeping more modes leaves less flexibility: ω_c grows.
 
-use faer::linalg::solvers::Solve;
-use faer::{Mat, Side, c64};
+use faer::{Mat, c64};
 
 use super::super::contact::flexibility::{flexibility, outward_normals, ridge};
 use super::super::direction::Direction;
 use super::super::modal_wheel::ModalWheel;
 use super::super::sector::ContactNode;
 use super::central_differences;
-use rubmap_numerics::hermitian::eigenvalues;
+use rubmap_numerics::dense::{Dense, eigenvalues};
 
 /// Fewest steps per revolution with h < 1/ω_c; the largest number there is if the modes left out leave no flexibility: fewer of them than
 /// contact nodes cannot close every gap, and nodes would be held by the ridge of a singular F.
@@ -57,7 +56,7 @@ fn closed_frequency(wheel: &ModalWheel, kept: usize, contact_nodes: &[ContactNod
             block[(k, k)] += ridge;
         }
         let modes = Mat::from_fn(normals.len(), kept, |k, m| normals[k].of(harmonic.contact.as_ref(), m));
-        let held = modes.adjoint() * block.llt(Side::Lower).ok()?.solve(&modes);
+        let held = modes.adjoint() * c64::definite_solve(block.as_ref(), modes.as_ref())?;
         let closed = Mat::from_fn(kept, kept, |i, j| {
             let own = if i == j { harmonic.omega[i].powi(2) } else { 0.0 };
             0.5 * (held[(i, j)] + held[(j, i)].conj()) + c64::new(own, 0.0)

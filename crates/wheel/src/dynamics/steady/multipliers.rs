@@ -4,6 +4,7 @@ use faer::{Mat, c64};
 
 use super::tangent::Tangent;
 use rubmap_numerics::arnoldi;
+use rubmap_numerics::dense::{Eigenpair, real_eigenpairs};
 
 /// Size of a state up to which all multipliers are found at once.
 const DENSE: usize = 100;
@@ -51,9 +52,8 @@ pub fn multipliers(tangent: &Tangent<'_>, count: usize, hint: &[f64]) -> Vec<Mul
 fn all(tangent: &Tangent<'_>) -> Vec<(c64, Vec<c64>)> {
     let mut matrix = Mat::<f64>::identity(tangent.size(), tangent.size());
     tangent.apply(matrix.as_mut());
-    let Ok(pairs) = matrix.eigen() else { return Vec::new() };
-    let vectors = pairs.U().col_iter().map(|vector| vector.iter().copied().collect());
-    pairs.S().column_vector().iter().copied().zip(vectors).collect()
+    let pairs = real_eigenpairs(matrix.as_ref()).unwrap_or_default();
+    pairs.into_iter().map(|Eigenpair { value, vector }| (value, vector)).collect()
 }
 
 fn largest(tangent: &Tangent<'_>, count: usize, hint: &[f64]) -> Vec<(c64, Vec<c64>)> {
