@@ -31,10 +31,9 @@ async fn ended(api: &Api, path: &str, request: &Value) -> Value {
 async fn compute(api: &Api) -> (Vec<String>, String) {
     let model = api.model(model::package(1.0)).await;
     let made = ended(api, "/v1/models", &coarse()).await;
-    let mut impossible = coarse();
-    impossible["root_thickness"] = json!(200.0);
-    impossible["tip_thickness"] = json!(200.0);
-    let failed = ended(api, "/v1/models", &impossible).await;
+    let mut impossible = sweep_of(&model);
+    impossible["scene"]["initial"] = json!({"nodal_diameter": 0, "family": 99, "amplitude": 0.01});
+    let failed = ended(api, "/v1/sweeps", &impossible).await;
     assert_eq!(failed["status"], "failed", "{failed}");
     let mut rubbing = sweep_of(made["model"].as_str().unwrap());
     rubbing["speeds"] = json!({"from": 1200.0, "to": 1500.0, "count": 2, "unit": "rad_s"});
