@@ -288,6 +288,11 @@ fn tables() {
             (Some("nodes.csv"), Some(1), None),
         ),
         case(
+            |f| f.line("nodes.csv", 1, "id,r,theta,z"),
+            "nodes.csv, line 1: the header names \"r\", where id,x,y,z are read: write Cartesian coordinates",
+            (Some("nodes.csv"), Some(1), None),
+        ),
+        case(
             |f| f.put("dofs.csv", "\n"),
             "dofs.csv, line 1: the table has no rows",
             (Some("dofs.csv"), Some(1), None),

@@ -136,12 +136,20 @@ fn is_header(text: &str) -> bool {
     first.starts_with(|c: char| c.is_alphabetic() || c == '#' || c == '_') && first.parse::<f64>().is_err()
 }
 
-/// Checks a header: it may use any names, but not ours in another order, as the columns would be read wrongly.
+/// Names of cylindrical coordinates, where Cartesian ones are read.
+const CYLINDRICAL: [&str; 6] = ["r", "rho", "radius", "theta", "phi", "angle"];
+
+/// Checks a header: it may use any names, but not ours in another order, nor those of other coordinates, as the columns would be read wrongly.
 fn check_header(text: &str, columns: &'static str) -> Result<(), TableProblem> {
-    let misplaced = text.split(',').zip(columns.split(',')).any(|(name, expected)| {
-        let name = unquoted(name).trim_start_matches('#').trim().to_ascii_lowercase();
-        name != expected && columns.split(',').any(|column| column == name)
-    });
+    let names =
+        || text.split(',').map(|name| unquoted(name).trim_start_matches('#').trim().to_ascii_lowercase());
+    let is_cartesian = columns.split(',').any(|column| column == "x");
+    if is_cartesian && let Some(name) = names().find(|name| CYLINDRICAL.contains(&name.as_str())) {
+        return Err(TableProblem::HeaderCylindrical { name, columns });
+    }
+    let misplaced = names()
+        .zip(columns.split(','))
+        .any(|(name, expected)| name != expected && columns.split(',').any(|column| column == name));
     if misplaced { Err(TableProblem::HeaderOrder { columns }) } else { Ok(()) }
 }
 

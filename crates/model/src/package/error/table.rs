@@ -22,6 +22,14 @@ pub enum TableProblem {
         /// Names of the columns in the expected order.
         columns: &'static str,
     },
+    /// Header that names cylindrical coordinates.
+    #[error("the header names {name:?}, where {columns} are read: write Cartesian coordinates")]
+    HeaderCylindrical {
+        /// Name that is of other coordinates.
+        name: String,
+        /// Names of the expected columns.
+        columns: &'static str,
+    },
     /// Text that is not a node id.
     #[error("\"{text}\" is not a node id (an integer from 0)")]
     BadId {
