@@ -53,6 +53,7 @@ mod section;
 mod selection;
 pub mod server;
 mod spectra;
+mod spool;
 mod state;
 mod stream;
 mod stress;

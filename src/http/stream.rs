@@ -1,10 +1,9 @@
 //! Large answers: written on a thread of their own, in pieces, while they are sent.
 
-use std::fs::File;
-use std::io::{self, Seek, SeekFrom, Write};
-use std::path::{Path, PathBuf};
+use std::io::{self, Write};
+use std::path::Path;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
 use axum::body::{Body, Bytes};
@@ -20,6 +19,7 @@ use tokio::sync::mpsc::{Receiver, Sender, channel};
 use tokio::sync::{OwnedSemaphorePermit, Semaphore, oneshot};
 
 use super::problem::{Kind, Problem};
+use super::spool::{Held, Later, Spool};
 use crate::jobs::{Allowance, Jobs};
 
 /// Media type of archives.
@@ -62,13 +62,13 @@ pub(super) struct Leave {
 impl LargeAnswers {
     /// Allows `most` answers at once; those that wait for slow clients lie in `folder`.
     pub fn new(most: usize, folder: &Path) -> Self {
-        let spool = Spool { folder: folder.to_owned(), bytes: AtomicU64::new(0), most: MOST_SPOOLED };
-        Self { turns: Arc::new(Semaphore::new(most)), waiting: Arc::default(), spool: Arc::new(spool) }
+        let spool = Arc::new(Spool::new(folder, MOST_SPOOLED));
+        Self { turns: Arc::new(Semaphore::new(most)), waiting: Arc::default(), spool }
     }
 
     /// Bytes of answers that wait for slow clients.
     pub(super) fn spooled_bytes(&self) -> u64 {
-        self.spool.bytes.load(Ordering::Relaxed)
+        self.spool.bytes()
     }
 
     /// Waits until an answer may be made that takes `bytes` of memory meanwhile.
@@ -213,75 +213,6 @@ fn broken_off() -> io::Error {
     io::Error::other("the answer broke off")
 }
 
-/// Files in which answers wait for slow clients. They have no names, so that the rest of them goes with the process.
-#[derive(Debug)]
-struct Spool {
-    folder: PathBuf,
-    bytes: AtomicU64,
-    /// Largest number of bytes of all answers together.
-    most: u64,
-}
-
-/// Part of an answer that waits for its client.
-struct Later {
-    file: File,
-    held: Held,
-}
-
-/// Bytes of the spool that an answer holds; dropping gives them back.
-struct Held {
-    spool: Arc<Spool>,
-    bytes: u64,
-}
-
-impl Spool {
-    fn begin(self: &Arc<Self>) -> io::Result<Later> {
-        let file = tempfile::tempfile_in(&self.folder)?;
-        Ok(Later { file, held: Held { spool: Arc::clone(self), bytes: 0 } })
-    }
-}
-
-impl Later {
-    /// Writes a piece behind the others; returns false, with the file as it was, where there is no room for it.
-    fn add(&mut self, piece: &[u8]) -> io::Result<bool> {
-        let (end, length) = (self.held.bytes, piece.len() as u64);
-        if !self.held.reserve(length) {
-            return Ok(false);
-        }
-        let Err(error) = self.file.write_all(piece) else { return Ok(true) };
-        self.held.give_back(length);
-        self.file.set_len(end)?;
-        self.file.seek(SeekFrom::Start(end))?;
-        if error.kind() == io::ErrorKind::StorageFull { Ok(false) } else { Err(error) }
-    }
-
-    fn rewound(mut self) -> io::Result<Self> {
-        self.file.rewind()?;
-        Ok(self)
-    }
-}
-
-impl Held {
-    /// Takes room for more bytes, if all answers together leave so much.
-    fn reserve(&mut self, more: u64) -> bool {
-        let fits = |held: u64| Some(held + more).filter(|held| *held <= self.spool.most);
-        let taken = self.spool.bytes.fetch_update(Ordering::Relaxed, Ordering::Relaxed, fits).is_ok();
-        self.bytes += if taken { more } else { 0 };
-        taken
-    }
-
-    fn give_back(&mut self, bytes: u64) {
-        self.bytes -= bytes;
-        self.spool.bytes.fetch_sub(bytes, Ordering::Relaxed);
-    }
-}
-
-impl Drop for Held {
-    fn drop(&mut self) {
-        self.give_back(self.bytes);
-    }
-}
-
 /// Writer of an answer: sends it piece by piece, as long as the client takes them in time, and writes the rest to a file.
 struct Pieces {
     sender: Sender<Bytes>,
@@ -403,7 +334,7 @@ mod tests {
     use super::*;
 
     fn spool(folder: &Path) -> Arc<Spool> {
-        Arc::new(Spool { folder: folder.to_owned(), bytes: AtomicU64::new(0), most: MOST_SPOOLED })
+        Arc::new(Spool::new(folder, MOST_SPOOLED))
     }
 
     fn answer(spool: &Arc<Spool>, body: Vec<u8>) -> (Body, oneshot::Receiver<()>) {
@@ -434,10 +365,10 @@ mod tests {
         let (body, made) = answer(&spool, bytes(20));
         // Made although nobody reads.
         assert!(made.await.is_err());
-        assert!(spool.bytes.load(Ordering::Relaxed) > 0);
+        assert!(spool.bytes() > 0);
         let whole = axum::body::to_bytes(body, usize::MAX).await.unwrap();
         assert!(whole == bytes(20));
-        assert_eq!(spool.bytes.load(Ordering::Relaxed), 0, "given back");
+        assert_eq!(spool.bytes(), 0, "given back");
     }
 
     #[tokio::test(flavor = "multi_thread")]
@@ -454,7 +385,7 @@ mod tests {
         let (body, made) = answer(&spool, bytes(20));
         assert!(made.await.is_err());
         drop(body);
-        while spool.bytes.load(Ordering::Relaxed) > 0 {
+        while spool.bytes() > 0 {
             tokio::task::yield_now().await;
         }
     }
@@ -464,17 +395,36 @@ mod tests {
     async fn a_full_spool_delays_answers_and_cuts_none_off() {
         let folder = tempfile::tempdir().unwrap();
         let most = 24 * PIECE as u64;
-        let spool = Arc::new(Spool { folder: folder.path().to_owned(), bytes: AtomicU64::new(0), most });
+        let spool = Arc::new(Spool::new(folder.path(), most));
         let (first, first_made) = answer(&spool, bytes(20));
         assert!(first_made.await.is_err());
         let (second, _second_made) = answer(&spool, bytes(20));
-        while spool.bytes.load(Ordering::Relaxed) + (PIECE as u64) < most {
+        while spool.bytes() + (PIECE as u64) < most {
             tokio::time::sleep(FOR_ROOM).await;
         }
         for body in [first, second] {
             assert!(axum::body::to_bytes(body, usize::MAX).await.unwrap() == bytes(20));
         }
-        assert_eq!(spool.bytes.load(Ordering::Relaxed), 0, "given back");
+        assert_eq!(spool.bytes(), 0, "given back");
+    }
+
+    /// A client that may be waited for an hour is not waited for at all.
+    #[tokio::test(flavor = "multi_thread")]
+    async fn while_others_wait_no_client_is_waited_for() {
+        let folder = tempfile::tempdir().unwrap();
+        let (sender, receiver) = channel(WAITING);
+        let mut pieces = Pieces {
+            sender,
+            piece: Vec::with_capacity(PIECE),
+            patience: Duration::from_secs(3600),
+            waiting: Arc::new(AtomicUsize::new(1)),
+            spool: Some(spool(folder.path())),
+            later: None,
+        };
+        let written = tokio::task::spawn_blocking(move || pieces.write_all(&bytes(20)).map(|()| pieces));
+        let pieces = written.await.unwrap().unwrap();
+        assert!(pieces.later.is_some());
+        drop(receiver);
     }
 
     #[tokio::test(flavor = "multi_thread")]
