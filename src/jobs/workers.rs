@@ -69,30 +69,30 @@ impl Runner {
             // Counted at the next start.
             tracing::warn!(%error, "could not count what the last service ended under");
         }
-        #[cfg_attr(not(feature = "cluster"), expect(unused_mut, reason = "there are no others"))]
         let mut helpers = vec![
             tokio::spawn(record_progress(store.clone(), Arc::clone(&engine.reports))),
             tokio::spawn(keep_house(Arc::clone(&engine), settings.keep_days)),
         ];
         let stop = CancellationToken::new();
-        let workers = match &engine.tasks {
+        let (workers, others) = match &engine.tasks {
             Tasks::Own(_) => {
                 store.restart_outdated().await?;
                 resume(&engine).await?;
-                let of = || (Arc::clone(&engine), stop.clone());
-                let ((a, b), (c, d)) = (of(), of());
-                engine.counters.queues.fetch_add(2, Ordering::Relaxed);
-                vec![
-                    tokio::spawn(work_off(a, b, |tasks| &tasks.preparations, prepare_job)),
-                    tokio::spawn(work_off(c, d, |tasks| &tasks.speeds, run_speed)),
-                ]
+                let workers = vec![
+                    begin(&engine, &stop, |tasks| &tasks.preparations, prepare_job),
+                    begin(&engine, &stop, |tasks| &tasks.speeds, run_speed),
+                ];
+                (workers, Vec::new())
             }
             #[cfg(feature = "cluster")]
             Tasks::Shared(_) => {
-                helpers.extend(share::start(&engine, settings.workers > 0));
-                if settings.workers > 0 { queue_workers::start(&engine, threads, &stop) } else { Vec::new() }
+                let computes = settings.workers > 0;
+                let workers =
+                    if computes { queue_workers::start(&engine, threads, &stop) } else { Vec::new() };
+                (workers, share::start(&engine, computes))
             }
         };
+        helpers.extend(others);
         Ok(Self { engine, stop, workers, helpers })
     }
 
@@ -171,6 +171,21 @@ async fn keep_house(engine: Arc<Engine>, keep_days: Option<u32>) {
             _ = interval.tick() => {}
         }
     }
+}
+
+/// Begins a worker for tasks of one kind.
+fn begin<T, F>(
+    engine: &Arc<Engine>,
+    stop: &CancellationToken,
+    line: fn(&OwnTasks) -> &Line<T>,
+    work: fn(Arc<Engine>, JobId, T) -> F,
+) -> JoinHandle<()>
+where
+    T: Copy + Eq + Hash + Send + Sync + 'static,
+    F: Future<Output = ()> + Send + 'static,
+{
+    engine.counters.queues.fetch_add(1, Ordering::Relaxed);
+    tokio::spawn(work_off(Arc::clone(engine), stop.clone(), line, work))
 }
 
 /// Takes tasks of one kind as their turn comes, and does their work beside each other, until it is told to stop.
