@@ -1,6 +1,6 @@
 //! Content address of a package.
 //!
-//! It depends on the *values* `sector.json` states, and on the decompressed bytes of every other file under its name. It does not depend on
+//! The address depends on the *values* `sector.json` states, and on the decompressed bytes of every other file under its name. It does not depend on
 //! how the archive is made (order, compression, times, folders' entries), on whether a file is stored as `m.mtx` or `m.mtx.gz` (`.gz` is
 //! dropped from names, inside `sector.json` too), or on the layout of `sector.json` (white space, order of fields). For a `.npz` matrix its
 //! arrays count, not how they are zipped (numpy writes the time of day there, and compresses or not). Two texts of the same numbers (`1.0`

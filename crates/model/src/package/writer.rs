@@ -12,7 +12,7 @@ use super::symmetric::Mirror;
 
 /// Writes `package` as a deflated zip; reading it back gives the same bits.
 ///
-/// The same package always gives the same bytes: entries carry no time. Files have the names of the manifest, and one named for several
+/// Equal packages give equal bytes: entries carry no time. Files have the names of the manifest, and one named for several
 /// speeds is written once; a matrix whose name ends in `.npz` is stored in that format. Nothing is checked: a wrong package is refused on
 /// reading.
 ///

@@ -4,12 +4,14 @@ mod archive;
 mod manifest;
 mod matrix;
 mod npz;
+mod reading;
 mod table;
 
 pub use archive::ArchiveProblem;
-pub use manifest::{Components, FaceReading, ManifestProblem, RowReading, TurnFit};
+pub use manifest::{Components, ManifestProblem, TurnFit};
 pub use matrix::MatrixProblem;
 pub use npz::{ExpectedShape, NpzProblem};
+pub use reading::{FaceReading, RowReading};
 pub use table::TableProblem;
 
 /// Name of the file that every package holds.

@@ -13,16 +13,11 @@ use nalgebra::{Matrix3, Vector3};
 use rubmap_solid::frame::Basis;
 use rubmap_wheel::dynamics::findings::OpenJoint;
 
-use super::rigid::{Balance, Body, MOTIONS, OfMotions, Reading, forces};
+use super::better::{Better, FEWEST, best, count};
+use super::rigid::{Balance, Body, IN_BALANCE, MOTIONS, OfMotions, Reading, absolute_sums, forces};
 use crate::package::check::layout::{Layout, NONE};
 use crate::package::error::{FaceReading, ManifestProblem, PackageError};
 use crate::package::raw::{Frame, RawMatrix, RawPackage};
-
-/// Fewest pairs that another reading must put in balance.
-const FEWEST: usize = 3;
-
-/// Forces at a joint below this part of Σ|K_ij| times the size of the sector are balance, as for single nodes.
-const IN_BALANCE: f64 = 1e-5;
 
 /// Refuses high faces that fit the low ones only in another reading, or not at all because they are empty; returns counts that look wrong.
 pub(super) fn check(
@@ -36,39 +31,28 @@ pub(super) fn check(
         return Ok(None);
     }
     let stiffness = &package.stiffness[0];
-    let refuse = |reading: FaceReading, stated: usize, found: usize| {
-        let problem = ManifestProblem::FacesOtherwise { reading, stated, found, pairs: joint.pairs.len() };
-        Err(PackageError::manifest("/cyclic", problem))
-    };
     if joint.high_is_empty(stiffness) {
-        let problem = ManifestProblem::SectorsApart;
-        return Err(PackageError::manifest("/cyclic", problem));
+        return Err(PackageError::manifest("/cyclic", ManifestProblem::SectorsApart));
     }
-    let stated = joint.balanced(&inner.forces, &body.stated, stiffness);
-    let count = |balanced: &[bool]| balanced.iter().filter(|one| **one).count();
-    if count(&stated) + FEWEST > joint.pairs.len() {
+    let (pairs, stated) = (joint.pairs.len(), joint.balanced(&inner.forces, &body.stated, stiffness));
+    if count(&stated) + FEWEST > pairs {
         return Ok(None);
     }
-    let gains = |found: &[bool]| {
-        let changes = || stated.iter().zip(found);
-        let gained = changes().filter(|(before, after)| !**before && **after).count();
-        let lost = changes().filter(|(before, after)| **before && !**after).count();
-        gained >= FEWEST.max(10 * lost)
-    };
     let once = joint.without_high_block(stiffness);
-    let by_row = forces(&once, &body.motions(&body.stated));
-    let found = joint.balanced(&by_row, &body.stated, &once);
-    if gains(&found) {
-        return refuse(FaceReading::Twice, count(&stated), count(&found));
-    }
-    for (meant, reading) in joint.readings(body, package, layout) {
-        let by_row = forces(stiffness, &body.motions(&reading));
-        let found = joint.balanced(&by_row, &reading, stiffness);
-        if gains(&found) {
-            return refuse(meant, count(&stated), count(&found));
+    let folded = std::iter::once((FaceReading::Twice, body.stated.clone(), &once));
+    let read = joint.readings(body, package, layout).into_iter();
+    let others = folded.chain(read.map(|(meant, reading)| (meant, reading, stiffness)));
+    let balanced = others.map(|(meant, reading, matrix)| {
+        let by_row = forces(matrix, &body.motions(&reading));
+        (meant, joint.balanced(&by_row, &reading, matrix))
+    });
+    match best(&stated, pairs, balanced) {
+        Some(Better { reading, found }) => {
+            let problem = ManifestProblem::FacesOtherwise { reading, stated: count(&stated), found, pairs };
+            Err(PackageError::manifest("/cyclic", problem))
         }
+        None => Ok(OpenJoint::of(count(&stated), pairs, inner.count(), body.inner().count())),
     }
-    Ok(OpenJoint::of(count(&stated), joint.pairs.len(), inner.count(), body.inner().count()))
 }
 
 /// Pairs of face nodes that have all components, and the turn that joins them.
@@ -102,10 +86,8 @@ impl Joint {
     }
 
     fn high_is_empty(&self, stiffness: &RawMatrix) -> bool {
-        let of_high = |row: u32| self.is_high[row as usize];
-        !stiffness.entries.iter().any(|&(row, column, value)| {
-            value != 0.0 && (of_high(row) != of_high(column) || (of_high(row) && of_high(column)))
-        })
+        let of_high = |row: u32, column: u32| self.is_high[row as usize] || self.is_high[column as usize];
+        !stiffness.entries.iter().any(|&(row, column, value)| value != 0.0 && of_high(row, column))
     }
 
     /// The matrix without its block of the high face against itself.
@@ -117,13 +99,7 @@ impl Joint {
 
     /// Whether each pair is in balance under `by_row`, the forces against the motions of the body.
     fn balanced(&self, by_row: &[OfMotions], reading: &Reading, stiffness: &RawMatrix) -> Vec<bool> {
-        let mut scale = vec![0.0; stiffness.size];
-        for &(row, column, value) in &stiffness.entries {
-            scale[row as usize] += value.abs();
-            if row != column {
-                scale[column as usize] += value.abs();
-            }
-        }
+        let scale = absolute_sums(stiffness);
         let reach = self.size + self.middle.norm();
         let of_pair = |&[low, high]: &[usize; 2]| {
             let at = |node: usize| -> [Vector3<f64>; MOTIONS] {

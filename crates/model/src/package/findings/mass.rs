@@ -6,7 +6,7 @@
 use nalgebra::Vector3;
 use rubmap_wheel::dynamics::findings::UnevenMass;
 
-use super::rigid::{Body, forces};
+use super::rigid::{Body, absolute_sums, forces};
 use crate::package::check::layout::NONE;
 use crate::package::raw::RawPackage;
 
@@ -21,13 +21,7 @@ pub(super) fn find(body: &Body, package: &RawPackage) -> Option<UnevenMass> {
     if 3 * whole.len() != package.dofs.len() {
         return None;
     }
-    let mut scale = vec![0.0; package.mass.size];
-    for &(row, column, value) in &package.mass.entries {
-        scale[row as usize] += value.abs();
-        if row != column {
-            scale[column as usize] += value.abs();
-        }
-    }
+    let scale = absolute_sums(&package.mass);
     let by_row = forces(&package.mass, &body.motions(&body.stated));
     let is_uneven = |node: usize| {
         let moved: [Vector3<f64>; 3] =

@@ -8,6 +8,7 @@
 //! Rows that are in balance only if they are read in another order or frame are refused ([`order`]), and so are high faces that fit the low
 //! ones only otherwise ([`faces`]).
 
+mod better;
 mod contact;
 mod digits;
 mod faces;

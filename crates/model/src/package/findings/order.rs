@@ -5,13 +5,11 @@
 
 use std::f64::consts::TAU;
 
+use super::better::{Better, FEWEST, best};
 use super::rigid::{Balance, Body, Reading};
 use crate::package::check::layout::{Layout, NONE};
 use crate::package::error::{ManifestProblem, PackageError, RowReading};
 use crate::package::raw::{Frame, RawPackage};
-
-/// Fewest nodes that another reading must put in balance.
-const FEWEST: usize = 3;
 
 /// Refuses rows that are in balance only in another reading; names the one that balances most nodes.
 pub(super) fn check(
@@ -24,34 +22,16 @@ pub(super) fn check(
     if inner < stated.count() + FEWEST {
         return Ok(());
     }
-    let mut best: Option<Candidate> = None;
-    for (field, meant, reading) in readings(body, package, layout) {
-        let balance = Balance::of(body, &reading, &package.stiffness[0]);
-        let changes = || stated.nodes.iter().zip(&balance.nodes);
-        let gained = changes().filter(|(before, after)| !**before && **after).count();
-        let lost = changes().filter(|(before, after)| **before && !**after).count();
-        let found = balance.count();
-        if gained >= FEWEST.max(lost * 10) && best.as_ref().is_none_or(|best| found > best.found) {
-            best = Some(Candidate { field, meant, found });
+    let others = readings(body, package, layout).map(|(field, meant, reading)| {
+        ((field, meant), Balance::of(body, &reading, &package.stiffness[0]).nodes)
+    });
+    match best(&stated.nodes, inner, others) {
+        Some(Better { reading: (field, reading), found }) => {
+            let problem = ManifestProblem::RowsOtherwise { reading, stated: stated.count(), found, inner };
+            Err(PackageError::manifest(field, problem))
         }
-        // No other one balances more.
-        if found == inner {
-            break;
-        }
+        None => Ok(()),
     }
-    best.map_or(Ok(()), |Candidate { field, meant, found }| {
-        let problem = ManifestProblem::RowsOtherwise { reading: meant, stated: stated.count(), found, inner };
-        Err(PackageError::manifest(field, problem))
-    })
-}
-
-/// Reading that balances more nodes than the stated one.
-struct Candidate {
-    /// Field of the manifest that states the reading.
-    field: &'static str,
-    meant: RowReading,
-    /// Number of nodes in balance.
-    found: usize,
 }
 
 /// Readings of the rows that exports are known for, each with the field of the manifest that states the reading.

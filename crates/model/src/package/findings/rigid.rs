@@ -6,6 +6,7 @@
 use nalgebra::Vector3;
 use rubmap_solid::frame::Basis;
 
+use super::better::count;
 use crate::package::check::layout::{Layout, NONE};
 use crate::package::raw::{Frame, RawMatrix, RawPackage};
 
@@ -14,7 +15,7 @@ pub(super) const MOTIONS: usize = 6;
 
 /// Part of Σ|K_ij| times the size of the sector below which forces are in balance: entries of four digits leave 1e-6, a node at a wrong
 /// position 1e-3 and more.
-const IN_BALANCE: f64 = 1e-5;
+pub(super) const IN_BALANCE: f64 = 1e-5;
 
 /// Value for every rigid motion.
 pub(super) type OfMotions = [f64; MOTIONS];
@@ -174,6 +175,18 @@ pub(super) fn forces(matrix: &RawMatrix, motions: &[OfMotions]) -> Vec<OfMotions
     forces
 }
 
+/// Sums Σ_j |M_ij| of the rows of a matrix.
+pub(super) fn absolute_sums(matrix: &RawMatrix) -> Vec<f64> {
+    let mut sums = vec![0.0; matrix.size];
+    for &(row, column, value) in &matrix.entries {
+        sums[row as usize] += value.abs();
+        if row != column {
+            sums[column as usize] += value.abs();
+        }
+    }
+    sums
+}
+
 /// Inner nodes that K(0) leaves in balance.
 pub(super) struct Balance {
     /// Whether each node is in balance.
@@ -186,13 +199,7 @@ pub(super) struct Balance {
 
 impl Balance {
     pub(super) fn of(body: &Body, reading: &Reading, stiffness: &RawMatrix) -> Self {
-        let mut scale = vec![0.0; stiffness.size];
-        for &(row, column, value) in &stiffness.entries {
-            scale[row as usize] += value.abs();
-            if row != column {
-                scale[column as usize] += value.abs();
-            }
-        }
+        let scale = absolute_sums(stiffness);
         let forces = forces(stiffness, &body.motions(reading));
         let mut nodes = vec![false; body.positions.len()];
         let mut residuals = Vec::new();
@@ -212,6 +219,6 @@ impl Balance {
     }
 
     pub(super) fn count(&self) -> usize {
-        self.nodes.iter().filter(|balanced| **balanced).count()
+        count(&self.nodes)
     }
 }
