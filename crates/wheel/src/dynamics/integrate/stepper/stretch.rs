@@ -51,12 +51,7 @@ impl Stepper {
             0 => Instant::beginning(first.revolution),
             step => Instant::new(first.revolution, step, per_revolution),
         };
-        if self.touches_at(start) {
-            // Of the step before the first: nothing of it counts.
-            let (statistics, energy) = (self.statistics, self.energy);
-            self.solve(start)?;
-            (self.statistics, self.energy) = (statistics, energy);
-        }
+        self.take_up(start)?;
         for done in 0..part.samples {
             let range = range_to(part.first_sample + done);
             self.take(range, Observer::Recorder { windowed: false })?;
