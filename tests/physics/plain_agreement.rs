@@ -13,7 +13,7 @@ use rubmap::dynamics::reduction::{
     BasisRows, Checkpoints, Completeness, NoCheckpoints, ReducedWheel, ReductionOptions, reduce,
 };
 use rubmap::dynamics::sector::{CyclicMatrix, SectorModel};
-use rubmap::numerics::dense::generalised_eigenvalues;
+use rubmap::numerics::dense::Dense;
 use rubmap::package::{raw::RawPackage, to_sector};
 
 use crate::fixtures::{TOP_SPEED, WheelRecipe, small_impeller, wheel};
@@ -58,7 +58,7 @@ fn agree(sector: &SectorModel, modes: usize, solver: Solver, name: &str) -> Redu
                 }
             }
             let [found, expected] = [(&found, &fast.mass), (expected, &plain.mass)]
-                .map(|(k, m)| generalised_eigenvalues(k.as_ref(), m.as_ref()).unwrap());
+                .map(|(k, m)| Dense::generalised_eigenvalues(k.as_ref(), m.as_ref()).unwrap());
             for (a, b) in found.iter().zip(&expected).take(n_b + modes) {
                 assert!((a / b - 1.0).abs() < 1e-7, "{name} at {speed}: {a} {b}");
             }

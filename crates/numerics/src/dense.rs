@@ -119,41 +119,6 @@ macro_rules! dense {
 
 dense!(f64, c64);
 
-/// All eigenpairs of a Hermitian matrix: [`Dense::eigenpairs`].
-///
-/// # Errors
-/// [`EigenError`].
-pub fn eigenpairs<T: Dense>(a: MatRef<'_, T>) -> Result<Eigenpairs<T>, EigenError> {
-    T::eigenpairs(a)
-}
-
-/// All eigenvalues of a Hermitian matrix: [`Dense::eigenvalues`].
-///
-/// # Errors
-/// [`EigenError`].
-pub fn eigenvalues<T: Dense>(a: MatRef<'_, T>) -> Result<Vec<f64>, EigenError> {
-    T::eigenvalues(a)
-}
-
-/// All eigenpairs of a pencil: [`Dense::generalised_eigenpairs`].
-///
-/// # Errors
-/// [`EigenError`].
-pub fn generalised_eigenpairs<T: Dense>(
-    k: MatRef<'_, T>,
-    m: MatRef<'_, T>,
-) -> Result<Eigenpairs<T>, EigenError> {
-    T::generalised_eigenpairs(k, m)
-}
-
-/// All eigenvalues of a pencil: [`Dense::generalised_eigenvalues`].
-///
-/// # Errors
-/// [`EigenError`].
-pub fn generalised_eigenvalues<T: Dense>(k: MatRef<'_, T>, m: MatRef<'_, T>) -> Result<Vec<f64>, EigenError> {
-    T::generalised_eigenvalues(k, m)
-}
-
 /// Eigenpair of a real matrix, which may be complex: value and vector.
 #[derive(Debug, Clone)]
 pub struct Eigenpair {

@@ -11,7 +11,7 @@ use super::make::lower;
 use super::metric::Metric;
 use super::reduced::ReducedStress;
 use super::sums::LANES;
-use rubmap_numerics::dense::eigenpairs;
+use rubmap_numerics::dense::Dense;
 use rubmap_numerics::hermitian::EigenError;
 use rubmap_wheel::dynamics::reduction::ReducedHarmonic;
 use rubmap_wheel::dynamics::states::WheelStates;
@@ -96,7 +96,7 @@ impl Path {
         let gram = &stressing * stressing.adjoint();
         let gram =
             Mat::from_fn(gram.nrows(), gram.ncols(), |i, j| (gram[(i, j)] + gram[(j, i)].conj()) * 0.5);
-        let ascending = eigenpairs(gram.as_ref())?.vectors;
+        let ascending = Dense::eigenpairs(gram.as_ref())?.vectors;
         let count = ascending.ncols();
         let mut directions = Mat::from_fn(count, count, |row, k| ascending[(row, count - 1 - k)]);
         let course = directions.adjoint() * &stressing;

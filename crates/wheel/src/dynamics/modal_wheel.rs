@@ -15,7 +15,7 @@ use faer::{Mat, c64};
 
 use super::error::ModelError;
 use super::reduction::reduced::{ReducedHarmonic, ReducedWheel};
-use rubmap_numerics::dense::{generalised_eigenpairs, generalised_eigenvalues};
+use rubmap_numerics::dense::Dense;
 use rubmap_numerics::hermitian::{EigenError, Eigenpairs};
 use rubmap_numerics::sector_fourier::is_single;
 
@@ -117,7 +117,7 @@ pub fn natural_frequencies(
     stiffening: bool,
 ) -> Result<Vec<f64>, ModelError> {
     let stiffness = harmonic.stiffness.at(speed_rad_s, stiffening);
-    let values = generalised_eigenvalues(stiffness.as_ref(), harmonic.mass.as_ref())
+    let values = Dense::generalised_eigenvalues(stiffness.as_ref(), harmonic.mass.as_ref())
         .map_err(|error| decomposition_error(error, harmonic.harmonic, speed_rad_s))?;
     frequencies(&values, harmonic.harmonic, speed_rad_s)
 }
@@ -154,13 +154,13 @@ fn eigenpairs(
     let stiffness = reduced.stiffness.at(speed_rad_s, stiffening);
     let pairs = if is_single(harmonic, wheel.sectors) {
         let (k, m) = (real(&stiffness), real(&reduced.mass));
-        generalised_eigenpairs(k.as_ref(), m.as_ref()).map(|Eigenpairs { values, vectors }| {
+        Dense::generalised_eigenpairs(k.as_ref(), m.as_ref()).map(|Eigenpairs { values, vectors }| {
             let complex =
                 Mat::from_fn(vectors.nrows(), vectors.ncols(), |i, j| c64::new(vectors[(i, j)], 0.0));
             Eigenpairs { values, vectors: complex }
         })
     } else {
-        generalised_eigenpairs(stiffness.as_ref(), reduced.mass.as_ref())
+        Dense::generalised_eigenpairs(stiffness.as_ref(), reduced.mass.as_ref())
     };
     pairs.map_err(|error| decomposition_error(error, harmonic, speed_rad_s))
 }

@@ -17,7 +17,7 @@ use faer::{Mat, c64};
 use super::error::ModelError;
 use super::modal_wheel::{ModalHarmonic, RotationEffects, modal_harmonic};
 use super::reduction::ReducedWheel;
-use rubmap_numerics::dense::eigenvalues;
+use rubmap_numerics::dense::Dense;
 
 /// Natural frequencies |ν| of one nodal diameter's waves in the rotating frame, rad/s, ascending.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,7 +42,8 @@ pub fn wave_frequencies(
     let effects = RotationEffects { stiffening, coriolis: true };
     let modes = modal_harmonic(wheel, nodal_diameter, speed_rad_s, effects)?;
     let failed = || ModelError::DecompositionFailed { nodal_diameter, speed_rad_s };
-    let ascending = eigenvalues(hermitian_form(&modes, speed_rad_s)?.as_ref()).map_err(|_| failed())?;
+    let ascending =
+        Dense::eigenvalues(hermitian_form(&modes, speed_rad_s)?.as_ref()).map_err(|_| failed())?;
     let (negative, positive) = ascending.split_at(modes.omega.len());
     let backward = positive.to_vec();
     let forward = if modes.single { backward.clone() } else { negative.iter().rev().map(|nu| -nu).collect() };

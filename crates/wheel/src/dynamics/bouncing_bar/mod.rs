@@ -18,7 +18,7 @@ use super::integrate::{Outcome, Run, SensorRow, Simulation};
 use super::modal_wheel::{ModalHarmonic, ModalWheel};
 use super::schemes::Scheme;
 use super::sector::ContactNode;
-use rubmap_numerics::dense::generalised_eigenpairs;
+use rubmap_numerics::dense::Dense;
 
 const LENGTH: f64 = 10.0;
 const MODULUS: f64 = 900.0;
@@ -78,7 +78,7 @@ fn bar_modes(elements: usize, duration: f64) -> ModalWheel {
             }
     });
     let m = Mat::from_fn(nodes, nodes, |i, j| if i == j { nodal_mass(i, elements) } else { 0.0 });
-    let pairs = generalised_eigenpairs(k.as_ref(), m.as_ref()).unwrap();
+    let pairs = Dense::generalised_eigenpairs(k.as_ref(), m.as_ref()).unwrap();
     // The lowest one is the bar moving as a whole.
     let omega = |(mode, l): (usize, &f64)| if mode == 0 { 0.0 } else { l.sqrt() };
     ModalWheel {

@@ -6,7 +6,7 @@ use faer::{Mat, c64};
 use super::super::direction::Direction;
 use super::super::modal_wheel::{ModalHarmonic, ModalWheel};
 use super::super::sector::ContactNode;
-use rubmap_numerics::dense::eigenvalues;
+use rubmap_numerics::dense::Dense;
 use rubmap_numerics::sector_fourier::is_single;
 
 /// Outward normals of the contact nodes as directions.
@@ -55,7 +55,7 @@ pub fn ridge(blocks: &[Mat<c64>], sectors: usize) -> f64 {
     let mut diagonal = vec![0.0; nodes];
     for (harmonic, block) in blocks.iter().enumerate() {
         // A block that cannot be decomposed counts as singular.
-        let eigen = eigenvalues(block.as_ref()).unwrap_or_else(|_| vec![0.0; nodes]);
+        let eigen = Dense::eigenvalues(block.as_ref()).unwrap_or_else(|_| vec![0.0; nodes]);
         smallest = smallest.min(eigen[0]);
         largest = largest.max(eigen[nodes - 1]);
         let waves = if is_single(harmonic, sectors) { 1.0 } else { 2.0 };

@@ -19,7 +19,7 @@ use super::modes::Modes;
 use super::sector_factor::{SectorFactor, join, split};
 use super::tied_factor::TiedFactor;
 use super::untied::UntiedSector;
-use rubmap_numerics::dense::generalised_eigenpairs;
+use rubmap_numerics::dense::Dense;
 use rubmap_numerics::orthonormal::orthonormal_basis;
 
 /// Number of inverse iterations before giving up.
@@ -153,7 +153,7 @@ impl Trial {
         let size = self.vectors.ncols();
         let basis = orthonormal_basis(Mat::identity(size, size).as_ref(), m.as_ref(), INDEPENDENT)?;
         let project = |matrix: &Mat<c64>| basis.adjoint() * matrix * &basis;
-        let pairs = generalised_eigenpairs(project(&k).as_ref(), project(&m).as_ref()).ok()?;
+        let pairs = Dense::generalised_eigenpairs(project(&k).as_ref(), project(&m).as_ref()).ok()?;
         let found = pairs.values.len() >= count && pairs.values[0] > 0.0;
         found.then(|| &basis * pairs.vectors.subcols(0, count))
     }

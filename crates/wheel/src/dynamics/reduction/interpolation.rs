@@ -8,7 +8,7 @@ use super::findings::{InterpolationCheck, InterpolationVerdict};
 use super::reduced::ReducedHarmonic;
 use crate::dynamics::error::ModelError;
 use crate::dynamics::sector::SectorModel;
-use rubmap_numerics::dense::generalised_eigenvalues;
+use rubmap_numerics::dense::Dense;
 use rubmap_numerics::hermitian::EigenError;
 
 /// Fraction of K0's entries above which K2 entries cannot be the round-off of matrices written with six digits or more.
@@ -95,7 +95,7 @@ fn lowest_frequency_deviation(harmonic: &ReducedHarmonic, a: f64, b: f64) -> Res
     let lowest = |speed_rad_s: f64| -> Result<f64, ModelError> {
         let nodal_diameter = harmonic.harmonic;
         let stiffness = harmonic.stiffness.at(speed_rad_s, true);
-        match generalised_eigenvalues(stiffness.as_ref(), harmonic.mass.as_ref()) {
+        match Dense::generalised_eigenvalues(stiffness.as_ref(), harmonic.mass.as_ref()) {
             Ok(values) => Ok(values[0]),
             Err(EigenError::MassNotPositiveDefinite) => {
                 Err(ModelError::MassNotPositiveDefinite { nodal_diameter })

@@ -14,7 +14,7 @@ use super::sector_factor::{COLUMNS, Load, SectorFactor, join};
 use super::tied_factor::TiedFactor;
 use super::untied::{Tie, UntiedSector};
 use rubmap_numerics::block_lanczos::{BlockLanczos, Ritz};
-use rubmap_numerics::dense::generalised_eigenpairs;
+use rubmap_numerics::dense::Dense;
 use rubmap_numerics::matrix_serde;
 use rubmap_numerics::vector_block::VectorBlock;
 
@@ -236,7 +236,7 @@ impl Pencil<'_> {
     fn dense(&self, tie: &Tie, rows: usize, count: usize, tolerance: f64) -> Result<Modes, ModeError> {
         let harmonic = tie.harmonic;
         let [m, k] = [self.mass, self.stiffness].map(|matrix| self.untied.tied_dense(matrix, tie, rows));
-        let pairs = generalised_eigenpairs(m.as_ref(), k.as_ref())
+        let pairs = Dense::generalised_eigenpairs(m.as_ref(), k.as_ref())
             .map_err(|_| ModeError::DenseFailed { harmonic })?;
         let theta = |m: usize| pairs.values[rows - 1 - m];
         // Below, θ is round-off: directions without mass.

@@ -8,7 +8,7 @@ use super::sector_factor::{SectorFactor, join, split};
 use super::untied::UntiedSector;
 use crate::dynamics::error::ModelError;
 use crate::dynamics::sector::{CyclicMatrix, SectorModel};
-use rubmap_numerics::dense::eigenpairs;
+use rubmap_numerics::dense::Dense;
 
 /// Solutions of K̂(0) w = f at the given speeds.
 #[derive(Debug, Clone)]
@@ -128,7 +128,7 @@ impl StaticSpan {
             stiffness += Mat::from_fn(count, count, |row, column| weight * matrix[count * row + column]);
         }
         // Where a wheel hardly stiffens its solutions are nearly one: eigenvectors that round-off has made are left out.
-        let Ok(eigen) = eigenpairs(stiffness.as_ref()) else {
+        let Ok(eigen) = Dense::eigenpairs(stiffness.as_ref()) else {
             coordinates[0] = square;
             return coordinates;
         };

@@ -28,7 +28,7 @@ use super::super::direction::Direction;
 use super::super::modal_wheel::ModalWheel;
 use super::super::sector::ContactNode;
 use super::central_differences;
-use rubmap_numerics::dense::{Dense, eigenvalues};
+use rubmap_numerics::dense::Dense;
 
 /// Fewest steps per revolution with h < 1/ω_c; the largest number there is if the modes left out leave no flexibility: fewer of them than
 /// contact nodes cannot close every gap, and nodes would be held by the ridge of a singular F.
@@ -61,7 +61,7 @@ fn closed_frequency(wheel: &ModalWheel, kept: usize, contact_nodes: &[ContactNod
             let own = if i == j { harmonic.omega[i].powi(2) } else { 0.0 };
             0.5 * (held[(i, j)] + held[(j, i)].conj()) + c64::new(own, 0.0)
         });
-        let values = eigenvalues(closed.as_ref()).ok()?;
+        let values = Dense::eigenvalues(closed.as_ref()).ok()?;
         largest = largest.max(values.last().copied().unwrap_or(0.0));
     }
     largest.is_finite().then(|| largest.sqrt())
