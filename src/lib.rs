@@ -8,7 +8,7 @@
 //! # Architecture
 //!
 //! ```text
-//! crates/numerics ← crates/wheel (dynamics ← response) ← crates/analysis ← src (store ← jobs ← http ← app ← cli)
+//! crates/numerics ← crates/wheel (dynamics ← response) ← crates/analysis ← src (kinds ← store ← jobs ← http ← app ← cli)
 //!                        ↑ crates/model (package, impeller)       ↑ crates/plot
 //! crates/solid (mesh, stress) ← model, analysis
 //! ```
@@ -28,6 +28,7 @@ pub mod config;
 pub mod export;
 pub mod http;
 pub mod jobs;
+pub mod kinds;
 pub mod store;
 pub mod tokens;
 pub mod version;

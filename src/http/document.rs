@@ -7,6 +7,7 @@ use utoipa::openapi::{
 };
 
 use super::form::Form;
+use super::kinds::label_requests;
 use super::problem::MEDIA_TYPE;
 use super::router::routes;
 
@@ -155,6 +156,7 @@ pub fn document() -> OpenApi {
     }
     let shared = shared_parameters(&mut document);
     let components = document.components.get_or_insert_default();
+    label_requests(components);
     for Common { name, description, .. } in COMMON {
         components.responses.insert(name.to_owned(), problem(description).into());
     }

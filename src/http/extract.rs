@@ -194,8 +194,18 @@ fn media_type(headers: &HeaderMap) -> &str {
 
 /// Reads one JSON document and reports what is wrong with it: by line and column if it is not JSON, by pointer if it is.
 fn read_json<T: DeserializeOwned + ToSchema>(contract: &Contract, body: &[u8]) -> Result<T, Problem> {
-    let shape = contract.body(&T::name()).ok_or_else(|| {
-        tracing::error!(body = %T::name(), "the contract does not have this body");
+    read_as(contract, &T::name(), body, |body| serde_json::from_slice(body))
+}
+
+/// Checks a body against the schema `name` of the contract, and reads it.
+pub(super) fn read_as<T>(
+    contract: &Contract,
+    name: &str,
+    body: &[u8],
+    read: impl FnOnce(&[u8]) -> serde_json::Result<T>,
+) -> Result<T, Problem> {
+    let shape = contract.body(name).ok_or_else(|| {
+        tracing::error!(body = name, "the contract does not have this body");
         Problem::new(Kind::Internal, "a defect of the program; the service's log says more")
     })?;
     let Findings { first, total, unknown_fields } = check(shape, body).map_err(|error| malformed(&error))?;
@@ -204,7 +214,7 @@ fn read_json<T: DeserializeOwned + ToSchema>(contract: &Contract, body: &[u8]) -
         return Err(Problem::first_violations(kind, total, first));
     }
     // What fails here is in the contract but not in the type: the place is all that can be said of it.
-    serde_json::from_slice(body).map_err(|error| Problem::new(Kind::InvalidRequest, error.to_string()))
+    read(body).map_err(|error| Problem::new(Kind::InvalidRequest, error.to_string()))
 }
 
 fn malformed(error: &serde_json::Error) -> Problem {

@@ -13,6 +13,7 @@ use super::problem::{Kind, Problem};
 use super::state::AppState;
 use super::stream;
 use crate::analysis::fields::{FieldError, Part, surface};
+use crate::analysis::kinds::document::Document;
 use crate::analysis::run::ModelFacts;
 use crate::dynamics::sector::Units;
 use crate::dynamics::states::WheelStates;
@@ -21,7 +22,6 @@ use crate::jobs::FieldSource;
 use crate::plot::{self, SurfaceView};
 use crate::store::jobs::JobId;
 use crate::store::models::StoredModel;
-use crate::store::results::Document;
 use crate::store::{Store, states};
 
 /// Frames of a pvd by default, over a period or over the recorded instants.

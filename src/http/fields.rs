@@ -11,16 +11,18 @@ use super::extract::{JobPath, Parameters};
 use super::field::{self, ShownQuery};
 use super::form::Form;
 use super::forms::READ_MEMORY;
+use super::histories::recorded_sweep;
 use super::models::model_not_found;
 use super::problem::{Kind, Problem};
-use super::results::{expect_successful, find, wrong_kind};
+use super::results::{expect_successful, find};
 use super::state::AppState;
 use crate::analysis::fields::{deflection_shape, instants, largest_instant};
+use crate::analysis::kinds::document::Document;
+use crate::analysis::kinds::sweep::STATES;
 use crate::dynamics::reduction::ReductionError;
 use crate::export::fields::FieldFile;
 use crate::jobs::StaticWheelError;
-use crate::store::jobs::{Job, JobId, JobKind, JobRequest};
-use crate::store::results::Document;
+use crate::store::jobs::{Job, JobId};
 use crate::store::states::StatesError;
 use crate::store::{Store, StoreError};
 use crate::tokens::Principal;
@@ -79,11 +81,7 @@ pub(super) async fn get_fields(
     download: Download,
 ) -> Result<Response, Problem> {
     let job = find(&state, &whose, id).await?;
-    let sweep = match &job.request {
-        JobRequest::Sweep(sweep) => sweep.as_ref(),
-        JobRequest::CaseStudy(case) => case.sweep(),
-        _ => return Err(wrong_kind(&job, JobKind::CaseStudy)),
-    };
+    let sweep = recorded_sweep(&job)?;
     let model = sweep.model();
     let model = state.store.model(model, whose.only()).await?.ok_or_else(|| model_not_found(model))?;
     let part = shown.part(&model.facts)?;
@@ -184,7 +182,7 @@ fn check_static(of_shape: bool, has_mesh: bool) -> Result<(), Problem> {
 /// Indices of the speeds whose states are recorded.
 pub(super) async fn recorded_speeds(store: &Store, job: JobId) -> Result<Vec<u32>, StoreError> {
     let of_states = |document| match document {
-        Document::States(speed) => Some(speed),
+        Document { name: STATES, part } => Some(part),
         _ => None,
     };
     Ok(store.documents(job).await?.into_iter().filter_map(of_states).collect())
@@ -198,7 +196,7 @@ async fn recorded(state: &AppState, job: &Job, speed: Option<u32>) -> Result<(Do
         None => all.first().copied(),
     };
     if let Some(speed) = found {
-        let document = Document::States(speed);
+        let document = Document::part(STATES, speed);
         let bytes = state.store.document_bytes(job.id, document).await?.unwrap_or(0);
         return Ok((document, speed, bytes));
     }

@@ -16,10 +16,12 @@ use super::form::Form;
 use super::problem::{Kind, Problem};
 use super::state::AppState;
 use super::stream;
+use crate::analysis::kinds::document::Document;
+use crate::analysis::kinds::sweep::{CRITICAL_SPEEDS, HISTORIES};
+use crate::analysis::resolved::ResolvedSweep;
 use crate::export::Export;
 use crate::plot::figure::Figure;
-use crate::store::jobs::{Job, JobId, JobRequest};
-use crate::store::results::Document;
+use crate::store::jobs::{Job, JobId};
 use crate::store::status::JobStatus;
 
 /// Memory of a document, in multiples of its text: the row and the text.
@@ -155,20 +157,20 @@ async fn stored_bytes(state: &AppState, job: &Job, document: Document) -> Result
     if let Some(bytes) = state.store.document_bytes(job.id, document).await? {
         return Ok(bytes);
     }
-    if let (Document::Histories(speed), JobStatus::Successful) = (document, job.status) {
-        let detail = match job.request {
-            JobRequest::Sweep(_) => format!(
+    if let (Document { name: HISTORIES, part: speed }, JobStatus::Successful) = (document, job.status) {
+        let detail = match job.request.get::<ResolvedSweep>() {
+            Some(_) => format!(
                 "nothing was recorded of speed {speed}: POST /v1/jobs/{}/histories with {{\"speeds\": [{speed}]}} records it",
                 job.id
             ),
-            _ => {
+            None => {
                 format!("the job has no histories of speed {speed}; its request says of which speeds it has")
             }
         };
         return Err(Problem::new(Kind::HistoryNotRecorded, detail));
     }
-    let instead = match document {
-        Document::CriticalSpeeds(_) => {
+    let instead = match document.name {
+        CRITICAL_SPEEDS => {
             ": critical speeds are said of all speeds together; the interaction map has those that are done"
         }
         _ => "",

@@ -1,22 +1,35 @@
 //! Histories of a speed, and of the first revolutions of a study.
 
+use std::collections::BTreeSet;
+
 use axum::extract::State;
 use axum::response::Response;
 use serde::{Deserialize, Serialize};
 use utoipa::{IntoParams, ToSchema};
 
 use super::download::{Download, DownloadQuery};
-use super::extract::{JobPath, Parameters};
+use super::extract::{JobPath, JsonBody, Parameters};
 use super::forms::Forms;
-use super::problem::Problem;
-use super::results::{check_sensor, find, wrong_kind};
+use super::idempotency::IdempotencyKey;
+use super::kinds::{self, Asking};
+use super::problem::{Kind, Problem};
+use super::results::{check_sensor, find, sweep, wrong_kind};
 use super::state::AppState;
+use super::stream;
 use super::studies::check_speed;
+use crate::analysis::kinds::case_study::{CASE_STUDY, HistoriesOfSweep};
+use crate::analysis::kinds::document::Document;
+use crate::analysis::kinds::kind::Work;
+use crate::analysis::kinds::sweep::HISTORIES;
+use crate::analysis::request::{HistoriesRequest, HistorySpeeds};
+use crate::analysis::resolved::{ResolvedStudy, ResolvedSweep};
 use crate::analysis::result::SpeedHistories;
-use crate::analysis::run::Histories;
+use crate::analysis::run::{self, Histories};
+use crate::kinds::JobKind;
 use crate::plot::{self, HistoryQuantity};
-use crate::store::jobs::{Job, JobKind, JobRequest};
-use crate::store::results::Document;
+use crate::store::jobs::{Job, JobId, Posted};
+use crate::store::labels::Labels;
+use crate::store::status::JobStatus;
 use crate::tokens::Principal;
 
 /// Histories to download, and their drawing.
@@ -90,53 +103,48 @@ pub(super) async fn get_histories(
         Some(speed) => speed,
         None => first(&state, &job).await?,
     };
-    let document = Document::Histories(speed);
+    let document = Document::part(HISTORIES, speed);
     let sensor = query.sensor as usize;
-    match &job.request {
-        JobRequest::Study(study) => {
-            check_speed(&job, speed)?;
-            check_sensor(study.sensors(), query.sensor)?;
-            let draw = move |histories: &Histories| plot::histories(histories, sensor);
-            let figure = move |histories: &Histories| plot::figure::histories(histories, sensor);
-            Forms::drawn_by(draw, figure).of_document(&state, download, &job, document).await
-        }
-        JobRequest::Sweep(_) | JobRequest::CaseStudy(_) => {
-            check_drawn(&job, &query)?;
-            let (what, index) = query.what();
-            let draw = move |histories: &SpeedHistories| match what {
-                Some(what) => plot::speed_histories(histories, what, index),
-                None => plot::trajectories(histories),
-            };
-            let figure = move |histories: &SpeedHistories| match what {
-                Some(what) => plot::figure::speed_histories(histories, what, index),
-                None => plot::figure::trajectories(histories),
-            };
-            Forms::drawn_by(draw, figure).of_document(&state, download, &job, document).await
-        }
-        JobRequest::ModalAnalysis(_)
-        | JobRequest::ModelGeneration(_)
-        | JobRequest::Branches(_)
-        | JobRequest::RunUps(_)
-        | JobRequest::Campaign(_) => Err(wrong_kind(&job, JobKind::CaseStudy)),
+    if let Some(study) = job.request.get::<ResolvedStudy>() {
+        check_speed(&job, speed)?;
+        check_sensor(study.sensors(), query.sensor)?;
+        let draw = move |histories: &Histories| plot::histories(histories, sensor);
+        let figure = move |histories: &Histories| plot::figure::histories(histories, sensor);
+        return Forms::drawn_by(draw, figure).of_document(&state, download, &job, document).await;
+    }
+    check_drawn(&job, recorded_sweep(&job)?, &query)?;
+    let (what, index) = query.what();
+    let draw = move |histories: &SpeedHistories| match what {
+        Some(what) => plot::speed_histories(histories, what, index),
+        None => plot::trajectories(histories),
+    };
+    let figure = move |histories: &SpeedHistories| match what {
+        Some(what) => plot::figure::speed_histories(histories, what, index),
+        None => plot::figure::trajectories(histories),
+    };
+    Forms::drawn_by(draw, figure).of_document(&state, download, &job, document).await
+}
+
+/// Sweep whose speeds a job records; refuses jobs that record none.
+pub(super) fn recorded_sweep(job: &Job) -> Result<&ResolvedSweep, Problem> {
+    match job.request.work() {
+        Work::Recorded(case) => Ok(case.sweep()),
+        _ => job.request.get().ok_or_else(|| wrong_kind(job, JobKind(&CASE_STUDY))),
     }
 }
 
 /// Index of the first speed of a job that has histories; where none has, the first of all.
 async fn first(state: &AppState, job: &Job) -> Result<u32, Problem> {
     let recorded = state.store.documents(job.id).await?.into_iter().find_map(|document| match document {
-        Document::Histories(speed) => Some(speed),
+        Document { name: HISTORIES, part } => Some(part),
         _ => None,
     });
     Ok(recorded.unwrap_or(0))
 }
 
 /// Refuses a sensor or a contact node that does not exist and thus cannot be drawn.
-fn check_drawn(job: &Job, query: &HistoriesQuery) -> Result<(), Problem> {
-    match &job.request {
-        JobRequest::Sweep(sweep) => check_sensor(sweep.sensors(), query.sensor)?,
-        JobRequest::CaseStudy(case) => check_sensor(case.sweep().sensors(), query.sensor)?,
-        _ => {}
-    }
+fn check_drawn(job: &Job, sweep: &ResolvedSweep, query: &HistoriesQuery) -> Result<(), Problem> {
+    check_sensor(sweep.sensors(), query.sensor)?;
     let nodes = job.facts.as_ref().map_or(0, |facts| facts.contact_nodes);
     if query.contact_node >= nodes {
         let detail = format!("the model has contact nodes 0 to {}", nodes.saturating_sub(1));
@@ -157,5 +165,65 @@ impl HistoriesQuery {
             Drawn::Energy => (Some(HistoryQuantity::Energy), 0),
             Drawn::Trajectories => (None, 0),
         }
+    }
+}
+
+/// Record histories of a sweep that has ended.
+///
+/// A new job simulates the speeds again with all settings of the sweep. The same version on the same kind of processor gives the
+/// same results to the bit.
+#[utoipa::path(post, path = "/v1/jobs/{id}/histories", operation_id = "create_histories", tag = "jobs",
+    params(
+        ("id" = String, Path, description = "Id of a sweep."),
+        ("Idempotency-Key" = Option<String>, Header,
+            description = "Repeating the request with this key repeats its answer and starts nothing."),
+    ),
+    request_body(content = HistoriesRequest, example = json!({"speeds": "critical"})),
+    responses(
+        (status = 409, description = "The job is not a sweep, or not successful.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 422, description = "A field is unknown or impossible, the model is gone (`errors` points at each), or the \
+            idempotency key belongs to another request.", body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(super) async fn create_histories(
+    state: State<AppState>,
+    whose: Principal,
+    key: IdempotencyKey,
+    JobPath(id): JobPath,
+    body: JsonBody<HistoriesRequest>,
+) -> Result<Response, Problem> {
+    let job = find(&state, &whose, id).await?;
+    let (settings, _) = sweep(&job)?;
+    if job.status != JobStatus::Successful {
+        let detail =
+            format!("the sweep is {}: its speeds are recorded once it is successful", job.status.as_str());
+        return Err(Problem::new(Kind::ResultNotReady, detail));
+    }
+    let critical = critical(&state, id, settings, &body.value).await?;
+    let posted = Posted { to: format!("/v1/jobs/{id}/histories"), body: serde_json::to_string(&body.value)? };
+    let sweep = settings.clone();
+    let asking = Asking {
+        asked: Box::new(HistoriesOfSweep { sweep, critical, request: body.value }),
+        labels: Labels::default(),
+        posted: Some(posted),
+        // The same words on another job are another request.
+        fingerprint: format!("{}-{id}", body.fingerprint),
+    };
+    kinds::accept(&state, &whose, key, asking).await
+}
+
+/// Indices of the critical speeds, if the request asks for them; otherwise none.
+async fn critical(
+    state: &AppState,
+    id: JobId,
+    settings: &ResolvedSweep,
+    request: &HistoriesRequest,
+) -> Result<BTreeSet<u32>, Problem> {
+    match request.speeds {
+        HistorySpeeds::Critical => {
+            let (settings, points) = (settings.clone(), state.store.points(id).await?);
+            stream::blocking(move || run::critical_indices(&settings, &points)).await
+        }
+        HistorySpeeds::Indices(_) => Ok(BTreeSet::new()),
     }
 }

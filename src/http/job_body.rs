@@ -1,16 +1,16 @@
 //! Jobs as answers show them.
 
 use serde::Serialize;
-use utoipa::ToSchema;
+use serde_json::value::RawValue;
+use utoipa::openapi::{OneOfBuilder, Ref, RefOr, Schema};
+use utoipa::{PartialSchema, ToSchema};
 
 use super::problem::Problem;
-use crate::analysis::request::{
-    BranchesSettings, CampaignSettings, CaseStudySettings, ModalAnalysisRequest, RunUpSettings, StudyRequest,
-    SweepRequest,
-};
-use crate::analysis::result::ReductionReport;
-use crate::impeller::ImpellerParameters;
-use crate::store::jobs::{Chosen, Job, JobHead, JobId, JobKind, JobRequest, SpeedCounts};
+use crate::analysis::kinds::kind::Recorded;
+use crate::analysis::request::HistoriesRequest;
+use crate::analysis::result::{Chosen, ReductionReport};
+use crate::kinds::{self, JobKind};
+use crate::store::jobs::{Job, JobHead, JobId, SpeedCounts};
 use crate::store::status::JobStatus;
 
 /// Job with its labels, state, times, and links to its results.
@@ -68,8 +68,18 @@ pub(super) struct JobDetail {
     /// Job as lists show it, with all its links.
     #[serde(flatten)]
     pub(super) job: JobBody,
-    /// Request of the job with every default filled in, and with everything that `refine` or a threshold has added so far.
-    pub(super) request: RequestBody,
+    /// Request as it was posted, without labels: posted again to `posted_to`, it starts another job like this one. Absent for some jobs of
+    /// earlier versions, which did not keep it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) posted: Option<PostedBody>,
+    /// Path to which the request was posted.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schema(example = "/v1/sweeps")]
+    pub(super) posted_to: Option<String>,
+    /// Request as it was resolved: with every default filled in, and with everything that `refine` or a threshold has added so far. Results
+    /// have it as `settings`. The designs of a campaign are left out, which `GET /v1/jobs/{id}/campaign` has.
+    #[schema(value_type = Object)]
+    pub(super) request: Box<RawValue>,
     /// Settings that were chosen for the job, once they are, if its request asks for an accuracy or gives a budget.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) choice: Option<Chosen>,
@@ -78,44 +88,18 @@ pub(super) struct JobDetail {
     pub(super) reduction: Option<ReductionReport>,
 }
 
-/// Request of a job, resolved.
-#[derive(Debug, Serialize, ToSchema)]
-#[serde(untagged)]
-pub(super) enum RequestBody {
-    /// Request of a sweep.
-    Sweep(Box<SweepRequest>),
-    /// Request of a modal analysis.
-    ModalAnalysis(ModalAnalysisRequest),
-    /// Request of a study.
-    Study(Box<StudyRequest>),
-    /// Request of a case study.
-    CaseStudy(Box<CaseStudySettings>),
-    /// Request of branches.
-    Branches(Box<BranchesSettings>),
-    /// Request of run-ups.
-    RunUps(Box<RunUpSettings>),
-    /// Request of a campaign, without its designs, which `GET /v1/jobs/{id}/campaign` has.
-    Campaign(Box<CampaignSettings>),
-    /// Request of a generated model.
-    ModelGeneration(Box<ImpellerParameters>),
-}
+/// Request of a job of any kind, as the schemas of their routes describe it.
+#[derive(Debug, Serialize)]
+#[serde(transparent)]
+pub(super) struct PostedBody(Box<RawValue>);
 
-impl From<JobRequest> for RequestBody {
-    fn from(request: JobRequest) -> Self {
-        match request {
-            JobRequest::Sweep(request) => Self::Sweep(Box::new((*request).into())),
-            JobRequest::ModalAnalysis(request) => Self::ModalAnalysis((*request).into()),
-            JobRequest::Study(request) => Self::Study(Box::new((*request).into())),
-            JobRequest::CaseStudy(case) => Self::CaseStudy(Box::new((*case).into())),
-            JobRequest::Branches(branches) => Self::Branches(Box::new((*branches).into())),
-            JobRequest::RunUps(run_ups) => Self::RunUps(Box::new((*run_ups).into())),
-            JobRequest::Campaign(campaign) => {
-                // Thousands of designs would be sent again with every step of the job.
-                let settings = CampaignSettings { designs: Vec::new(), ..(*campaign).into() };
-                Self::Campaign(Box::new(settings))
-            }
-            JobRequest::ModelGeneration(parameters) => Self::ModelGeneration(parameters),
-        }
+impl ToSchema for PostedBody {}
+
+impl PartialSchema for PostedBody {
+    fn schema() -> RefOr<Schema> {
+        let kinds = kinds::all().map(|kind| Ref::from_schema_name((kind.request.name)()));
+        let kinds = kinds.chain([Ref::from_schema_name(HistoriesRequest::name())]);
+        kinds.fold(OneOfBuilder::new(), OneOfBuilder::item).into()
     }
 }
 
@@ -144,7 +128,7 @@ impl From<JobHead> for JobBody {
             status: job.status,
             progress: job.progress,
             phase: if job.status == JobStatus::Running { job.phase } else { String::new() },
-            links: links(job.id, kind, job.model.as_deref(), &[]),
+            links: links(job.id, kind, job.model.as_deref(), Recorded::default()),
             model: job.model,
             speeds: (job.speeds.total > 0).then_some(job.speeds),
             stored_bytes: job.stored_bytes,
@@ -157,61 +141,35 @@ impl From<JobHead> for JobBody {
     }
 }
 
-/// Link to the report, for jobs that fit on a page.
-const REPORT: (&str, &str) = ("report", "/report");
-
-/// Link to the archive, for jobs that can be repeated.
-const ARCHIVE: (&str, &str) = ("archive", "/archive");
-
-/// Links of jobs that record stress, and of jobs that record states.
-pub(super) fn recorded(stress: bool, states: bool) -> Vec<(&'static str, &'static str)> {
-    let stress = stress.then_some(("stress", "/stress"));
-    stress.into_iter().chain(states.then_some(("fields", "/fields"))).collect()
-}
-
 impl JobDetail {
     /// Job with all its links.
-    pub(super) fn new(job: Job, reduction: Option<ReductionReport>) -> Self {
-        let recorded = match &job.request {
-            JobRequest::Sweep(sweep) => recorded(sweep.stress_outside().is_some(), sweep.records_states()),
-            JobRequest::CaseStudy(case) => recorded(false, case.records_states()),
-            _ => Vec::new(),
-        };
-        let links = links(job.id, job.kind, job.model.as_deref(), &recorded);
+    ///
+    /// # Errors
+    /// If its request cannot be written, which is a defect.
+    pub(super) fn new(job: Job, reduction: Option<ReductionReport>) -> serde_json::Result<Self> {
+        let links = links(job.id, job.kind, job.model.as_deref(), job.request.records());
         let body = JobBody { links, ..job.head.into() };
-        Self { job: body, request: job.request.into(), choice: job.choice, reduction }
+        let (posted_to, posted) = job.posted.map(|posted| (posted.to, posted.body)).unzip();
+        Ok(Self {
+            job: body,
+            posted: posted.map(RawValue::from_string).transpose()?.map(PostedBody),
+            posted_to,
+            request: RawValue::from_string(job.request.shown()?)?,
+            choice: job.choice,
+            reduction,
+        })
     }
 }
 
-/// Links of a job, including those of its `recorded` results beside the results of its kind.
-pub(super) fn links(
-    id: JobId,
-    kind: JobKind,
-    model: Option<&str>,
-    recorded: &[(&'static str, &str)],
-) -> Vec<Link> {
-    let results: &[(&str, &str)] = match kind {
-        JobKind::Sweep => &[
-            ("interaction-map", "/interaction-map"),
-            ("critical-speeds", "/critical-speeds"),
-            ("wheel-critical-speeds", "/critical-speeds/wheel"),
-            ("spectra", "/spectra/{index}"),
-            ("forces", "/forces"),
-            REPORT,
-            ARCHIVE,
-        ],
-        JobKind::ModalAnalysis => &[("campbell", "/campbell"), REPORT, ARCHIVE],
-        JobKind::ModelGeneration => &[],
-        JobKind::Study => &[("work-precision", "/work-precision"), ("histories", "/histories"), ARCHIVE],
-        JobKind::CaseStudy => &[("histories", "/histories")],
-        JobKind::Branches => &[("branches", "/branches")],
-        JobKind::RunUp => &[("run-ups", "/run-ups"), ("spectrogram", "/spectrogram")],
-        JobKind::Campaign => &[("campaign", "/campaign")],
-    };
+/// Links of a job, including those of what it `records` beside the results of its kind.
+pub(super) fn links(id: JobId, kind: JobKind, model: Option<&str>, records: Recorded) -> Vec<Link> {
+    let recorded = [(records.stress, ("stress", "/stress")), (records.states, ("fields", "/fields"))];
+    let recorded = recorded.iter().filter(|(wanted, _)| *wanted).map(|(_, link)| link);
     let model = model.map(|model| Link { href: format!("/v1/models/{model}"), rel: "model" });
     [("self", "")]
         .iter()
-        .chain(results)
+        .chain(kind.results)
+        .chain([&("archive", "/archive")])
         .chain(recorded)
         .map(|(rel, path)| Link { href: format!("/v1/jobs/{id}{path}"), rel })
         .chain(model)

@@ -15,8 +15,9 @@ use super::problem::{Kind, Problem};
 use super::results::find;
 use super::state::AppState;
 use crate::jobs::Cancellation;
+use crate::kinds::JobKind;
 use crate::store::StoreError;
-use crate::store::jobs::{Job, JobDeletion, JobFilter, JobHead, JobId, JobKind};
+use crate::store::jobs::{Job, JobDeletion, JobFilter, JobHead, JobId};
 use crate::store::status::JobStatus;
 use crate::tokens::Principal;
 
@@ -110,14 +111,14 @@ pub(super) async fn get_job(
 /// Job with everything that is known beyond its stored row: the present phase, and the report of its reduction.
 pub(super) async fn detail(state: &AppState, mut job: Job) -> Result<JobDetail, StoreError> {
     tell_phase(state, &mut job.head);
-    let reduction = match (job.request.model(), job.request.modes_per_speed()) {
+    let reduction = match (job.request.models().first(), job.request.modes_per_speed()) {
         (Some(model), Some(modes_per_speed)) => {
             let mut reports = state.store.reduction_reports(model).await?.into_iter();
             reports.find(|report| report.modes_per_speed == modes_per_speed)
         }
         _ => None,
     };
-    Ok(JobDetail::new(job, reduction))
+    Ok(JobDetail::new(job, reduction)?)
 }
 
 /// Change the labels of a job.

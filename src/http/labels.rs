@@ -1,12 +1,11 @@
 //! Labels of jobs and models: beside the request for a job, in the query of an upload, or changed later.
 
-use std::borrow::Cow;
 use std::collections::BTreeSet;
 
-use serde::de::value::MapAccessDeserializer;
-use serde::de::{DeserializeOwned, DeserializeSeed, IntoDeserializer, MapAccess, Visitor};
+use serde::de::{MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
-use utoipa::openapi::{RefOr, Schema};
+use serde_json::value::RawValue;
+use utoipa::openapi::{Object, RefOr, Schema};
 use utoipa::{IntoParams, PartialSchema, ToSchema};
 
 use super::problem::{Kind, Problem};
@@ -28,7 +27,7 @@ const NOTES: usize = 4000;
 /// Labels that come with a request.
 #[derive(Debug, Default, Deserialize, ToSchema)]
 #[serde(default)]
-struct Given {
+pub(super) struct Given {
     /// Name of the job or model; nothing is computed from it.
     #[schema(max_length = 200)]
     name: Option<String>,
@@ -40,25 +39,12 @@ struct Given {
     notes: Option<String>,
 }
 
-/// Request for a job with labels, which are no part of what is computed.
-#[derive(Debug)]
-pub(super) struct Labelled<T> {
-    request: T,
-    given: Given,
-}
-
-impl<T> Labelled<T> {
-    /// Splits into the request and its labels.
+impl Given {
+    /// Labels that were given.
     ///
     /// # Errors
     /// If a label is not valid.
-    pub(super) fn parts(self) -> Result<(T, Labels), Problem> {
-        Ok((self.request, self.given.labels()?))
-    }
-}
-
-impl Given {
-    fn labels(self) -> Result<Labels, Problem> {
+    pub(super) fn labels(self) -> Result<Labels, Problem> {
         let labels = Labels { name: self.name, tags: self.tags, notes: self.notes };
         let violations = check(labels.name.as_deref(), &labels.tags, labels.notes.as_deref());
         if violations.is_empty() { Ok(labels) } else { Err(refused(violations)) }
@@ -185,103 +171,74 @@ fn has_control(text: &str) -> bool {
     text.chars().any(char::is_control)
 }
 
-impl<T: ToSchema> ToSchema for Labelled<T> {
-    fn name() -> Cow<'static, str> {
-        format!("Labelled{}", T::name()).into()
-    }
-
-    fn schemas(schemas: &mut Vec<(String, RefOr<Schema>)>) {
-        T::schemas(schemas);
+/// Adds the fields of labels to the schema of a request.
+pub(super) fn add_labels(request: &mut Object) {
+    if let RefOr::T(Schema::Object(given)) = Given::schema() {
+        request.properties.extend(given.properties);
     }
 }
 
-impl<T: PartialSchema> PartialSchema for Labelled<T> {
-    /// Schema of the request, extended by the fields of labels.
-    fn schema() -> RefOr<Schema> {
-        let mut schema = T::schema();
-        if let (RefOr::T(Schema::Object(object)), RefOr::T(Schema::Object(given))) =
-            (&mut schema, Given::schema())
-        {
-            object.properties.extend(given.properties);
+/// Takes the labels out of the body of a request: the request as JSON without them, and the labels.
+///
+/// # Errors
+/// A body that is no object, has a field twice, or labels of other types.
+pub(super) fn apart(body: &[u8]) -> serde_json::Result<(String, Given)> {
+    let Fields(fields) = serde_json::from_slice(body)?;
+    let (mut given, mut request) = (Given::default(), Vec::new());
+    for (name, value) in fields {
+        match name.as_str() {
+            "name" => given.name = serde_json::from_str(value.get())?,
+            "tags" => given.tags = serde_json::from_str(value.get())?,
+            "notes" => given.notes = serde_json::from_str(value.get())?,
+            _ => request.push(format!("{}:{}", serde_json::to_string(&name)?, value.get())),
         }
-        schema
     }
+    Ok((format!("{{{}}}", request.join(",")), given))
 }
 
-impl<'de, T: DeserializeOwned> Deserialize<'de> for Labelled<T> {
-    /// Takes the labels out while reading: the request has no such fields, and refuses fields that it does not have.
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Apart<T>(std::marker::PhantomData<T>);
+/// Fields of an object in their order, with their values as they are written.
+struct Fields<'a>(Vec<(String, &'a RawValue)>);
 
-        impl<'de, T: DeserializeOwned> Visitor<'de> for Apart<T> {
-            type Value = Labelled<T>;
+impl<'de> Deserialize<'de> for Fields<'de> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct InOrder;
+
+        impl<'de> Visitor<'de> for InOrder {
+            type Value = Fields<'de>;
 
             fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
                 f.write_str("an object")
             }
 
-            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Labelled<T>, A::Error> {
-                let mut given = Given::default();
-                let rest = WithoutLabels { map, given: &mut given };
-                Ok(Labelled { request: T::deserialize(MapAccessDeserializer::new(rest))?, given })
+            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Fields<'de>, A::Error> {
+                let mut fields: Vec<(String, &RawValue)> = Vec::new();
+                while let Some((name, value)) = map.next_entry::<String, _>()? {
+                    fields.push((name, value));
+                }
+                Ok(Fields(fields))
             }
         }
 
-        deserializer.deserialize_map(Apart(std::marker::PhantomData))
-    }
-}
-
-/// Map without its labels, which go to `given` while it is read.
-struct WithoutLabels<'a, A> {
-    map: A,
-    given: &'a mut Given,
-}
-
-impl<'de, A: MapAccess<'de>> MapAccess<'de> for WithoutLabels<'_, A> {
-    type Error = A::Error;
-
-    fn next_key_seed<K: DeserializeSeed<'de>>(&mut self, seed: K) -> Result<Option<K::Value>, A::Error> {
-        while let Some(key) = self.map.next_key::<String>()? {
-            match key.as_str() {
-                "name" => self.given.name = self.map.next_value()?,
-                "tags" => self.given.tags = self.map.next_value()?,
-                "notes" => self.given.notes = self.map.next_value()?,
-                _ => return seed.deserialize(key.into_deserializer()).map(Some),
-            }
-        }
-        Ok(None)
-    }
-
-    fn next_value_seed<V: DeserializeSeed<'de>>(&mut self, seed: V) -> Result<V::Value, A::Error> {
-        self.map.next_value_seed(seed)
+        deserializer.deserialize_map(InOrder)
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use serde_json::json;
-
     use super::*;
-    use crate::analysis::request::SweepRequest;
-    use crate::impeller::ImpellerRequest;
 
     #[test]
     fn labels_are_no_part_of_a_request() {
-        let plain = json!({"model": "m", "scene": {}, "speeds": {"values": [0.1, 1e300, 3], "unit": "hz"}});
-        let mut labelled = plain.clone();
-        labelled["tags"] = json!(["a", "b"]);
-        labelled["name"] = json!("Mine");
-        let read: Labelled<SweepRequest> = serde_json::from_str(&labelled.to_string()).unwrap();
-        let (request, labels) = read.parts().unwrap();
-        assert_eq!(request, serde_json::from_value(plain).unwrap());
+        let body =
+            r#"{"model": "m", "tags": ["a", "b"], "speeds": {"values": [0.1, 1e300, 3.00]}, "name": "Mine"}"#;
+        let (request, given) = apart(body.as_bytes()).unwrap();
+        assert_eq!(request, r#"{"model":"m","speeds":{"values": [0.1, 1e300, 3.00]}}"#);
+        let labels = given.labels().unwrap();
         assert_eq!(labels.tags, ["a", "b"]);
         assert_eq!((labels.name.as_deref(), labels.notes), (Some("Mine"), None));
-
-        // A request that takes what it does not know.
-        let read: Labelled<ImpellerRequest> =
-            serde_json::from_value(json!({"preset": "small", "sectors": 9, "notes": "n"})).unwrap();
-        let (request, labels) = read.parts().unwrap();
-        assert_eq!((request.overrides.len(), labels.notes.as_deref()), (1, Some("n")));
+        let (request, given) = apart(br#"{"notes": "n"}"#).unwrap();
+        assert_eq!((request.as_str(), given.notes.as_deref()), ("{}", Some("n")));
+        assert!(apart(b"[]").is_err() && apart(br#"{"tags": 1}"#).is_err());
     }
 
     #[test]

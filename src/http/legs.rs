@@ -6,17 +6,18 @@ use tokio::runtime::Handle;
 use super::forms::READ_MEMORY;
 use super::problem::{Kind, Problem};
 use super::state::AppState;
+use crate::analysis::kinds::document::Document;
+use crate::analysis::kinds::kind::LegNames;
+use crate::store::Store;
 use crate::store::jobs::{Job, JobId};
-use crate::store::results::Document;
 use crate::store::status::JobStatus;
-use crate::store::{Followed, Store};
 
 /// Legs that a job has stored so far.
 pub(super) struct Legs {
     store: Store,
     runtime: Handle,
     job: JobId,
-    followed: Followed,
+    names: LegNames,
     count: u32,
     stored_bytes: u64,
 }
@@ -29,10 +30,10 @@ impl Legs {
     pub(super) async fn of(
         state: &AppState,
         job: &Job,
-        followed: Followed,
+        names: LegNames,
         thing: &str,
     ) -> Result<Self, Problem> {
-        let (count, stored_bytes) = state.store.parts(job.id, followed.leg(0)).await?;
+        let (count, stored_bytes) = state.store.parts(job.id, names.leg).await?;
         if count == 0 {
             let kind = match job.status {
                 JobStatus::Accepted | JobStatus::Running | JobStatus::Paused => Kind::ResultNotReady,
@@ -42,7 +43,7 @@ impl Legs {
             return Err(Problem::new(kind, detail));
         }
         let (store, runtime) = (state.store.clone(), Handle::current());
-        Ok(Self { store, runtime, job: job.id, followed, count, stored_bytes })
+        Ok(Self { store, runtime, job: job.id, names, count, stored_bytes })
     }
 
     /// Memory that reading the legs takes, bytes.
@@ -54,14 +55,15 @@ impl Legs {
     pub(super) fn read<L: DeserializeOwned>(&self) -> Result<Vec<L>, Problem> {
         let mut found = Vec::new();
         for index in 0..self.count {
-            found.extend(self.document(self.followed.leg(index))?);
+            found.extend(self.document(Document::part(self.names.leg, index))?);
         }
         Ok(found)
     }
 
     /// Reads the document that is stored beside one leg, if there is one; waits for the database.
     pub(super) fn read_beside<B: DeserializeOwned>(&self, index: usize) -> Result<Option<B>, Problem> {
-        self.followed.beside(index as u32).map_or(Ok(None), |document| self.document(document))
+        let name = self.names.beside;
+        name.map_or(Ok(None), |name| self.document(Document::part(name, index as u32)))
     }
 
     fn document<D: DeserializeOwned>(&self, document: Document) -> Result<Option<D>, Problem> {

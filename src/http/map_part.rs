@@ -7,13 +7,13 @@ use utoipa::{IntoParams, ToSchema};
 use super::problem::Problem;
 use super::results::{FrameWord, check_sensor, sweep};
 use super::selection;
+use crate::analysis::kinds::sweep::ERRORS;
 use crate::analysis::request::{Sensor, SpeedUnit};
 use crate::analysis::resolved::ResolvedSweep;
 use crate::analysis::result::{InteractionMap, SpeedSpectra};
 use crate::analysis::run;
 use crate::plot::{Frame, Window};
 use crate::store::jobs::{Job, JobId};
-use crate::store::results::Document;
 use crate::store::{Store, StoreError};
 
 /// Part of an interaction map to download, and its drawing.
@@ -151,7 +151,7 @@ impl Part {
     /// Map of the first sensor, without rows.
     pub(super) fn head(&self, job: &Job, store: &Store, runtime: &Handle) -> Result<InteractionMap, Problem> {
         let (request, facts) = sweep(job)?;
-        let errors = runtime.block_on(store.document(job.id, Document::Errors))?;
+        let errors = runtime.block_on(store.document(job.id, ERRORS))?;
         let errors = errors.map(|errors| serde_json::from_str(&errors)).transpose()?;
         let points = runtime.block_on(store.points(job.id))?.into_iter().map(|point| (point, None)).collect();
         let sensor = self.sensors[0].0 as usize;

@@ -17,11 +17,12 @@ use super::results::{find, sweep};
 use super::spectra::ROW_MEMORY;
 use super::state::AppState;
 use super::stream;
+use crate::analysis::kinds::document::Document;
+use crate::analysis::kinds::sweep::CRITICAL_SPEEDS;
 use crate::analysis::result::CriticalSpeeds;
 use crate::export::maps::Maps;
 use crate::plot::{self, Frame, LevelColour, VerticalAxis};
 use crate::store::jobs::Job;
-use crate::store::results::Document;
 use crate::tokens::Principal;
 
 /// Memory of a map that is drawn, in multiples of its amplitudes.
@@ -113,7 +114,7 @@ async fn draw(
             return Err(Problem::parameter("sensors", "a drawing is of one sensor"));
         };
         let maps = part.maps(&job, &store, &runtime)?;
-        let critical = runtime.block_on(store.document(job.id, Document::CriticalSpeeds(sensor)))?;
+        let critical = runtime.block_on(store.document(job.id, Document::part(CRITICAL_SPEEDS, sensor)))?;
         let critical: Option<CriticalSpeeds> =
             critical.map(|critical| serde_json::from_str(&critical)).transpose()?;
         Ok::<_, Problem>((maps, critical))

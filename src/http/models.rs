@@ -2,7 +2,7 @@
 
 use axum::Json;
 use axum::body::Body;
-use axum::extract::{FromRequest, Request, State};
+use axum::extract::{Request, State};
 use axum::http::StatusCode;
 use axum::http::uri::PathAndQuery;
 use axum::response::Response;
@@ -11,26 +11,21 @@ use serde::{Deserialize, Serialize};
 use tokio::io::{AsyncWriteExt, BufWriter};
 use utoipa::{IntoParams, ToSchema};
 
-use super::extract::{
-    JsonBody, MergePatch, ModelPath, Parameters, declared_bytes, expect_media_type, is_media_type,
-};
+use super::extract::{MergePatch, ModelPath, Parameters, declared_bytes, expect_media_type, is_media_type};
 use super::idempotency::{self, IdempotencyKey};
-use super::labels::{LabelPatch, LabelQuery, Labelled};
+use super::kinds::{self, Asking, Receipt};
+use super::labels::{LabelPatch, LabelQuery};
 use super::page;
 use super::problem::{Kind, Problem, excerpt};
 use super::state::AppState;
-use super::submit::{self, Receipt};
 use crate::analysis::result::ReductionReport;
 use crate::analysis::run::ModelFacts;
-use crate::impeller::{GenerationPlan, ImpellerRequest};
-use crate::jobs::generation_of;
+use crate::impeller::ImpellerRequest;
+use crate::kinds::generation::MODEL_GENERATION;
 use crate::store::idempotency::Answer;
 use crate::store::labels::Labels;
 use crate::store::models::{Deletion, ModelFilter, StoredModel};
 use crate::tokens::Principal;
-
-/// Body of a generation: parameters of the generator, and the labels of job and model.
-type GenerationBody = Labelled<ImpellerRequest>;
 
 const JSON: &str = "application/json";
 
@@ -124,7 +119,7 @@ impl From<StoredModel> for ModelBody {
         description = "Repeating the request with this key repeats its answer.")),
     request_body(description = "The model package, one impeller sector; or parameters of the generator.", content(
         (PackageZip = "application/zip"),
-        (GenerationBody = "application/json"),
+        (ImpellerRequest = "application/json"),
     )),
     responses(
         (status = 201, description = "The model is new.", body = ModelBody,
@@ -159,10 +154,8 @@ pub(super) async fn create_model(
             let detail = "beside parameters of the generator name, tags and notes are fields of the body";
             return Err(Problem::new(Kind::InvalidParameter, detail));
         }
-        let body = JsonBody::<GenerationBody>::from_request(request, &state).await?;
-        let (parameters, labels) = body.value.parts()?;
-        let submission = (generation_of(&parameters)?, labels);
-        return submit::accept(&state, &whose, key, &body.fingerprint, submission).await;
+        let asking = Asking::read(&state, &MODEL_GENERATION, request).await?;
+        return kinds::accept(&state, &whose, key, asking).await;
     }
     if declared_bytes(request.headers()) > Some(state.upload_bytes) {
         return Err(too_large(state.upload_bytes));
@@ -191,20 +184,6 @@ pub(super) async fn create_model(
         state.store.insert_answer(&kept).await?;
     }
     Ok(idempotency::respond(&answer))
-}
-
-/// Plan the generation of a model: what it would make and cost. Starts nothing.
-#[utoipa::path(post, path = "/v1/models/plan", operation_id = "plan_model_generation", tag = "models",
-    request_body(content = GenerationBody),
-    responses(
-        (status = 200, description = "The plan.", body = GenerationPlan),
-    ))]
-pub(super) async fn plan_model_generation(
-    state: State<AppState>,
-    whose: Principal,
-    body: JsonBody<GenerationBody>,
-) -> Result<Json<GenerationPlan>, Problem> {
-    Ok(Json(state.jobs.plan_generation(&whose, &body.value.parts()?.0).await?))
 }
 
 /// Writes a body to a temporary file beside the models, piece by piece.

@@ -5,8 +5,8 @@ use axum::http::header;
 use axum::response::IntoResponse;
 use utoipa::OpenApi;
 
+use super::kinds::Receipt;
 use super::state::AppState;
-use super::submit::Receipt;
 
 /// Parts of the document beside its paths.
 #[derive(OpenApi)]

@@ -8,13 +8,14 @@ use super::forms::READ_MEMORY;
 use super::problem::Problem;
 use super::state::AppState;
 use crate::analysis::fields::{FieldSector, Part, instants, largest_instant, surface};
+use crate::analysis::kinds::document::Document;
+use crate::analysis::kinds::sweep::STATES;
 use crate::analysis::resolved::ResolvedSweep;
 use crate::analysis::result::FieldSurface;
 use crate::analysis::run::ModelFacts;
 use crate::jobs::FieldSource;
 use crate::plot::SurfaceView;
 use crate::store::jobs::Job;
-use crate::store::results::Document;
 use crate::store::{Store, StoreError};
 
 /// Largest number of speeds with pictures.
@@ -50,7 +51,7 @@ impl Pictures {
         let Some(source) = source else { return Ok(None) };
         let mut largest = 0;
         for &speed in &speeds {
-            let bytes = state.store.document_bytes(job.id, Document::States(speed)).await?;
+            let bytes = state.store.document_bytes(job.id, Document::part(STATES, speed)).await?;
             largest = largest.max(bytes.unwrap_or(0));
         }
         let bytes = READ_MEMORY * largest + source.memory(facts.own_dofs, 1);
@@ -94,7 +95,7 @@ impl Pictures {
         speed: u32,
         (sector, facts): (&FieldSector, &ModelFacts),
     ) -> Result<Option<FieldSurface>, Problem> {
-        let states = read_states((store, runtime), job.id, Document::States(speed), &self.source)?;
+        let states = read_states((store, runtime), job.id, Document::part(STATES, speed), &self.source)?;
         let field = self.source.with_basis(|wheel, basis| {
             let at = largest_instant(&states, wheel).unwrap_or(0);
             instants(&states, sector, &[at], basis)

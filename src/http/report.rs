@@ -13,12 +13,16 @@ use super::results::{SensorQuery, check_sensor, expect_successful, find};
 use super::spectra::ROW_MEMORY;
 use super::state::AppState;
 use super::stream;
+use crate::analysis::kinds::document::Document;
+use crate::analysis::kinds::kind::Units;
+use crate::analysis::kinds::modal_analysis::{CAMPBELL, MODAL_ANALYSIS};
+use crate::analysis::kinds::sweep::{CRITICAL_SPEEDS, ERRORS, HISTORIES};
 use crate::analysis::resolved::ResolvedSweep;
 use crate::analysis::result::{Campbell, CriticalSpeeds, InteractionMap, SpeedHistories, SpeedSpectra};
 use crate::analysis::run::{self, ModelFacts, VERSION};
+use crate::kinds::JobKind;
 use crate::plot::report::{self, Head, Sweep};
-use crate::store::jobs::{Job, JobFilter, JobId, JobKind, JobRequest};
-use crate::store::results::Document;
+use crate::store::jobs::{Job, JobFilter, JobId};
 use crate::store::status::JobStatus;
 use crate::store::{Store, StoreError};
 use crate::tokens::Principal;
@@ -54,34 +58,34 @@ pub(super) async fn get_report(
     let job = find(&state, &whose, id).await?;
     expect_successful(&job, "the interaction map has the speeds that are done")?;
     let (store, runtime) = (state.store.clone(), Handle::current());
-    let (bytes, campbell) = match (&job.request, &job.facts) {
-        (JobRequest::Sweep(request), Some(_)) => {
+    let (bytes, campbell) = match (job.request.get::<ResolvedSweep>(), &job.facts) {
+        (Some(request), Some(_)) => {
             check_sensor(request.sensors(), query.sensor)?;
             let orders = request.max_engine_order() * request.window_revolutions();
             let map = u64::from(request.speeds().count()) * 8 * u64::from(orders);
             let row = ROW_MEMORY * state.store.largest_spectra(id).await?;
             (row + MAP_MEMORY * map, latest_modal_analysis(&state.store, &job).await?)
         }
-        (JobRequest::ModalAnalysis(_), _) => (0, Some(id)),
+        _ if job.kind == JobKind(&MODAL_ANALYSIS) => (0, Some(id)),
         _ => {
-            let kind = job.request.kind().as_str();
+            let kind = job.kind.name;
             let detail = format!("a report is made of a sweep or a modal analysis; the job is a {kind}");
             return Err(Problem::new(Kind::WrongJobKind, detail));
         }
     };
     let drawn = match campbell {
-        Some(of) => state.store.document_bytes(of, Document::Campbell).await?.unwrap_or(0),
+        Some(of) => state.store.document_bytes(of, CAMPBELL).await?.unwrap_or(0),
         None => 0,
     };
     let mut histories = state.store.documents(id).await?;
-    histories.retain(|document| matches!(document, Document::Histories(_)));
+    histories.retain(|document| document.name == HISTORIES);
     histories.truncate(MOST_HISTORIES);
     let mut recorded = 0;
     for document in &histories {
         recorded += state.store.document_bytes(id, *document).await?.unwrap_or(0);
     }
-    let pictures = match (&job.request, &job.facts) {
-        (JobRequest::Sweep(request), Some(facts)) => Pictures::find(&state, &job, request, facts).await?,
+    let pictures = match (job.request.get(), &job.facts) {
+        (Some(request), Some(facts)) => Pictures::find(&state, &job, request, facts).await?,
         _ => None,
     };
     let drawing = pictures.as_ref().map_or(0, |pictures| pictures.bytes);
@@ -107,8 +111,8 @@ async fn latest_modal_analysis(store: &Store, job: &Job) -> Result<Option<JobId>
     let filter = JobFilter {
         owner: Some(job.owner.clone()),
         status: Some(JobStatus::Successful),
-        kind: Some(JobKind::ModalAnalysis),
-        model: job.request.model().map(ToOwned::to_owned),
+        kind: Some(JobKind(&MODAL_ANALYSIS)),
+        model: job.request.models().first().map(|model| (*model).to_owned()),
         ..JobFilter::default()
     };
     Ok(store.jobs(filter, 1).await?.first().map(|job| job.id))
@@ -130,17 +134,20 @@ struct Found<'a> {
 impl Found<'_> {
     fn page(&self, sensor: u32) -> Result<String, StoreError> {
         let campbell = match self.campbell {
-            Some(of) => self.document::<Campbell>(of, Document::Campbell)?,
+            Some(of) => self.document::<Campbell>(of, CAMPBELL)?,
             None => None,
         };
         let head = head(self.job, self.campbell.filter(|_| campbell.is_some()));
-        match (&self.job.request, &self.job.facts, &campbell) {
-            (JobRequest::Sweep(request), Some(facts), _) => {
+        match (self.job.request.get(), &self.job.facts, &campbell) {
+            (Some(request), Some(facts), _) => {
                 let map = self.map(request, facts, sensor as usize)?;
                 let mut critical = Vec::new();
                 for sensor in 0..request.sensors().len() as u32 {
                     critical.extend(
-                        self.document::<CriticalSpeeds>(self.job.id, Document::CriticalSpeeds(sensor))?,
+                        self.document::<CriticalSpeeds>(
+                            self.job.id,
+                            Document::part(CRITICAL_SPEEDS, sensor),
+                        )?,
                     );
                 }
                 let row = |point: &_, contact: &_| run::force_row(point, contact);
@@ -183,7 +190,7 @@ impl Found<'_> {
             let row = self.runtime.block_on(self.store.map_row(id, point.index, row))?;
             rows.push((point, row));
         }
-        let errors = self.document(id, Document::Errors)?;
+        let errors = self.document(id, ERRORS)?;
         let map = run::interaction_map(request, &facts.units, rows, sensor, None);
         Ok(InteractionMap { plan: self.job.plan.clone(), errors, ..map })
     }
@@ -200,8 +207,8 @@ impl Found<'_> {
 
 /// Head of a report.
 fn head(job: &Job, campbell: Option<JobId>) -> Head {
-    let kind = match job.kind {
-        JobKind::ModalAnalysis => "Modal analysis",
+    let kind = match job.kind.units {
+        Units::Once => "Modal analysis",
         _ => "Sweep of contact simulations",
     };
     let facts = job.facts.as_ref();
@@ -215,7 +222,9 @@ fn head(job: &Job, campbell: Option<JobId>) -> Head {
         );
         rows.push(("wheel", size));
     }
-    rows.extend(job.request.model().map(|model| ("content of its package", format!("SHA-256 {model}"))));
+    rows.extend(
+        job.request.models().first().map(|model| ("content of its package", format!("SHA-256 {model}"))),
+    );
     if !job.labels.tags.is_empty() {
         rows.push(("tags", job.labels.tags.join(", ")));
     }

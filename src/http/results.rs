@@ -11,13 +11,17 @@ use super::extract::{JobPath, Parameters, job_not_found, parse_job_id};
 use super::forms::Forms;
 use super::problem::{Kind, Problem};
 use super::state::AppState;
-use crate::analysis::resolved::{ResolvedSensor, ResolvedSweep};
+use crate::analysis::kinds::document::Document;
+use crate::analysis::kinds::kind::ResolvedJob;
+use crate::analysis::kinds::modal_analysis::{CAMPBELL, MODAL_ANALYSIS};
+use crate::analysis::kinds::sweep::{CRITICAL_SPEEDS, SWEEP};
+use crate::analysis::resolved::{ResolvedModalAnalysis, ResolvedSensor, ResolvedSweep};
 use crate::analysis::result::{Campbell, CriticalSpeeds, Point, most_utilised_first};
 use crate::analysis::run::ModelFacts;
 use crate::export::Export;
+use crate::kinds::JobKind;
 use crate::plot::{self, Frame};
-use crate::store::jobs::{Job, JobId, JobKind, JobRequest};
-use crate::store::results::Document;
+use crate::store::jobs::{Job, JobId};
 use crate::store::status::JobStatus;
 use crate::tokens::Principal;
 
@@ -100,7 +104,7 @@ pub(super) async fn get_critical_speeds(
         request,
         by_utilisation,
     )?
-    .of_document(&state, download, &job, Document::CriticalSpeeds(query.sensor))
+    .of_document(&state, download, &job, Document::part(CRITICAL_SPEEDS, query.sensor))
     .await
 }
 
@@ -152,14 +156,12 @@ pub(super) async fn get_campbell(
     download: Download,
 ) -> Result<Response, Problem> {
     let job = find(&state, &whose, id).await?;
-    if !matches!(job.request, JobRequest::ModalAnalysis(_)) {
-        return Err(wrong_kind(&job, JobKind::ModalAnalysis));
-    }
+    resolved::<ResolvedModalAnalysis>(&job, JobKind(&MODAL_ANALYSIS))?;
     let forms = match FrameWord::frame(query.frame) {
         Frame::Rotating => Forms::drawn_by(plot::campbell, plot::figure::campbell),
         Frame::Fixed => Forms::drawn_by(plot::campbell_fixed_frame, plot::figure::campbell_fixed_frame),
     };
-    forms.of_document(&state, download, &job, Document::Campbell).await
+    forms.of_document(&state, download, &job, CAMPBELL).await
 }
 
 /// Finds the job `id`, if the principal may see it: jobs of others are reported as missing.
@@ -180,12 +182,17 @@ pub(super) fn expect_successful(job: &Job, instead: &str) -> Result<(), Problem>
     Err(Problem::new(kind, format!("the job is {how}; {instead}")))
 }
 
+/// Resolved request of a job of this `kind`, and the facts of its model; refuses jobs of other kinds.
+pub(super) fn resolved<'a, R: ResolvedJob>(
+    job: &'a Job,
+    kind: JobKind,
+) -> Result<(&'a R, &'a ModelFacts), Problem> {
+    job.request.get().zip(job.facts.as_ref()).ok_or_else(|| wrong_kind(job, kind))
+}
+
 /// Request of a sweep and the facts of its model; refuses jobs of other kinds.
 pub(super) fn sweep(job: &Job) -> Result<(&ResolvedSweep, &ModelFacts), Problem> {
-    match (&job.request, &job.facts) {
-        (JobRequest::Sweep(request), Some(facts)) => Ok((request, facts)),
-        _ => Err(wrong_kind(job, JobKind::Sweep)),
-    }
+    resolved(job, JobKind(&SWEEP))
 }
 
 /// Speeds of the sweep with this id, which are drawn beside the result of `job` and must be of the same model; none without an id.
@@ -213,7 +220,7 @@ pub(super) fn check_sensor(sensors: &[ResolvedSensor], sensor: u32) -> Result<()
 }
 
 pub(super) fn wrong_kind(job: &Job, wanted: JobKind) -> Problem {
-    let (is, wanted) = (job.request.kind().as_str(), wanted.as_str());
+    let (is, wanted) = (job.kind.name, wanted.name);
     Problem::new(
         Kind::WrongJobKind,
         format!("this result belongs to jobs of kind {wanted}; the job is a {is}"),

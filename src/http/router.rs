@@ -19,34 +19,20 @@ use utoipa_axum::routes;
 
 use super::state::AppState;
 use super::{
-    access, archive, body, branches, campaigns, case_studies, casings, contract, cross_site, events, extract,
-    fields, forces, health, histories, host, jobs, maps, mesh, metrics, modal_analyses, models, modes,
-    openapi, principal, problem, report, results, run_ups, section, spectra, stream, stress, studies, sweeps,
-    version, web, wheel,
+    access, archive, body, branches, campaigns, casings, contract, cross_site, events, extract, fields,
+    forces, health, histories, host, jobs, kinds, maps, mesh, metrics, models, modes, openapi, principal,
+    problem, report, results, run_ups, section, spectra, stream, stress, studies, version, web, wheel,
 };
 
 /// Routes with their descriptions.
 pub(super) fn routes() -> OpenApiRouter<AppState> {
-    OpenApiRouter::with_openapi(openapi::ApiDoc::openapi())
+    kinds::routes(OpenApiRouter::with_openapi(openapi::ApiDoc::openapi()))
         .routes(routes!(models::create_model, models::list_models))
-        .routes(routes!(models::plan_model_generation))
         .routes(routes!(models::get_model, models::label_model, models::delete_model))
         .routes(routes!(casings::read_casing_table))
         .routes(routes!(section::get_section))
         .routes(routes!(mesh::get_mesh))
         .routes(routes!(modes::get_modes))
-        .routes(routes!(modal_analyses::create_modal_analysis))
-        .routes(routes!(modal_analyses::plan_modal_analysis))
-        .routes(routes!(sweeps::create_sweep))
-        .routes(routes!(sweeps::plan_sweep))
-        .routes(routes!(studies::create_study))
-        .routes(routes!(case_studies::create_case_study))
-        .routes(routes!(branches::create_branches))
-        .routes(routes!(branches::plan_branches))
-        .routes(routes!(run_ups::create_run_ups))
-        .routes(routes!(run_ups::plan_run_ups))
-        .routes(routes!(campaigns::create_campaign))
-        .routes(routes!(campaigns::plan_campaign))
         .routes(routes!(jobs::list_jobs))
         .routes(routes!(jobs::get_job, jobs::label_job, jobs::delete_job))
         .routes(routes!(jobs::pause_job))
@@ -61,7 +47,7 @@ pub(super) fn routes() -> OpenApiRouter<AppState> {
         .routes(routes!(results::get_critical_speeds))
         .routes(routes!(wheel::get_wheel_critical_speeds))
         .routes(routes!(studies::get_work_precision))
-        .routes(routes!(histories::get_histories, case_studies::create_histories))
+        .routes(routes!(histories::get_histories, histories::create_histories))
         .routes(routes!(branches::get_branches))
         .routes(routes!(run_ups::get_run_ups))
         .routes(routes!(run_ups::get_spectrogram))

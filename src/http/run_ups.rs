@@ -1,84 +1,26 @@
 //! Run-ups and run-downs: responses of a scene whose speed changes.
 
-use axum::Json;
 use axum::extract::State;
 use axum::response::Response;
 use serde::{Deserialize, Serialize};
 use utoipa::{IntoParams, ToSchema};
 
 use super::download::{Download, DownloadQuery, lasting};
-use super::extract::{JobPath, JsonBody, Parameters, job_not_found};
+use super::extract::{JobPath, Parameters, job_not_found};
 use super::forms::{Forms, READ_MEMORY};
-use super::idempotency::IdempotencyKey;
-use super::labels::Labelled;
 use super::legs::Legs;
 use super::problem::{Kind, Problem};
-use super::results::{check_sensor, find, swept, wrong_kind};
+use super::results::{check_sensor, find, resolved, swept};
 use super::state::AppState;
-use super::submit;
-use crate::analysis::request::RunUpRequest;
+use crate::analysis::kinds::run_up::{LEGS, RUN_UP, SPECTRA};
 use crate::analysis::resolved::ResolvedRunUps;
-use crate::analysis::result::{RunUpLeg, RunUpPlan, RunUps, Spectrogram};
+use crate::analysis::result::{RunUpLeg, RunUps, Spectrogram};
 use crate::analysis::run::{self, ModelFacts};
 use crate::export::{Array, Export};
-use crate::jobs::Submission;
+use crate::kinds::JobKind;
 use crate::plot;
-use crate::store::Followed;
-use crate::store::jobs::{Job, JobKind, JobRequest};
-use crate::store::results::Document;
+use crate::store::jobs::Job;
 use crate::tokens::Principal;
-
-type RunUpBody = Labelled<RunUpRequest>;
-
-/// Run a wheel up or down through its critical speeds.
-///
-/// The speed changes at given rates, a run for each, or through given points; stiffness, modes, clearances given cold and all that
-/// depends on the angle follow it. `GET /v1/jobs/{id}/run-ups` and `GET /v1/jobs/{id}/spectrogram` have the results so far, also
-/// while the job runs. With several rates and a `limit`, the result has the rate at which the wheel must pass to stay below it.
-#[utoipa::path(post, path = "/v1/run-ups", operation_id = "create_run_ups", tag = "jobs",
-    params(("Idempotency-Key" = Option<String>, Header,
-        description = "Repeating the request with this key repeats its answer and starts nothing.")),
-    request_body(content = RunUpBody, example = json!({
-        "model": "9f86d081884c7d659a2feaa0c55ad015a3bf4f1b2b0b822cd15d6c15b0f00a08",
-        "speed": {"unit": "rpm", "from": 20000.0, "to": 28000.0, "rates": [500.0, 2000.0, 8000.0]},
-        "scene": {
-            "centrifugal_stiffening": true,
-            "damping": {"modal_ratio": 0.005},
-            "casing": {
-                "clearance": {"leading": 0.30, "trailing": 0.22},
-                "lobes": {"count": 2, "amplitude": 0.425, "width_rad": 0.35}
-            },
-            "contact": {}
-        },
-        "limit": 0.5
-    })))]
-pub(super) async fn create_run_ups(
-    state: State<AppState>,
-    whose: Principal,
-    key: IdempotencyKey,
-    body: JsonBody<RunUpBody>,
-) -> Result<Response, Problem> {
-    let (request, labels) = body.value.parts()?;
-    let submission = (Submission::RunUps(Box::new(request)), labels);
-    submit::accept(&state, &whose, key, &body.fingerprint, submission).await
-}
-
-/// Plan run-ups: what they would do and cost. Starts nothing.
-///
-/// Takes the body of `POST /v1/run-ups` and answers at once with durations, revolutions and pieces of one speed; if the reduction
-/// is stored, also with steps and their expected times, from a short calibration of this machine.
-#[utoipa::path(post, path = "/v1/run-ups/plan", operation_id = "plan_run_ups", tag = "jobs",
-    request_body = RunUpBody,
-    responses(
-        (status = 200, description = "The plan.", body = RunUpPlan),
-    ))]
-pub(super) async fn plan_run_ups(
-    State(state): State<AppState>,
-    whose: Principal,
-    body: JsonBody<RunUpBody>,
-) -> Result<Json<RunUpPlan>, Problem> {
-    Ok(Json(state.jobs.plan_run_ups(&whose, body.value.parts()?.0).await?))
-}
 
 /// Parameters of a drawing of run-ups.
 #[derive(Debug, Deserialize, IntoParams)]
@@ -114,7 +56,7 @@ pub(super) async fn get_run_ups(
     let (asked, facts) = asked(&job)?;
     check_sensor(asked.sweep().sensors(), query.sensor)?;
     let steady = swept(&state, &whose, query.sweep.as_deref(), &job).await?;
-    let legs = Legs::of(&state, &job, Followed::RunUps, FRAME).await?;
+    let legs = Legs::of(&state, &job, LEGS, FRAME).await?;
     let bytes = legs.bytes();
     let (asked, facts) = (asked.clone(), facts.clone());
     let read = move || run::run_ups(&asked, &facts, legs.read()?).ok_or_else(|| job_not_found(&id));
@@ -177,8 +119,8 @@ pub(super) async fn get_spectrogram(
         let detail = format!("the job has {} runs, counted from 0", asked.runs());
         return Err(Problem::parameter("run", detail));
     }
-    let legs = Legs::of(&state, &job, Followed::RunUps, FRAME).await?;
-    let (_, spectra) = state.store.parts(id, Document::RunUpSpectra(0)).await?;
+    let legs = Legs::of(&state, &job, LEGS, FRAME).await?;
+    let (_, spectra) = state.store.parts(id, SPECTRA).await?;
     let bytes = legs.bytes() + READ_MEMORY * spectra;
     let (asked, facts) = (asked.clone(), facts.clone());
     let SpectrogramQuery { run: number, sensor, over } = query;
@@ -231,8 +173,5 @@ impl Export for Drawn {
 const FRAME: &str = "frame of a run";
 
 fn asked(job: &Job) -> Result<(&ResolvedRunUps, &ModelFacts), Problem> {
-    match (&job.request, &job.facts) {
-        (JobRequest::RunUps(asked), Some(facts)) => Ok((asked, facts)),
-        _ => Err(wrong_kind(job, JobKind::RunUp)),
-    }
+    resolved(job, JobKind(&RUN_UP))
 }

@@ -6,26 +6,19 @@ use serde::Deserialize;
 use utoipa::{IntoParams, ToSchema};
 
 use super::download::{Download, DownloadQuery};
-use super::extract::{JobPath, JsonBody, Parameters};
+use super::extract::{JobPath, Parameters};
 use super::forms::Forms;
-use super::idempotency::IdempotencyKey;
-use super::labels::Labelled;
 use super::problem::Problem;
-use super::results::{find, wrong_kind};
+use super::results::{find, resolved};
 use super::state::AppState;
-use super::submit;
-use crate::analysis::request::StudyRequest;
+use crate::analysis::kinds::study::{STUDY, WORK_PRECISION};
 use crate::analysis::resolved::ResolvedStudy;
 use crate::analysis::result::Quantity;
 use crate::analysis::run::WorkPrecision;
-use crate::jobs::Submission;
+use crate::kinds::JobKind;
 use crate::plot;
-use crate::store::jobs::{Job, JobKind, JobRequest};
-use crate::store::results::Document;
+use crate::store::jobs::Job;
 use crate::tokens::Principal;
-
-/// Body of a study: the request, and the labels of the job.
-type StudyBody = Labelled<StudyRequest>;
 
 /// Parameters of a drawing of a study.
 #[derive(Debug, Deserialize, IntoParams)]
@@ -50,43 +43,6 @@ pub(super) enum Over {
     Time,
     /// Time step.
     Step,
-}
-
-/// Compare a grid of settings with a reference one level finer: errors, times, observed orders.
-///
-/// Every combination of the grid is run at every speed, and a setting that is unstable is listed with the reason. Runs are stored:
-/// a study that shares settings with an earlier one on the same scene computes only the others.
-#[utoipa::path(post, path = "/v1/studies", operation_id = "create_study", tag = "jobs",
-    params(("Idempotency-Key" = Option<String>, Header,
-        description = "Repeating the request with this key repeats its answer and starts nothing.")),
-    request_body(content = StudyBody, example = json!({
-        "model": "9f86d081884c7d659a2feaa0c55ad015a3bf4f1b2b0b822cd15d6c15b0f00a08",
-        "speeds": {"values": [24000.0], "unit": "rpm"},
-        "scene": {
-            "centrifugal_stiffening": true,
-            "damping": {"modal_ratio": 0.005},
-            "casing": {
-                "clearance": {"leading": 0.30, "trailing": 0.22},
-                "lobes": {"count": 2, "amplitude": 0.425, "width_rad": 0.35}
-            },
-            "contact": {}
-        },
-        "grid": {
-            "modes_per_speed": [1, 8, 20, 28, 42],
-            "steps_per_revolution": [450, 900, 1800, 3600, 7200, 14400],
-            "schemes": ["exact_modal", "massless_boundary", "central_differences"]
-        },
-        "history_revolutions": 3
-    })))]
-pub(super) async fn create_study(
-    state: State<AppState>,
-    whose: Principal,
-    key: IdempotencyKey,
-    body: JsonBody<StudyBody>,
-) -> Result<Response, Problem> {
-    let (request, labels) = body.value.parts()?;
-    let submission = (Submission::Study(Box::new(request)), labels);
-    submit::accept(&state, &whose, key, &body.fingerprint, submission).await
 }
 
 /// Download errors and times of a study.
@@ -118,12 +74,12 @@ pub(super) async fn get_work_precision(
         Over::Time => plot::figure::work_precision(found, speed, quantity),
         Over::Step => plot::figure::error_over_step(found, speed, quantity),
     };
-    Forms::drawn_by(draw, figure).of_document(&state, download, &job, Document::WorkPrecision).await
+    Forms::drawn_by(draw, figure).of_document(&state, download, &job, WORK_PRECISION).await
 }
 
 /// Request of a study; refuses jobs of other kinds, and a speed that the study does not have.
 pub(super) fn check_speed(job: &Job, speed: u32) -> Result<&ResolvedStudy, Problem> {
-    let JobRequest::Study(request) = &job.request else { return Err(wrong_kind(job, JobKind::Study)) };
+    let (request, _) = resolved::<ResolvedStudy>(job, JobKind(&STUDY))?;
     let total = job.speeds.total;
     if speed >= total {
         return Err(Problem::parameter("speed", format!("the job has {total} speeds, counted from 0")));

@@ -9,8 +9,8 @@ use super::forms::Forms;
 use super::problem::Problem;
 use super::results::{RankQuery, find, sweep};
 use super::state::AppState;
+use crate::analysis::kinds::sweep::WHEEL_CRITICAL_SPEEDS;
 use crate::analysis::result::{WheelCriticalSpeeds, most_utilised_first};
-use crate::store::results::Document;
 use crate::tokens::Principal;
 
 /// Download the critical speeds of the wheel over all contact nodes, components and blades, the most severe or the most utilised first.
@@ -37,6 +37,6 @@ pub(super) async fn get_wheel_critical_speeds(
         most_utilised_first(&mut table.critical_speeds, |speed| speed.utilisation);
     };
     rank.ranked(Forms::undrawn(), request, by_utilisation)?
-        .of_document(&state, download, &job, Document::WheelCriticalSpeeds)
+        .of_document(&state, download, &job, WHEEL_CRITICAL_SPEEDS)
         .await
 }

@@ -11,32 +11,58 @@ use super::error::Interruption;
 use super::progress::PhaseMonitor;
 use super::trials::Trials;
 use crate::analysis::error::{AnalysisError, Violation};
+use crate::analysis::kinds::kind::{ResolvedJob, ToChoose};
 use crate::analysis::monitor::Monitor;
 use crate::analysis::resolved::{Aim, Modes, ResolvedModalAnalysis, ResolvedSweep};
+use crate::analysis::result::Chosen;
 use crate::analysis::run::{self, Choice, ModelFacts, ModesChoice, Next, NextModes, Resources};
 use crate::store::StoreError;
-use crate::store::jobs::{Chosen, FailureCause, JobRequest};
+use crate::store::jobs::FailureCause;
 
-/// Chooses the settings of a sweep by pilot runs and returns the job with them; returns the job as it is where nothing is left to choose.
-pub(super) async fn sweep(
-    engine: &Engine,
-    job: Arc<Live>,
-    request: &ResolvedSweep,
-) -> Result<Arc<Live>, Interruption> {
-    if !request.is_sought() {
-        return Ok(job);
+/// Chooses the settings that the job leaves open and returns the job with them; returns the job as it is where nothing is left to choose.
+pub(super) async fn made(engine: &Engine, job: Arc<Live>) -> Result<Arc<Live>, Interruption> {
+    match job.request.choice() {
+        Some(ToChoose::Setting(request)) => of_sweep(engine, &job, request).await,
+        Some(ToChoose::Modes(request)) => of_modal_analysis(engine, &job, request).await,
+        None => Ok(job),
     }
-    let (facts, begin) = begun(engine, &job).await?;
-    let choosing = setting(engine, &job, request, (facts.sectors, begin));
-    let choice = in_time(&job, request.modes(), begin, choosing).await?;
+}
+
+/// Choice for the settings that `job` leaves open, if the runs or reductions that it rests on are stored, and the job with it.
+pub(super) async fn stored(
+    engine: &Engine,
+    job: &dyn ResolvedJob,
+    sectors: u32,
+) -> Result<Result<Option<(Chosen, Arc<dyn ResolvedJob>)>, Violation>, StoreError> {
+    Ok(match job.choice() {
+        Some(ToChoose::Setting(sweep)) => stored_setting(engine, sweep, sectors).await?.map(|choice| {
+            choice.map(|choice| {
+                let explicit = choice.explicit(sweep);
+                (Chosen::Setting(choice), Arc::new(explicit) as Arc<dyn ResolvedJob>)
+            })
+        }),
+        Some(ToChoose::Modes(analysis)) => stored_modes(engine, analysis).await?.map(|choice| {
+            choice.map(|choice| {
+                let explicit = choice.explicit(analysis);
+                (Chosen::Modes(choice), Arc::new(explicit) as Arc<dyn ResolvedJob>)
+            })
+        }),
+        None => Ok(None),
+    })
+}
+
+/// Chooses the settings of a sweep by pilot runs.
+async fn of_sweep(engine: &Engine, job: &Live, request: &ResolvedSweep) -> Result<Arc<Live>, Interruption> {
+    let (facts, begin) = begun(engine, job).await?;
+    let choosing = setting(engine, job, request, (facts.sectors, begin));
+    let choice = in_time(job, request.modes(), begin, choosing).await?;
     tracing::info!(
         job.id = %job.id, setting = ?choice.setting, estimated_error = choice.estimated_error, "chose a setting"
     );
     let chosen = choice.explicit(request);
     // Nobody has checked these knobs yet.
     let chosen = run::resolve_sweep(chosen.into(), &facts).map_err(AnalysisError::Refused)?;
-    let chosen = JobRequest::Sweep(Box::new(chosen));
-    engine.choose(&job, chosen, Chosen::Setting(choice)).await
+    engine.choose(job, Arc::new(chosen), Chosen::Setting(choice)).await
 }
 
 /// Chooses, by pilot runs, the setting for a wheel of `sectors`.
@@ -96,7 +122,7 @@ async fn in_time<T>(
 }
 
 /// Choice for a resolved sweep, if all that it rests on is stored.
-pub(super) async fn stored(
+async fn stored_setting(
     engine: &Engine,
     request: &ResolvedSweep,
     sectors: u32,
@@ -116,20 +142,17 @@ pub(super) async fn stored(
     }
 }
 
-/// Chooses the modes of a modal analysis by its reductions and returns the job with them; returns the job as it is where nothing is left to choose.
-pub(super) async fn modal_analysis(
+/// Chooses the modes of a modal analysis by its reductions.
+async fn of_modal_analysis(
     engine: &Engine,
-    job: Arc<Live>,
+    job: &Live,
     request: &ResolvedModalAnalysis,
 ) -> Result<Arc<Live>, Interruption> {
-    if !request.is_sought() {
-        return Ok(job);
-    }
-    let (_, begin) = begun(engine, &job).await?;
-    let choosing = modes(engine, &job, request, begin);
-    let choice = in_time(&job, request.modes(), begin, choosing).await?;
-    let chosen = JobRequest::ModalAnalysis(Box::new(choice.explicit(request)));
-    engine.choose(&job, chosen, Chosen::Modes(choice)).await
+    let (_, begin) = begun(engine, job).await?;
+    let choosing = modes(engine, job, request, begin);
+    let choice = in_time(job, request.modes(), begin, choosing).await?;
+    let chosen = Arc::new(choice.explicit(request));
+    engine.choose(job, chosen, Chosen::Modes(choice)).await
 }
 
 /// Chooses the modes of a modal analysis by reductions.
@@ -161,7 +184,7 @@ async fn modes(
 }
 
 /// Choice of modes for a resolved modal analysis, if the reductions that it rests on are stored.
-pub(super) async fn stored_modes(
+async fn stored_modes(
     engine: &Engine,
     request: &ResolvedModalAnalysis,
 ) -> Result<Result<Option<ModesChoice>, Violation>, StoreError> {

@@ -7,9 +7,9 @@ use super::progress::PhaseMonitor;
 use super::trials::Trials;
 use crate::analysis::monitor::Monitor;
 use crate::analysis::resolved::ResolvedSweep;
-use crate::analysis::result::Point;
+use crate::analysis::result::{Chosen, Point};
 use crate::analysis::run::{self, ErrorEstimate, FinerRun};
-use crate::store::jobs::{Chosen, FailureCause};
+use crate::store::jobs::FailureCause;
 
 /// Estimated errors of all speeds of a sweep, if any speeds are to be simulated again.
 pub(super) async fn errors(

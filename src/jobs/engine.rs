@@ -19,8 +19,10 @@ use super::pool::CpuPool;
 use super::progress::{PendingReports, PhaseMonitor, Watch};
 use super::reductions::Reductions;
 use super::tasks::{Tasks, Whose};
+use crate::analysis::kinds::kind::ResolvedJob;
 use crate::analysis::monitor::Monitor;
-use crate::store::jobs::{Chosen, Failure, FailureCause, Job, JobHead, JobId, JobRequest};
+use crate::analysis::result::Chosen;
+use crate::store::jobs::{Failure, FailureCause, Job, JobHead, JobId};
 use crate::store::limits::Limits;
 use crate::store::status::JobStatus;
 use crate::store::{Store, StoreError};
@@ -59,7 +61,7 @@ pub(super) struct Engine {
 pub(super) struct Live {
     pub(super) id: JobId,
     pub(super) owner: String,
-    pub(super) request: JobRequest,
+    pub(super) request: Arc<dyn ResolvedJob>,
     pub(super) speeds: u32,
     /// Speeds of the job in the order in which each starts from the end of the one before; `None` where each is on its own.
     pub(super) chain: Option<Vec<u32>>,
@@ -85,20 +87,6 @@ impl Live {
         let at = |place: Option<usize>| place.and_then(|place| chain.get(place)).copied();
         let place = chain.iter().position(|&link| link == speed);
         (at(place.and_then(|place| place.checked_sub(1))), at(place.map(|place| place + 1)))
-    }
-}
-
-/// Chain of a sweep up or down: its speeds in the order in which each starts from the end of the one before.
-fn chain(request: &JobRequest) -> Option<Vec<u32>> {
-    match request {
-        JobRequest::Sweep(sweep) => sweep.chain(),
-        JobRequest::ModalAnalysis(_)
-        | JobRequest::ModelGeneration(_)
-        | JobRequest::Study(_)
-        | JobRequest::CaseStudy(_)
-        | JobRequest::Branches(_)
-        | JobRequest::RunUps(_)
-        | JobRequest::Campaign(_) => None,
     }
 }
 
@@ -155,7 +143,7 @@ impl Engine {
             Watch::new(id, speeds.total, Arc::clone(&self.stopping), Arc::clone(&self.reports))
         });
         watch.expect_speeds(speeds.total);
-        let chain = chain(&request);
+        let chain = request.chain();
         let speed_bytes = AtomicU64::new(plan.map_or(0, |plan| plan.speed_memory_bytes));
         let live = Live { id, owner, request, speeds: speeds.total, chain, speed_bytes, watch };
         let live = self.keep(live);
@@ -193,14 +181,14 @@ impl Engine {
     pub(super) async fn revise(
         &self,
         job: &Live,
-        request: JobRequest,
+        request: Arc<dyn ResolvedJob>,
         speeds: u32,
     ) -> Result<Arc<Live>, Interruption> {
-        let write = || self.store.revise_request(job.id, &request, speeds);
+        let write = || self.store.revise_request(job.id, &*request, speeds);
         if !patiently(&job.watch, write).await? {
             return Err(Interruption::NotWanted);
         }
-        let chain = chain(&request);
+        let chain = request.chain();
         let mut all = self.lock_live();
         let current = all.get_mut(&job.id).filter(|current| current.speeds <= speeds);
         let Some(current) = current else { return Err(Interruption::NotWanted) };
@@ -217,7 +205,7 @@ impl Engine {
     pub(super) async fn choose(
         &self,
         job: &Live,
-        request: JobRequest,
+        request: Arc<dyn ResolvedJob>,
         choice: Chosen,
     ) -> Result<Arc<Live>, Interruption> {
         patiently(&job.watch, || self.store.record_choice(job.id, &choice)).await?;

@@ -1,15 +1,19 @@
 //! End of a job of speeds: results that need all of them.
 
+use std::sync::Arc;
+
 use super::engine::{Engine, Live};
 use super::error::Interruption;
 use super::patience::patiently;
 use super::progress::PhaseMonitor;
 use super::{control, histories};
-use crate::analysis::resolved::{ResolvedCampaign, ResolvedSweep};
+use crate::analysis::kinds::document::Document;
+use crate::analysis::kinds::kind::{ResolvedJob, Work};
+use crate::analysis::kinds::sweep::{CRITICAL_SPEEDS, ERRORS, WHEEL_CRITICAL_SPEEDS};
+use crate::analysis::resolved::ResolvedSweep;
 use crate::analysis::result::Point;
 use crate::analysis::run;
-use crate::store::jobs::{Failure, FailureCause, JobRequest};
-use crate::store::results::Document;
+use crate::store::jobs::{Failure, FailureCause};
 
 /// Goes on with a job whose speeds are all finished: queues more speeds where it lacks them, or ends it.
 pub(super) async fn speeds(engine: &Engine, job: &Live) -> Result<(), Interruption> {
@@ -18,57 +22,28 @@ pub(super) async fn speeds(engine: &Engine, job: &Live) -> Result<(), Interrupti
         // Somebody else saw the last of them finished too, and has gone on with more.
         return Ok(());
     }
-    match &job.request {
-        JobRequest::Sweep(request) => sweep(engine, job, request, points).await,
-        JobRequest::Campaign(request) => campaign(engine, job, request, points).await,
+    let Work::Speeds(_) = job.request.work() else { return Ok(()) };
+    let (request, finished) = (Arc::clone(&job.request), points.clone());
+    let more = move || match request.work() {
+        Work::Speeds(speeds) => speeds.more(&finished),
+        _ => None,
+    };
+    if let Some(longer) = engine.computing.run(&job.watch, more).await? {
+        return more_speeds(engine, job, longer).await;
+    }
+    expect_completed(&points)?;
+    match job.request.work() {
+        Work::Speeds(speeds) => match speeds.concluded() {
+            Some(sweep) => conclude(engine, job, sweep, points).await,
+            None => complete(engine, job, &[], None).await,
+        },
         _ => Ok(()),
     }
 }
 
-/// Queues more speeds of a sweep where it asks for them around its peaks, or computes its critical speeds, with which it is successful.
-async fn sweep(
-    engine: &Engine,
-    job: &Live,
-    request: &ResolvedSweep,
-    points: Vec<Point>,
-) -> Result<(), Interruption> {
-    if request.is_refined() {
-        let (settings, finished) = (request.clone(), points.clone());
-        if let Some(refined) =
-            engine.computing.run(&job.watch, move || run::refine(&settings, &finished)).await?
-        {
-            let speeds = refined.speeds().count();
-            return more_speeds(engine, job, JobRequest::Sweep(Box::new(refined)), speeds).await;
-        }
-    }
-    conclude(engine, job, request, points).await
-}
-
-/// Queues more designs of a campaign where its answer is undecided, or ends it.
-async fn campaign(
-    engine: &Engine,
-    job: &Live,
-    request: &ResolvedCampaign,
-    points: Vec<Point>,
-) -> Result<(), Interruption> {
-    let (asked, finished) = (request.clone(), points.clone());
-    if let Some(longer) =
-        engine.computing.run(&job.watch, move || run::more_designs(&asked, &finished)).await?
-    {
-        let simulations = longer.simulations();
-        return more_speeds(engine, job, JobRequest::Campaign(Box::new(longer)), simulations).await;
-    }
-    expect_completed(&points)?;
-    complete(engine, job, &[], None).await
-}
-
-/// Goes on with a request that has so many `speeds`, more than before. Asking for the same speeds a second time changes nothing.
-async fn more_speeds(
-    engine: &Engine,
-    job: &Live,
-    request: JobRequest,
-    speeds: u32,
-) -> Result<(), Interruption> {
+/// Goes on with a request that has more speeds than before. Asking for the same speeds a second time changes nothing.
+async fn more_speeds(engine: &Engine, job: &Live, request: Arc<dyn ResolvedJob>) -> Result<(), Interruption> {
+    let speeds = request.speeds();
     let revised = engine.revise(job, request, speeds).await?;
     tracing::info!(job.id = %job.id, speeds, added = speeds - job.speeds, "goes on with more speeds");
     let added = job.speeds..revised.speeds;
@@ -76,14 +51,13 @@ async fn more_speeds(
     Ok(())
 }
 
-/// Computes the critical speeds of a sweep and marks it successful; a sweep that completed no speed has failed.
+/// Computes the critical speeds of a sweep and marks its job successful.
 async fn conclude(
     engine: &Engine,
     job: &Live,
     request: &ResolvedSweep,
     points: Vec<Point>,
 ) -> Result<(), Interruption> {
-    expect_completed(&points)?;
     let monitor = PhaseMonitor::uncounted(job.watch.clone());
     let reduced = engine
         .reductions
@@ -102,13 +76,13 @@ async fn conclude(
     tables.iter_mut().for_each(|table| table.plan.clone_from(&plan));
     let mut documents = (0..)
         .zip(&tables)
-        .map(|(sensor, table)| Ok((Document::CriticalSpeeds(sensor), serde_json::to_string(table)?)))
+        .map(|(sensor, table)| Ok((Document::part(CRITICAL_SPEEDS, sensor), serde_json::to_string(table)?)))
         .collect::<Result<Vec<_>, serde_json::Error>>()?;
     if let Some(wheel) = run::wheel_critical_speeds(request, &all, errors.as_ref(), &tables) {
-        documents.push((Document::WheelCriticalSpeeds, serde_json::to_string(&wheel)?));
+        documents.push((WHEEL_CRITICAL_SPEEDS, serde_json::to_string(&wheel)?));
     }
     if let Some(errors) = &errors {
-        documents.push((Document::Errors, serde_json::to_string(errors)?));
+        documents.push((ERRORS, serde_json::to_string(errors)?));
     }
     complete(engine, job, &documents, None).await
 }

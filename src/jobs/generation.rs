@@ -14,17 +14,15 @@ use super::pool::Panicked;
 use super::progress::PhaseMonitor;
 use crate::analysis::monitor::Monitor;
 use crate::analysis::run::ModelFacts;
-use crate::impeller::{ImpellerParameters, generate, generation_bytes, impeller_sector};
+use crate::impeller::{generate, generation_bytes, impeller_sector};
+use crate::kinds::generation::Generation;
 use crate::package::raw::RawPackage;
 use crate::package::{self, Limits, PackageError};
 use crate::store::{StoreError, limits};
 
 /// Generates the package, reads it back as if it had been uploaded, and stores it as a model.
-pub(super) async fn run(
-    engine: &Engine,
-    job: &Live,
-    parameters: &ImpellerParameters,
-) -> Result<(), Interruption> {
+pub(super) async fn run(engine: &Engine, job: &Live) -> Result<(), Interruption> {
+    let Some(Generation { parameters }) = job.request.get() else { return Ok(()) };
     let monitor = PhaseMonitor::whole(job.watch.clone());
     let wanted = |fraction: f64, phase: &str| {
         monitor.progress(fraction, phase);

@@ -8,22 +8,20 @@ use std::time::{Duration, Instant};
 use super::choice;
 use super::engine::Engine;
 use super::memory::Allowance;
+use super::planner::Permit;
 use super::plans;
 use super::pool::Panicked;
-use super::submission::Submission;
 use crate::analysis::error::{AnalysisError, Violation};
+use crate::analysis::kinds::kind::{Asked, GivenModel, NamedModel, ResolvedJob, Resolving, Unchecked};
+use crate::analysis::kinds::plan::PlannedModel;
 use crate::analysis::monitor::Unwatched;
-use crate::analysis::request::{
-    BranchesRequest, CampaignRequest, ModalAnalysisRequest, RunUpRequest, Sensor, SweepRequest,
-};
-use crate::analysis::resolved::{Modes, ResolvedCampaign, ResolvedSweep};
-use crate::analysis::result::{BranchesPlan, CampaignPlan, RunUpPlan};
-use crate::analysis::run::{self, ModalAnalysisPlan, PlacedSensor, ReducedSector, SweepPlan};
-use crate::impeller::{GenerationPlan, ImpellerError, ImpellerParameters, ImpellerRequest, plan_generation};
+use crate::analysis::request::Sensor;
+use crate::analysis::resolved::{Modes, ResolvedSweep};
+use crate::analysis::run::{self, PlacedSensor, ReducedSector};
 use crate::package;
 use crate::store::StoreError;
 use crate::store::idempotency::Answer;
-use crate::store::jobs::{Insertion, JobDeletion, JobId, JobRequest};
+use crate::store::jobs::{Insertion, JobDeletion, JobId, NewJob, Posted};
 use crate::store::labels::Labels;
 use crate::store::limits::LimitReached;
 use crate::store::status::JobStatus;
@@ -32,7 +30,7 @@ use crate::tokens::Principal;
 /// Ratio of the memory that reading a package takes to the size of its zip.
 const EXPANSION: u64 = 12;
 
-/// Time for which the designs of one campaign are checked before other plans have their turn.
+/// Time for which one request is checked piece by piece before other plans have their turn.
 const TURN: Duration = Duration::from_millis(25);
 
 /// Handle on the job runner.
@@ -69,6 +67,25 @@ pub enum SubmitError {
     Defect(#[from] Panicked),
 }
 
+/// Request that was resolved and checked, and what that took.
+pub struct Checked {
+    job: Arc<dyn ResolvedJob>,
+    /// Facts of its models.
+    facts: Vec<run::ModelFacts>,
+    /// Reductions of its scenes, where they are stored.
+    reduced: Vec<Option<Arc<ReducedSector>>>,
+    /// Positions of its sensors.
+    placed_sensors: Vec<PlacedSensor>,
+    _permit: Permit,
+}
+
+impl Checked {
+    /// Resolved job.
+    pub fn job(&self) -> &dyn ResolvedJob {
+        &*self.job
+    }
+}
+
 /// Outcome of a request to cancel a job.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Cancellation {
@@ -85,99 +102,57 @@ impl Jobs {
         Self { engine }
     }
 
-    /// Resolves a submission of `whose` against its model, stores it as job `id` with its `labels`, and queues it.
-    /// `answer` is what its idempotency key will repeat.
+    /// Resolves a request of `whose` against its models.
+    pub async fn check(&self, whose: &Principal, asked: Box<dyn Asked>) -> Result<Checked, SubmitError> {
+        let permit = self.engine.planner.admit(&whose.owner).map_err(SubmitError::Limit)?;
+        let (mut facts, mut models) = (Vec::new(), Vec::new());
+        let (mut placed_sensors, mut unplaced) = (Vec::new(), Vec::new());
+        for NamedModel { id, pointer } in asked.models() {
+            let mut sensors = asked.sensors().to_vec();
+            let found = self.facts(whose, id, pointer).await?;
+            match self.place(id, &mut sensors).await? {
+                // Positions are told of the first model.
+                Ok(placed) if facts.is_empty() => placed_sensors = placed,
+                Ok(_) => {}
+                Err(violations) => unplaced.extend(violations),
+            }
+            models.push(GivenModel { facts: found.clone(), sensors });
+            facts.push(found);
+        }
+        let planner = &self.engine.planner;
+        let mut resolving = planner.run(&whose.owner, move || asked.resolve(models)).await?;
+        // Other requests have their turn in between; once the client has gone no other turn begins.
+        while let Ok(Resolving::Left(left)) = resolving {
+            resolving = planner.run(&whose.owner, move || check_for_a_turn(left)).await?;
+        }
+        let job = all_violations(unplaced, resolving)?;
+        let mut reduced = Vec::new();
+        for scene in job.scenes() {
+            reduced.push(self.check_scene(whose, scene).await?);
+        }
+        Ok(Checked { job, facts, reduced, placed_sensors, _permit: permit })
+    }
+
+    /// Stores a checked job of `whose` as job `id`, and queues it. `answer` is what its idempotency key will repeat.
     pub async fn submit(
         &self,
         whose: &Principal,
         id: JobId,
-        submission: Submission,
+        checked: Checked,
+        posted: Option<Posted>,
         labels: Labels,
         answer: Option<&Answer>,
     ) -> Result<(), SubmitError> {
-        let engine = &self.engine;
-        let _asked = engine.planner.admit(&whose.owner).map_err(SubmitError::Limit)?;
-        let refused = SubmitError::Refused;
-        let (request, facts) = match submission {
-            Submission::Sweep(mut request) => {
-                let facts = self.facts(whose, &request.model).await?;
-                let placed = self.place(&request.model, &mut request.sensors).await?;
-                let (_, request) =
-                    both(placed, self.resolve(whose, *request, &facts, run::resolve_sweep).await?)?;
-                self.check(whose, &request).await?;
-                (JobRequest::Sweep(Box::new(request)), Some(facts))
-            }
-            Submission::ModalAnalysis(request) => {
-                let facts = self.facts(whose, &request.model).await?;
-                let request = self
-                    .resolve(whose, *request, &facts, run::resolve_modal_analysis)
-                    .await?
-                    .map_err(refused)?;
-                (JobRequest::ModalAnalysis(Box::new(request)), Some(facts))
-            }
-            Submission::Study(mut request) => {
-                let facts = self.facts(whose, &request.model).await?;
-                let placed = self.place(&request.model, &mut request.sensors).await?;
-                let (_, request) =
-                    both(placed, self.resolve(whose, *request, &facts, run::resolve_study).await?)?;
-                (JobRequest::Study(Box::new(request)), Some(facts))
-            }
-            Submission::CaseStudy(mut request) => {
-                let facts = self.facts(whose, &request.model).await?;
-                let placed = self.place(&request.model, &mut request.sensors).await?;
-                let (_, case) =
-                    both(placed, self.resolve(whose, *request, &facts, run::resolve_case_study).await?)?;
-                self.check(whose, case.sweep()).await?;
-                (JobRequest::CaseStudy(Box::new(case)), Some(facts))
-            }
-            Submission::Branches(mut request) => {
-                let facts = self.facts(whose, &request.model).await?;
-                let placed = self.place(&request.model, &mut request.sensors).await?;
-                let (_, branches) =
-                    both(placed, self.resolve(whose, *request, &facts, run::resolve_branches).await?)?;
-                self.check(whose, branches.sweep()).await?;
-                (JobRequest::Branches(Box::new(branches)), Some(facts))
-            }
-            Submission::RunUps(mut request) => {
-                let facts = self.facts(whose, &request.model).await?;
-                let placed = self.place(&request.model, &mut request.sensors).await?;
-                let (_, run_ups) =
-                    both(placed, self.resolve(whose, *request, &facts, run::resolve_run_ups).await?)?;
-                self.check(whose, run_ups.sweep()).await?;
-                (JobRequest::RunUps(Box::new(run_ups)), Some(facts))
-            }
-            Submission::Campaign(request) => {
-                let (campaign, facts, _) = self.campaign(whose, *request).await?;
-                for sweep in campaign.sweeps() {
-                    self.check(whose, sweep).await?;
-                }
-                (JobRequest::Campaign(Box::new(campaign)), Some(facts))
-            }
-            Submission::Histories(of) => {
-                let (sweep, critical, request) = *of;
-                let facts = self.facts(whose, sweep.model()).await?;
-                let held = facts.clone();
-                let resolve = move || run::histories_of(&sweep, &request, &critical, &held);
-                let case = engine.planner.run(&whose.owner, resolve).await?.map_err(refused)?;
-                (JobRequest::CaseStudy(Box::new(case)), Some(facts))
-            }
-            Submission::ModelGeneration(parameters) => {
-                let planned = parameters.clone();
-                let plan = engine.planner.run(&whose.owner, move || plan_generation(&planned)).await?;
-                plan.map_err(|error| refused(vec![violation(&error)]))?;
-                (JobRequest::ModelGeneration(parameters), None)
-            }
-        };
-        let speeds = request.speeds();
-        let model = request.model().unwrap_or_default().to_owned();
-        tracing::info!(job.id = %id, kind = request.kind().as_str(), model.id = model, speeds, "submitted");
-        let (engine, owner) = (Arc::clone(engine), whose.owner.clone());
-        let answer = answer.cloned();
+        let (engine, owner, answer) = (Arc::clone(&self.engine), whose.owner.clone(), answer.cloned());
+        let Checked { job, facts, .. } = checked;
+        let model = job.models().first().copied().unwrap_or_default().to_owned();
+        let (kind, speeds) = (job.kind().name, job.speeds());
+        tracing::info!(job.id = %id, kind, model.id = model, speeds, "submitted");
         // Runs to its end, whatever becomes of the client: a job that is stored is queued.
         let kept = tokio::spawn(async move {
-            let whose = (owner.as_str(), engine.limits);
-            let kept =
-                engine.store.insert_job(id, whose, &request, &labels, facts.as_ref(), answer.as_ref()).await;
+            let (request, facts) = (&*job, facts.first());
+            let new = NewJob { id, owner: &owner, request, posted: posted.as_ref(), labels: &labels, facts };
+            let kept = engine.store.insert_job(new, engine.limits, answer.as_ref()).await;
             // Queued also where nobody knows whether the job was stored: a task without a job harms nobody.
             if matches!(kept, Ok(Insertion::Accepted) | Err(_)) {
                 engine.tasks.prepare(&owner, id);
@@ -192,148 +167,39 @@ impl Jobs {
         }
     }
 
-    /// Checks a sweep against its model and says what it would do and cost. Starts nothing, not even its reduction.
-    pub async fn plan_sweep(
-        &self,
-        whose: &Principal,
-        mut request: SweepRequest,
-    ) -> Result<SweepPlan, SubmitError> {
-        let _asked = self.engine.planner.admit(&whose.owner).map_err(SubmitError::Limit)?;
-        let facts = self.facts(whose, &request.model).await?;
-        let placed = self.place(&request.model, &mut request.sensors).await?;
-        let (placed_sensors, mut request) =
-            both(placed, self.resolve(whose, request, &facts, run::resolve_sweep).await?)?;
+    /// Checks a request of `whose` and says what its job would do and cost, as JSON. Starts nothing, not even a reduction.
+    pub async fn plan(&self, whose: &Principal, asked: Box<dyn Asked>) -> Result<String, SubmitError> {
+        let Checked { mut job, facts, mut reduced, placed_sensors, _permit } =
+            self.check(whose, asked).await?;
         let mut choice = None;
-        if request.is_sought() {
-            let stored = choice::stored(&self.engine, &request, facts.sectors).await?;
-            choice = stored.map_err(|violation| SubmitError::Refused(vec![violation]))?;
-            request = choice.as_ref().map_or(request.clone(), |choice| choice.explicit(&request));
-        }
-        let reduced = self.check(whose, &request).await?;
-        let plan = plans::sweep::<SubmitError>(&self.engine, &whose.owner, request, facts, reduced).await?;
-        Ok(SweepPlan { choice, placed_sensors, ..plan })
-    }
-
-    /// Checks branches against their model and says what they would do and cost. Starts nothing.
-    pub async fn plan_branches(
-        &self,
-        whose: &Principal,
-        mut request: BranchesRequest,
-    ) -> Result<BranchesPlan, SubmitError> {
-        let _asked = self.engine.planner.admit(&whose.owner).map_err(SubmitError::Limit)?;
-        let facts = self.facts(whose, &request.model).await?;
-        let placed = self.place(&request.model, &mut request.sensors).await?;
-        let (_, request) = both(placed, self.resolve(whose, request, &facts, run::resolve_branches).await?)?;
-        let reduced = self.check(whose, request.sweep()).await?;
-        plans::branches(&self.engine, &whose.owner, request, facts, reduced).await
-    }
-
-    /// Checks run-ups against their model and says what they would do and cost. Starts nothing.
-    pub async fn plan_run_ups(
-        &self,
-        whose: &Principal,
-        mut request: RunUpRequest,
-    ) -> Result<RunUpPlan, SubmitError> {
-        let _asked = self.engine.planner.admit(&whose.owner).map_err(SubmitError::Limit)?;
-        let facts = self.facts(whose, &request.model).await?;
-        let placed = self.place(&request.model, &mut request.sensors).await?;
-        let (_, request) = both(placed, self.resolve(whose, request, &facts, run::resolve_run_ups).await?)?;
-        let reduced = self.check(whose, request.sweep()).await?;
-        plans::run_ups(&self.engine, &whose.owner, request, facts, reduced).await
-    }
-
-    /// Checks a campaign against its models and says what it would do and cost. Starts nothing.
-    pub async fn plan_campaign(
-        &self,
-        whose: &Principal,
-        request: CampaignRequest,
-    ) -> Result<CampaignPlan, SubmitError> {
-        let _asked = self.engine.planner.admit(&whose.owner).map_err(SubmitError::Limit)?;
-        let (campaign, facts, others) = self.campaign(whose, request).await?;
-        let own = (facts, self.check(whose, campaign.sweep()).await?);
-        let compared = match campaign.compared().zip(others) {
-            Some((sweep, facts)) => Some((facts, self.check(whose, sweep).await?)),
-            None => None,
-        };
-        plans::campaign(&self.engine, &whose.owner, campaign, own, compared).await
-    }
-
-    /// Resolves `request` against its model on the planning thread: tables, cuts and designs take longer than a thread that
-    /// serves requests may be away.
-    async fn resolve<Q: Send + 'static, T: Send + 'static>(
-        &self,
-        whose: &Principal,
-        request: Q,
-        facts: &run::ModelFacts,
-        resolve: fn(Q, &run::ModelFacts) -> Result<T, Vec<Violation>>,
-    ) -> Result<Result<T, Vec<Violation>>, SubmitError> {
-        let facts = facts.clone();
-        Ok(self.engine.planner.run(&whose.owner, move || resolve(request, &facts)).await?)
-    }
-
-    /// Resolves a campaign against its models, and gives their facts, too. Designs are checked a [`TURN`] at a time, between which other
-    /// requests have theirs; once the client has gone no other turn begins.
-    async fn campaign(
-        &self,
-        whose: &Principal,
-        mut request: CampaignRequest,
-    ) -> Result<(ResolvedCampaign, run::ModelFacts, Option<run::ModelFacts>), SubmitError> {
-        let facts = self.facts(whose, &request.model).await?;
-        let compared = match &request.compared_model {
-            None => None,
-            Some(model) => {
-                let facts = self.facts_of(whose, model, "/compared_model").await?;
-                let mut sensors = request.sensors.clone();
-                self.place(model, &mut sensors).await?.map_err(SubmitError::Refused)?;
-                Some(run::ComparedModel { facts, sensors })
-            }
-        };
-        let placed = self.place(&request.model, &mut request.sensors).await?;
-        let held = (facts.clone(), compared.clone());
-        let planner = &self.engine.planner;
-        let resolved =
-            planner.run(&whose.owner, move || run::resolve_campaign(request, held.0, held.1)).await?;
-        let (_, mut designs) = both(placed, resolved)?;
-        loop {
-            let check = move || {
-                let begin = Instant::now();
-                let mut left = true;
-                while left && begin.elapsed() < TURN {
-                    left = designs.check_next();
+        if let Some(facts) = facts.first() {
+            let stored = choice::stored(&self.engine, &*job, facts.sectors).await?;
+            if let Some((chosen, explicit)) =
+                stored.map_err(|violation| SubmitError::Refused(vec![violation]))?
+            {
+                (choice, job) = (Some(chosen), explicit);
+                reduced.clear();
+                for scene in job.scenes() {
+                    reduced.push(self.check_scene(whose, scene).await?);
                 }
-                (designs, left)
-            };
-            let (checked, left) = planner.run(&whose.owner, check).await?;
-            designs = checked;
-            if !left {
-                break;
             }
         }
-        let campaign = designs.finish().map_err(SubmitError::Refused)?;
-        Ok((campaign, facts, compared.map(|compared| compared.facts)))
-    }
-
-    /// Checks a modal analysis against its model and says what it would do and cost. Starts nothing.
-    pub async fn plan_modal_analysis(
-        &self,
-        whose: &Principal,
-        request: ModalAnalysisRequest,
-    ) -> Result<ModalAnalysisPlan, SubmitError> {
-        let _asked = self.engine.planner.admit(&whose.owner).map_err(SubmitError::Limit)?;
-        let facts = self.facts(whose, &request.model).await?;
-        let mut request = self
-            .resolve(whose, request, &facts, run::resolve_modal_analysis)
-            .await?
-            .map_err(SubmitError::Refused)?;
-        let mut choice = None;
-        if request.is_sought() {
-            let stored = choice::stored_modes(&self.engine, &request).await?;
-            choice = stored.map_err(|violation| SubmitError::Refused(vec![violation]))?;
-            request = choice.as_ref().map_or(request.clone(), |choice| choice.explicit(&request));
+        if reduced.is_empty()
+            && let (Some(model), Some(modes)) = (job.models().first(), job.modes_per_speed())
+        {
+            reduced.push(self.engine.reductions.stored(model, modes).await?);
         }
-        let reduced = self.reduction(request.model(), request.modes()).await?;
-        let plan = plans::modal_analysis(&self.engine, &whose.owner, request, facts, reduced).await?;
-        Ok(ModalAnalysisPlan { choice, ..plan })
+        let reduced = reduced.into_iter().chain(std::iter::repeat(None));
+        let models = facts.into_iter().zip(reduced).map(|(facts, reduced)| PlannedModel { facts, reduced });
+        let plan = plans::of::<SubmitError>(
+            &self.engine,
+            &whose.owner,
+            job,
+            models.collect(),
+            placed_sensors,
+            choice,
+        );
+        Ok(plan.await?.text)
     }
 
     /// Places `sensors` at nodes of the model; see [`run::place_sensors`].
@@ -360,8 +226,8 @@ impl Jobs {
         Ok(found)
     }
 
-    /// Checks what only the reduction of a resolved sweep can tell, if it is stored; returns the reduction.
-    async fn check(
+    /// Checks what only the reduction of a scene can tell, if it is stored; returns the reduction.
+    async fn check_scene(
         &self,
         whose: &Principal,
         request: &ResolvedSweep,
@@ -385,24 +251,8 @@ impl Jobs {
         Ok(self.engine.reductions.stored(model, modes_per_speed).await?)
     }
 
-    /// Checks the generation of a model and says what it would do and cost. Starts nothing.
-    pub async fn plan_generation(
-        &self,
-        whose: &Principal,
-        request: &ImpellerRequest,
-    ) -> Result<GenerationPlan, SubmitError> {
-        let _asked = self.engine.planner.admit(&whose.owner).map_err(SubmitError::Limit)?;
-        let parameters = parameters_of(request)?;
-        let planned = self.engine.planner.run(&whose.owner, move || plan_generation(&parameters)).await?;
-        planned.map_err(|error| SubmitError::Refused(vec![violation(&error)]))
-    }
-
-    async fn facts(&self, whose: &Principal, model: &str) -> Result<run::ModelFacts, SubmitError> {
-        self.facts_of(whose, model, "/model").await
-    }
-
     /// Facts of a model that the request names `at` this place.
-    async fn facts_of(
+    async fn facts(
         &self,
         whose: &Principal,
         model: &str,
@@ -503,48 +353,33 @@ impl Jobs {
     }
 }
 
-/// Job that generates the model of `request`.
-///
-/// # Errors
-/// [`SubmitError::Refused`] points at a field that is unknown or out of range.
-pub fn generation_of(request: &ImpellerRequest) -> Result<Submission, SubmitError> {
-    Ok(Submission::ModelGeneration(Box::new(parameters_of(request)?)))
-}
-
-/// Joins the outcomes of placing sensors and of resolving a request: both, or all that is wrong with the request. For sensors that
-/// could not be placed it reports why, and not that they have no nodes, which follows.
-fn both<A, B>(
-    placed: Result<A, Vec<Violation>>,
-    resolved: Result<B, Vec<Violation>>,
-) -> Result<(A, B), SubmitError> {
-    match (placed, resolved) {
-        (Ok(placed), Ok(resolved)) => Ok((placed, resolved)),
-        (placed, resolved) => {
-            let mut found = placed.err().unwrap_or_default();
-            let follows = |violation: &Violation| {
-                ["/gauge", "/nearest"].iter().any(|place| violation.pointer.ends_with(place))
-                    && found.iter().any(|cause| cause.pointer.starts_with(&violation.pointer))
-            };
-            let others = resolved.err().into_iter().flatten().filter(|violation| !follows(violation));
-            let others: Vec<Violation> = others.collect();
-            found.extend(others);
-            Err(SubmitError::Refused(found))
+/// Checks pieces of a job until its turn is over, or all are checked.
+fn check_for_a_turn(mut left: Box<dyn Unchecked>) -> Result<Resolving, Vec<Violation>> {
+    let begin = Instant::now();
+    loop {
+        match left.check()? {
+            Resolving::Left(more) if begin.elapsed() < TURN => left = more,
+            resolving => return Ok(resolving),
         }
     }
 }
 
-fn parameters_of(request: &ImpellerRequest) -> Result<ImpellerParameters, SubmitError> {
-    request.resolve().map_err(|error| SubmitError::Refused(vec![violation(&error)]))
-}
-
-/// Violation for refused parameters of the generator, at the field.
-fn violation(error: &ImpellerError) -> Violation {
-    let at = |field: &str, message: String| Violation::new(format!("/{}", field.replace('.', "/")), message);
-    match error {
-        ImpellerError::Parameter { field, value, requirement } => {
-            at(field, format!("{value}: {requirement}"))
-        }
-        ImpellerError::Field { field, problem } => at(field, problem.to_string()),
-        other => Violation::new("", other.to_string()),
-    }
+/// Resolved job, unless anything is wrong with its request: then all that is. For sensors that could not be placed it reports why, and not
+/// that they have no nodes, which follows.
+fn all_violations(
+    mut unplaced: Vec<Violation>,
+    resolving: Result<Resolving, Vec<Violation>>,
+) -> Result<Arc<dyn ResolvedJob>, SubmitError> {
+    let others = match resolving {
+        Ok(Resolving::Done(job)) if unplaced.is_empty() => return Ok(job),
+        Ok(_) => Vec::new(),
+        Err(violations) => violations,
+    };
+    let follows = |violation: &Violation| {
+        ["/gauge", "/nearest"].iter().any(|place| violation.pointer.ends_with(place))
+            && unplaced.iter().any(|cause| cause.pointer.starts_with(&violation.pointer))
+    };
+    let others: Vec<Violation> = others.into_iter().filter(|violation| !follows(violation)).collect();
+    unplaced.extend(others);
+    Err(SubmitError::Refused(unplaced))
 }

@@ -8,10 +8,11 @@ use super::engine::{Engine, Live};
 use super::error::Interruption;
 use super::patience::patiently;
 use super::progress::PhaseMonitor;
+use crate::analysis::kinds::document::Document;
+use crate::analysis::kinds::sweep::{HISTORIES, STATES};
 use crate::analysis::monitor::Monitor;
 use crate::analysis::resolved::ResolvedCaseStudy;
 use crate::analysis::run;
-use crate::store::results::Document;
 use crate::store::states;
 
 /// Simulates the speeds of `case` side by side and stores the histories of each as soon as they are there; speeds whose histories are
@@ -42,7 +43,7 @@ async fn record_one(
     place: usize,
 ) -> Result<(), Interruption> {
     let case_speed = case.speeds()[place];
-    let document = Document::Histories(case_speed);
+    let document = Document::part(HISTORIES, case_speed);
     if engine.store.document_bytes(job.id, document).await?.is_some() {
         return Ok(());
     }
@@ -64,7 +65,7 @@ async fn record_one(
     let (text, states) = engine.computing.run(&job.watch, compute).await??;
     // States go first, because stored histories tell that the speed is done.
     if let Some(states) = states {
-        let document = Document::States(case_speed);
+        let document = Document::part(STATES, case_speed);
         patiently(&job.watch, || engine.store.keep_document(job.id, document, &states)).await?;
     }
     patiently(&job.watch, || engine.store.keep_document(job.id, document, &text)).await?;

@@ -11,7 +11,8 @@
 //! A sweep up or down has one task out at a time: each speed queues the next once it is committed, with the state that the next
 //! one starts from.
 //!
-//! The unit of work is one speed of one job; a modal analysis and the generation of a model are one unit each. On one machine tasks wait in memory, where owners take turns (`turns`);
+//! Kinds of jobs differ in their units (`kinds::kind::Work`): speeds that are tasks of their own, legs one after the other (`legs`), or the whole at once
+//! (`once`, `study`, `recorded`, `generation`). On one machine tasks wait in memory, where owners take turns (`turns`);
 //! machines that share a database share queues there, carried by `apalis`. The tables of [`crate::store`] are what is
 //! true. A handler looks there first, so a task that runs twice, or somewhere else, does no harm.
 //!
@@ -20,9 +21,7 @@
 //! a small job is never more than a few speeds away from its turn. A reduction may take minutes of one thread: of the
 //! large ones only one runs at a time (`memory`), so that with two threads or more the other jobs go on.
 
-mod branches;
 mod calibration;
-mod case_study;
 mod choice;
 mod computing;
 mod control;
@@ -38,7 +37,7 @@ mod histories;
 mod legs;
 mod machine;
 mod memory;
-mod modal_analysis;
+mod once;
 mod patience;
 mod perform;
 mod planner;
@@ -48,15 +47,14 @@ mod prepare;
 mod progress;
 #[cfg(feature = "cluster")]
 mod queue_workers;
+mod recorded;
 mod reductions;
-mod run_ups;
 #[cfg(feature = "cluster")]
 mod share;
 mod speed;
 mod static_wheel;
 mod stress;
 mod study;
-mod submission;
 mod tasks;
 mod trials;
 mod turns;
@@ -64,10 +62,9 @@ mod work;
 mod workers;
 
 pub use fields::{FieldSource, field_sector, sector_memory};
-pub use handle::{Cancellation, Jobs, SubmitError, generation_of};
+pub use handle::{Cancellation, Checked, Jobs, SubmitError};
 pub use memory::Allowance;
 pub use pool::Panicked;
 pub use static_wheel::StaticWheelError;
-pub use submission::Submission;
 pub use work::Work;
 pub use workers::{Runner, Settings};

@@ -27,7 +27,7 @@ struct Lines {
 }
 
 /// Permit for a request to be planned, held for as long as that takes.
-pub(super) struct Asked {
+pub(super) struct Permit {
     owner: String,
     lines: Arc<Mutex<Lines>>,
 }
@@ -46,7 +46,7 @@ impl Planner {
     ///
     /// # Errors
     /// If too many requests of this owner are being planned.
-    pub(super) fn admit(&self, owner: &str) -> Result<Asked, LimitReached> {
+    pub(super) fn admit(&self, owner: &str) -> Result<Permit, LimitReached> {
         let mut lines = lock(&self.lines);
         let asked = lines.asked.entry(owner.to_owned()).or_default();
         if *asked >= MOST_ASKED {
@@ -54,7 +54,7 @@ impl Planner {
         }
         *asked += 1;
         drop(lines);
-        Ok(Asked { owner: owner.to_owned(), lines: Arc::clone(&self.lines) })
+        Ok(Permit { owner: owner.to_owned(), lines: Arc::clone(&self.lines) })
     }
 
     /// Queues `compute` in the line of `owner` and waits for its result; owners take turns. Work whose caller has gone is not begun.
@@ -105,7 +105,7 @@ fn next(lines: &Mutex<Lines>) -> Option<Work> {
     work
 }
 
-impl Drop for Asked {
+impl Drop for Permit {
     fn drop(&mut self) {
         let mut lines = lock(&self.lines);
         if let Some(asked) = lines.asked.get_mut(&self.owner) {
@@ -186,7 +186,7 @@ mod tests {
     #[test]
     fn one_owner_has_so_many_requests_at_once() {
         let planner = Planner::new(CpuPool::start("test", 1, 1).unwrap());
-        let asked: Vec<Asked> = (0..MOST_ASKED).map(|_| planner.admit("a").ok().unwrap()).collect();
+        let asked: Vec<Permit> = (0..MOST_ASKED).map(|_| planner.admit("a").ok().unwrap()).collect();
         assert!(planner.admit("a").is_err() && planner.admit("b").is_ok());
         drop(asked);
         assert!(planner.admit("a").is_ok());

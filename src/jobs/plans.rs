@@ -8,88 +8,28 @@ use super::error::Interruption;
 use super::machine;
 use super::patience::patiently;
 use super::pool::Panicked;
-use crate::analysis::resolved::{
-    ResolvedBranches, ResolvedCampaign, ResolvedModalAnalysis, ResolvedRunUps, ResolvedSweep,
-};
-use crate::analysis::result::{BranchesPlan, CampaignPlan, Machine, RunUpPlan};
-use crate::analysis::run::{self, Calibration, ModalAnalysisPlan, ModelFacts, ReducedSector, SweepPlan};
+use crate::analysis::kinds::kind::ResolvedJob;
+use crate::analysis::kinds::plan::{Capacity, Grounds, Plan, PlannedModel};
+use crate::analysis::result::{Chosen, PlacedSensor};
+use crate::analysis::run::ReducedSector;
 use crate::store::StoreError;
-use crate::store::jobs::JobRequest;
 #[cfg(feature = "cluster")]
 use crate::store::machines::WorkerProcess;
 
-/// Plans a resolved sweep.
-pub(super) async fn sweep<E: From<StoreError> + From<Panicked>>(
+/// Plan of a job, which rests on its `models`, the positions of its sensors and a choice of its settings.
+pub(super) async fn of<E: From<StoreError> + From<Panicked>>(
     engine: &Engine,
     owner: &str,
-    request: ResolvedSweep,
-    facts: ModelFacts,
-    reduced: Option<Arc<ReducedSector>>,
-) -> Result<SweepPlan, E> {
-    let Capacity { machine, costs, threads } = capacity::<E>(engine).await?;
-    let plan = move || run::plan_sweep(&request, &facts, reduced.as_deref(), &costs, threads);
-    Ok(SweepPlan { machine: Some(machine), ..engine.planner.run(owner, plan).await? })
-}
-
-/// Plans resolved branches.
-pub(super) async fn branches<E: From<StoreError> + From<Panicked>>(
-    engine: &Engine,
-    owner: &str,
-    request: ResolvedBranches,
-    facts: ModelFacts,
-    reduced: Option<Arc<ReducedSector>>,
-) -> Result<BranchesPlan, E> {
-    let Capacity { machine, costs, .. } = capacity::<E>(engine).await?;
-    let plan = move || run::plan_branches(&request, &facts, reduced.as_deref(), &costs);
-    Ok(BranchesPlan { machine: Some(machine), ..engine.planner.run(owner, plan).await? })
-}
-
-/// Plans resolved run-ups.
-pub(super) async fn run_ups<E: From<StoreError> + From<Panicked>>(
-    engine: &Engine,
-    owner: &str,
-    request: ResolvedRunUps,
-    facts: ModelFacts,
-    reduced: Option<Arc<ReducedSector>>,
-) -> Result<RunUpPlan, E> {
-    let Capacity { machine, costs, .. } = capacity::<E>(engine).await?;
-    let plan = move || run::plan_run_ups(&request, &facts, reduced.as_deref(), &costs);
-    Ok(RunUpPlan { machine: Some(machine), ..engine.planner.run(owner, plan).await? })
-}
-
-/// Facts of a model, and its reduction if that is there.
-type Model = (ModelFacts, Option<Arc<ReducedSector>>);
-
-/// Plans a resolved campaign of a model and the one that is compared with it.
-pub(super) async fn campaign<E: From<StoreError> + From<Panicked>>(
-    engine: &Engine,
-    owner: &str,
-    request: ResolvedCampaign,
-    own: Model,
-    compared: Option<Model>,
-) -> Result<CampaignPlan, E> {
-    fn borrowed((facts, reduced): &Model) -> (&ModelFacts, Option<&ReducedSector>) {
-        (facts, reduced.as_deref())
-    }
-
-    let Capacity { machine, costs, threads } = capacity::<E>(engine).await?;
-    let plan = move || {
-        let compared = compared.as_ref().map(borrowed);
-        run::plan_campaign(&request, borrowed(&own), compared, &costs, threads)
-    };
-    let mut plan = engine.planner.run(owner, plan).await?;
-    plan.scene.machine = Some(machine);
-    Ok(plan)
-}
-
-/// Machines that compute a job.
-struct Capacity {
-    /// Representative machine: the one with most threads.
-    machine: Machine,
-    /// Costs of steps on that machine.
-    costs: Arc<Calibration>,
-    /// Number of threads of all machines.
-    threads: usize,
+    job: Arc<dyn ResolvedJob>,
+    models: Vec<PlannedModel>,
+    placed_sensors: Vec<PlacedSensor>,
+    choice: Option<Chosen>,
+) -> Result<Plan, E> {
+    // Costs of steps are measured when they are first wanted, which takes a while.
+    let capacity = if job.scenes().is_empty() { None } else { Some(capacity::<E>(engine).await?) };
+    let grounds = Grounds { models, capacity, placed_sensors, choice };
+    let plan = engine.planner.run(owner, move || job.plan(&grounds)).await?;
+    Ok(plan.map_err(StoreError::from)?)
 }
 
 /// Capacity of all machines that share the work, each taken as fast as the one with most threads; of this machine where there is no other.
@@ -106,50 +46,28 @@ async fn capacity<E: From<StoreError> + From<Panicked>>(engine: &Engine) -> Resu
     Ok(Capacity { machine: machine::here(), costs, threads: engine.computing.threads() })
 }
 
-/// Plans a resolved modal analysis.
-pub(super) async fn modal_analysis(
-    engine: &Engine,
-    owner: &str,
-    request: ResolvedModalAnalysis,
-    facts: ModelFacts,
-    reduced: Option<Arc<ReducedSector>>,
-) -> Result<ModalAnalysisPlan, Panicked> {
-    engine.planner.run(owner, move || run::plan_modal_analysis(&request, &facts, reduced.as_deref())).await
-}
-
-/// Stores the estimate of a job of speeds whose reductions are there, that of a model which is compared last, unless one was stored
-/// before. Refuses one whose speeds take more memory than there is.
+/// Stores the estimate of a job of speeds whose `reductions` are there, one for each model, unless one was stored before. Refuses one whose
+/// speeds take more memory than there is.
 pub(super) async fn keep(
     engine: &Engine,
     job: &Live,
-    (reduced, compared): (Arc<ReducedSector>, Option<Arc<ReducedSector>>),
+    reductions: Vec<Arc<ReducedSector>>,
 ) -> Result<(), Interruption> {
     let Some(stored) = engine.store.job(job.id).await? else { return Ok(()) };
     let estimate = match (stored.facts, stored.plan) {
         (_, Some(kept)) => kept,
         (None, None) => return Ok(()),
         (Some(facts), None) => {
-            let estimate = match &job.request {
-                JobRequest::Sweep(request) => {
-                    sweep::<Interruption>(engine, &job.owner, *request.clone(), facts, Some(reduced))
-                        .await?
-                        .estimate
-                }
-                JobRequest::Campaign(request) => {
-                    let compared = match request.compared_model() {
-                        Some(model) => {
-                            engine.store.model(model, None).await?.map(|model| (model.facts, compared))
-                        }
-                        None => None,
-                    };
-                    let own = (facts, Some(reduced));
-                    campaign::<Interruption>(engine, &job.owner, *request.clone(), own, compared)
-                        .await?
-                        .estimate
-                }
-                _ => None,
-            };
-            let Some(estimate) = estimate else { return Ok(()) };
+            let mut facts = vec![facts];
+            for model in job.request.models().iter().skip(1) {
+                facts.extend(engine.store.model(model, None).await?.map(|model| model.facts));
+            }
+            let models = facts.into_iter().zip(reductions);
+            let models =
+                models.map(|(facts, reduced)| PlannedModel { facts, reduced: Some(reduced) }).collect();
+            let request = Arc::clone(&job.request);
+            let plan = of::<Interruption>(engine, &job.owner, request, models, Vec::new(), None).await?;
+            let Some(estimate) = plan.estimate else { return Ok(()) };
             patiently(&job.watch, || engine.store.record_plan(job.id, &estimate)).await?;
             estimate
         }

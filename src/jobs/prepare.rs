@@ -5,10 +5,11 @@ use std::sync::Arc;
 use super::engine::{Engine, Live};
 use super::error::Interruption;
 use super::progress::PhaseMonitor;
-use super::{branches, case_study, choice, finish, generation, modal_analysis, plans, run_ups, study};
+use super::{choice, finish, generation, legs, once, plans, recorded, study};
+use crate::analysis::kinds::kind::Work;
 use crate::analysis::resolved::ResolvedSweep;
 use crate::analysis::run::{self, ReducedSector};
-use crate::store::jobs::{Begun, JobId, JobRequest};
+use crate::store::jobs::{Begun, JobId};
 
 /// Prepares job `id`. Harmless to repeat: what is stored is not computed again.
 pub(super) async fn prepare(engine: &Engine, id: JobId) -> Result<(), Interruption> {
@@ -21,21 +22,14 @@ pub(super) async fn prepare(engine: &Engine, id: JobId) -> Result<(), Interrupti
             return Ok(());
         }
     }
-    match &job.request {
-        JobRequest::Sweep(request) => {
-            let job = choice::sweep(engine, Arc::clone(&job), request).await?;
-            prepare_speeds(engine, &job).await
-        }
-        JobRequest::ModalAnalysis(request) => {
-            let job = choice::modal_analysis(engine, Arc::clone(&job), request).await?;
-            modal_analysis::run(engine, &job).await
-        }
-        JobRequest::ModelGeneration(parameters) => generation::run(engine, &job, parameters).await,
-        JobRequest::Study(request) => study::run(engine, &job, request).await,
-        JobRequest::CaseStudy(case) => case_study::run(engine, &job, case).await,
-        JobRequest::Branches(asked) => branches::run(engine, &job, asked).await,
-        JobRequest::RunUps(asked) => run_ups::run(engine, &job, asked).await,
-        JobRequest::Campaign(_) => prepare_speeds(engine, &job).await,
+    let job = choice::made(engine, job).await?;
+    match job.request.work() {
+        Work::Once(once) => once::run(engine, &job, once).await,
+        Work::Trials(study) => study::run(engine, &job, study).await,
+        Work::Recorded(case) => recorded::run(engine, &job, case).await,
+        Work::Speeds(_) => prepare_speeds(engine, &job).await,
+        Work::Legs(legs) => legs::run(engine, &job, legs).await,
+        Work::Model => generation::run(engine, &job).await,
     }
 }
 
@@ -55,18 +49,10 @@ async fn reduced(
 
 /// Prepares a job whose speeds are tasks of their own.
 async fn prepare_speeds(engine: &Engine, job: &Live) -> Result<(), Interruption> {
-    let reductions = match &job.request {
-        JobRequest::Sweep(request) => (reduced(engine, job, request).await?, None),
-        // All designs of a model rest on the same one.
-        JobRequest::Campaign(campaign) => {
-            let own = reduced(engine, job, campaign.sweep()).await?;
-            match campaign.compared() {
-                Some(sweep) => (own, Some(reduced(engine, job, sweep).await?)),
-                None => (own, None),
-            }
-        }
-        _ => return Ok(()),
-    };
+    let mut reductions = Vec::new();
+    for scene in job.request.scenes() {
+        reductions.push(reduced(engine, job, scene).await?);
+    }
     plans::keep(engine, job, reductions).await?;
 
     let finished = engine.store.finished_speeds(job.id).await?;

@@ -11,7 +11,7 @@ use crate::store::jobs::JobId;
 /// Percent of a sweep that its reduction counts for.
 const REDUCTION_OF_SWEEP: f64 = 10.0;
 /// Percent of a modal analysis that its reduction counts for: nearly all the work.
-const REDUCTION_OF_MODAL_ANALYSIS: f64 = 90.0;
+const REDUCTION_OF_ONCE: f64 = 90.0;
 
 /// Progress of a job.
 #[derive(Debug, PartialEq, Eq)]
@@ -208,14 +208,14 @@ impl PhaseMonitor {
         Self { watch, from: 0.0, to: REDUCTION_OF_SWEEP }
     }
 
-    /// Monitor of the reduction of a modal analysis.
-    pub(super) fn reduction_of_modal_analysis(watch: Arc<Watch>) -> Self {
-        Self { watch, from: 0.0, to: REDUCTION_OF_MODAL_ANALYSIS }
+    /// Monitor of the reduction of a job that is one computation.
+    pub(super) fn reduction_of_once(watch: Arc<Watch>) -> Self {
+        Self { watch, from: 0.0, to: REDUCTION_OF_ONCE }
     }
 
-    /// Monitor of the modal analysis proper.
-    pub(super) fn modal_analysis(watch: Arc<Watch>) -> Self {
-        Self { watch, from: REDUCTION_OF_MODAL_ANALYSIS, to: 100.0 }
+    /// Monitor of that computation.
+    pub(super) fn after_reduction(watch: Arc<Watch>) -> Self {
+        Self { watch, from: REDUCTION_OF_ONCE, to: 100.0 }
     }
 
     /// Monitor of a job that is one phase.
@@ -329,7 +329,7 @@ mod tests {
     #[test]
     fn a_new_phase_is_news_and_only_the_latest_counts() {
         let watch = watch(1);
-        let monitor = PhaseMonitor::reduction_of_modal_analysis(watch.clone());
+        let monitor = PhaseMonitor::reduction_of_once(watch.clone());
         monitor.progress(0.5, "harmonic 1");
         assert_eq!(told(&watch), Some((45, "harmonic 1".to_owned())));
         monitor.progress(0.5, "harmonic 1");

@@ -15,7 +15,7 @@ use super::static_wheel::{self, StaticWheelError};
 use super::stress::Making;
 use crate::analysis::error::AnalysisError;
 use crate::analysis::monitor::Monitor;
-use crate::analysis::resolved::{ResolvedRunUps, ResolvedSweep};
+use crate::analysis::resolved::ResolvedSweep;
 use crate::analysis::run::{self, ReducedSector};
 use crate::analysis::tip_growth::TipGrowth;
 use crate::dynamics::kept_rows::KeptRows;
@@ -110,13 +110,13 @@ impl Reductions {
         self.with_beside(sweep, Beside { fields, ..Beside::default() }, monitor).await
     }
 
-    /// Reduction that `run_ups` are made on.
-    pub(super) async fn of_run_ups(
+    /// Reduction that legs are computed on, whose scene is a `sweep`; with the Euler force where that acts.
+    pub(super) async fn of_legs(
         &self,
-        run_ups: &ResolvedRunUps,
+        sweep: &ResolvedSweep,
+        euler_force: bool,
         monitor: PhaseMonitor,
     ) -> Result<Arc<ReducedSector>, Interruption> {
-        let (sweep, euler_force) = (run_ups.sweep(), run_ups.has_euler_force());
         let beside = Beside { fields: sweep.fields(), euler_force, ..Beside::default() };
         self.with_beside(sweep, beside, monitor).await
     }

@@ -1,5 +1,6 @@
 //! Run of one speed of one job: the unit of work.
 
+use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
 use super::engine::{Engine, Live};
@@ -8,10 +9,9 @@ use super::finish;
 use super::patience::patiently;
 use super::progress::{PhaseMonitor, SpeedMonitor};
 use crate::analysis::error::AnalysisError;
-use crate::analysis::resolved::ResolvedSweep;
-use crate::analysis::result::{Point, SpeedResult, Validity, ValidityVerdict};
+use crate::analysis::kinds::kind::Work;
+use crate::analysis::result::{Point, Validity, ValidityVerdict};
 use crate::analysis::run;
-use crate::store::jobs::JobRequest;
 use crate::store::results::PackedSpeed;
 use crate::store::tasks::RunSpeed;
 
@@ -23,7 +23,9 @@ pub(super) async fn run(engine: &Engine, RunSpeed { job: id, speed }: RunSpeed) 
         let finished = engine.store.finished_speeds(id).await?.len();
         return go_on(engine, &job, speed, finished as u32).await;
     }
-    let Some((request, place)) = sweep_of(&job.request, speed)? else { return Ok(()) };
+    let Work::Speeds(speeds) = job.request.work() else { return Ok(()) };
+    let (request, place) = speeds.speed(speed).map_err(AnalysisError::Refused)?;
+    let request = request.into_owned();
     let monitor = PhaseMonitor::uncounted(job.watch.clone());
     let reduced = engine.reductions.of_sweep(&request, monitor).await?;
 
@@ -35,10 +37,13 @@ pub(super) async fn run(engine: &Engine, RunSpeed { job: id, speed }: RunSpeed) 
     let bytes = job.speed_bytes.load(Ordering::Relaxed);
     let memory = engine.memory.hold(bytes).await.map_err(Interruption::speed_memory)?;
     let monitor = SpeedMonitor::new(job.watch.clone(), speed);
-    let keeps_all = matches!(job.request, JobRequest::Sweep(_));
+    let whole = Arc::clone(&job.request);
     let compute = move || {
         let found = run::run_speed(&reduced, &request, place as usize, start.as_ref(), &monitor)?;
-        let result = if keeps_all { found } else { summary(found, speed) };
+        let result = match whole.work() {
+            Work::Speeds(speeds) => speeds.kept(found, speed),
+            _ => found,
+        };
         let packed = PackedSpeed::of(&result)?;
         Ok::<_, Interruption>((result.point, packed, memory))
     };
@@ -64,22 +69,6 @@ pub(super) async fn run(engine: &Engine, RunSpeed { job: id, speed }: RunSpeed) 
         "finished speed {finished}/{}", job.speeds
     );
     go_on(engine, &job, speed, finished).await
-}
-
-/// Sweep that speed `speed` of a job belongs to, and its index there; `None` for a job whose speeds are no tasks of their own.
-fn sweep_of(request: &JobRequest, speed: u32) -> Result<Option<(ResolvedSweep, u32)>, Interruption> {
-    Ok(match request {
-        JobRequest::Sweep(request) => Some((*request.clone(), speed)),
-        JobRequest::Campaign(campaign) => Some(campaign.simulation(speed).map_err(AnalysisError::Refused)?),
-        _ => None,
-    })
-}
-
-/// Part of a result that a campaign stores: credentials and summary, under the index in the campaign. Whoever wants more of a design
-/// posts it as a sweep.
-fn summary(found: SpeedResult, index: u32) -> SpeedResult {
-    let point = Point { index, ..found.point };
-    SpeedResult { point, spectra: None, end_state: None, wear: None, contact: None }
 }
 
 /// Warns once per job that linear theory has been left, with the worst number of the first speed that leaves it.

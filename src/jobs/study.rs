@@ -6,10 +6,12 @@ use super::error::Interruption;
 use super::finish;
 use super::progress::PhaseMonitor;
 use super::trials::Trials;
+use crate::analysis::kinds::document::Document;
+use crate::analysis::kinds::study::WORK_PRECISION;
+use crate::analysis::kinds::sweep::HISTORIES;
 use crate::analysis::monitor::Monitor;
 use crate::analysis::resolved::ResolvedStudy;
 use crate::analysis::run;
-use crate::store::results::Document;
 
 /// Computes and stores a study.
 pub(super) async fn run(engine: &Engine, job: &Live, request: &ResolvedStudy) -> Result<(), Interruption> {
@@ -33,9 +35,9 @@ pub(super) async fn run(engine: &Engine, job: &Live, request: &ResolvedStudy) ->
     else {
         return Err(Interruption::NotWanted);
     };
-    let mut documents = vec![(Document::WorkPrecision, serde_json::to_string(&document)?)];
+    let mut documents = vec![(WORK_PRECISION, serde_json::to_string(&document)?)];
     for (speed, histories) in (0..).zip(&histories) {
-        documents.push((Document::Histories(speed), serde_json::to_string(histories)?));
+        documents.push((Document::part(HISTORIES, speed), serde_json::to_string(histories)?));
     }
     finish::complete(engine, job, &documents, None).await
 }

@@ -39,6 +39,17 @@ pub enum StoreError {
         /// Latest version that this program knows.
         known: i64,
     },
+    /// Tables of a program so old that this one does not bring them up to date.
+    #[error(
+        "the tables have version {found}; this rubmap begins at {least}: let a rubmap of November 2026 (commit 738a5ec1 or a little \
+         before) open them once, which brings them there"
+    )]
+    OlderTables {
+        /// Version of these tables.
+        found: i64,
+        /// Earliest version that this program brings up to date.
+        least: i64,
+    },
     /// The tables of the queue that machines share refused.
     #[cfg(feature = "cluster")]
     #[error("queue: {0}")]
@@ -144,6 +155,7 @@ impl StoreError {
             | Self::NoAddress
             | Self::NotUpToDate(_)
             | Self::NewerTables { .. }
+            | Self::OlderTables { .. }
             | Self::LostDatabase { .. }
             | Self::Json(_)
             | Self::Numbers(_)

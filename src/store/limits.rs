@@ -1,8 +1,10 @@
 //! Limits on what one owner may have in the store.
 
-use sqlx::AnyConnection;
+use sqlx::{AnyConnection, AssertSqlSafe, SqlSafeStr};
 
 use super::error::StoreError;
+use crate::analysis::kinds::kind::Units;
+use crate::kinds::names_in_sql;
 
 /// Limits of one owner; `None` for no limit.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -100,10 +102,13 @@ impl Limits {
         owner: &str,
     ) -> Result<Result<(), LimitReached>, StoreError> {
         let Some(limit) = self.models else { return Ok(Ok(())) };
-        let sql = "select (select count(*) from model_owners where owner = $1)
-                   + (select count(*) from jobs where owner = $1 and kind = 'model_generation'
-                      and status in ('accepted', 'running', 'paused'))";
-        let models = count(connection, sql, owner).await?;
+        let sql = format!(
+            "select (select count(*) from model_owners where owner = $1)
+                   + (select count(*) from jobs where owner = $1 and kind in {}
+                      and status in ('accepted', 'running', 'paused'))",
+            names_in_sql(Units::Model)
+        );
+        let models = count(connection, AssertSqlSafe(sql), owner).await?;
         Ok(if models >= limit { Err(LimitReached::Models { models, limit }) } else { Ok(()) })
     }
 
@@ -124,7 +129,7 @@ impl Limits {
     }
 }
 
-async fn count(connection: &mut AnyConnection, sql: &'static str, owner: &str) -> Result<u64, StoreError> {
+async fn count(connection: &mut AnyConnection, sql: impl SqlSafeStr, owner: &str) -> Result<u64, StoreError> {
     let count: i64 = sqlx::query_scalar(sql).bind(owner).fetch_one(connection).await?;
     Ok(count.unsigned_abs())
 }

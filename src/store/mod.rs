@@ -66,7 +66,6 @@ pub use changes::Changes;
 pub use copy::{Copied, CopyError, CopyProgress, copy};
 pub use error::StoreError;
 pub use handle::{LOCK, Store};
-pub use legs::Followed;
 pub use objects::{Address, AddressError};
 pub use postgres::migrate;
 pub use readiness::Backlog;

@@ -33,13 +33,23 @@ pub(super) async fn open(url: &str) -> Result<AnyPool, StoreError> {
 pub async fn migrate(url: &str) -> Result<Vec<Upgrade>, StoreError> {
     // A connection of its own: its end releases the lock that makes others wait, however it ends.
     let mut connection = connect(url).await?;
-    let ours = Part { name: "jobs and results", history: "_sqlx_migrations", migrations: &POSTGRES };
+    let ours = Part {
+        name: "jobs and results",
+        history: "_sqlx_migrations",
+        joining: Some(&POSTGRES.joining),
+        migrations: &POSTGRES.migrator,
+    };
     #[cfg_attr(not(feature = "cluster"), expect(unused_mut, reason = "there is no other part"))]
     let mut upgrades = vec![ours.bring_up_to_date(&mut connection).await?];
     #[cfg(feature = "cluster")]
     {
         let migrations = shared_queue::migrations();
-        let queue = Part { name: "the queue", history: "apalis._sqlx_migrations", migrations: &migrations };
+        let queue = Part {
+            name: "the queue",
+            history: "apalis._sqlx_migrations",
+            joining: None,
+            migrations: &migrations,
+        };
         upgrades.push(queue.bring_up_to_date(&mut connection).await?);
     }
     connection.close().await?;

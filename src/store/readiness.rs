@@ -1,9 +1,13 @@
 //! Readiness of the store: whether written data can be read, free disk space, and waiting work.
 
+use sqlx::AssertSqlSafe;
+
 use super::dialect::Dialect;
 use super::error::StoreError;
 use super::handle::Store;
 use super::reserve::free_bytes;
+use crate::analysis::kinds::kind::Units;
+use crate::kinds::names_in_sql;
 
 /// Backlog of work that is waiting.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -43,13 +47,14 @@ impl Store {
     /// Counts the work that is waiting.
     pub async fn backlog(&self) -> Result<Backlog, StoreError> {
         // The condition is worded as in the index of these jobs.
-        let (jobs_accepted, jobs_running, speeds_unfinished) = sqlx::query_as::<_, (i64, i64, i64)>(
+        let count = format!(
             "select count(*) filter (where status = 'accepted'), count(*) filter (where status = 'running'),
-                 cast(coalesce(sum(speeds - finished) filter (where kind in ('sweep', 'campaign')), 0) as bigint)
+                 cast(coalesce(sum(speeds - finished) filter (where kind in {}), 0) as bigint)
              from jobs where status in ('accepted', 'running', 'paused') and status <> 'paused'",
-        )
-        .fetch_one(&self.readers)
-        .await?;
+            names_in_sql(Units::Speeds)
+        );
+        let (jobs_accepted, jobs_running, speeds_unfinished) =
+            sqlx::query_as::<_, (i64, i64, i64)>(AssertSqlSafe(count)).fetch_one(&self.readers).await?;
         // Only counts are read.
         Ok(Backlog {
             jobs_accepted: jobs_accepted.cast_unsigned(),

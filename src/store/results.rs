@@ -13,76 +13,16 @@ use super::jobs::job::JobId;
 use super::sql::{number, of};
 use super::time::now;
 use super::{end_states, packed};
+use crate::analysis::kinds::document::Document;
 use crate::analysis::result::{ContactForces, Point, PointStatus, SpeedResult, SpeedSpectra, WearMap};
 use crate::analysis::run::REVISION;
+use crate::kinds;
 
-/// Document computed during or at the end of a job.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Document {
-    /// Result of a modal analysis.
-    Campbell,
-    /// Critical speeds of a sweep at the sensor of this index.
-    CriticalSpeeds(u32),
-    /// Critical speeds of the wheel as a whole.
-    WheelCriticalSpeeds,
-    /// Estimated errors of a sweep.
-    Errors,
-    /// Errors and times of a study.
-    WorkPrecision,
-    /// Histories at the speed of this index.
-    Histories(u32),
-    /// States of the whole wheel at the speed of this index.
-    States(u32),
-    /// Leg of branches with this index.
-    BranchLeg(u32),
-    /// Course of branches of a running job: the state from which the next leg continues.
-    BranchCourse,
-    /// Leg of run-ups with this index.
-    RunUpLeg(u32),
-    /// Course of run-ups of a running job: the state from which the next leg continues.
-    RunUpCourse,
-    /// Spectra of the leg of run-ups with this index.
-    RunUpSpectra(u32),
-}
-
-impl Document {
-    /// Document that a row holds.
-    fn from_columns(name: &str, part: u32) -> Result<Self, StoreError> {
-        let all = [
-            Self::Campbell,
-            Self::CriticalSpeeds(part),
-            Self::WheelCriticalSpeeds,
-            Self::Errors,
-            Self::WorkPrecision,
-            Self::Histories(part),
-            Self::States(part),
-            Self::BranchLeg(part),
-            Self::BranchCourse,
-            Self::RunUpLeg(part),
-            Self::RunUpCourse,
-            Self::RunUpSpectra(part),
-        ];
-        let found = all.into_iter().find(|document| document.columns().0 == name);
-        found.ok_or_else(|| StoreError::Unknown { column: "documents.name", value: name.to_owned() })
-    }
-
-    /// Name and part of the document in the database.
-    pub fn columns(self) -> (&'static str, u32) {
-        match self {
-            Self::Campbell => ("campbell", 0),
-            Self::CriticalSpeeds(sensor) => ("critical_speeds", sensor),
-            Self::WheelCriticalSpeeds => ("wheel_critical_speeds", 0),
-            Self::Errors => ("errors", 0),
-            Self::WorkPrecision => ("work_precision", 0),
-            Self::Histories(speed) => ("histories", speed),
-            Self::States(speed) => ("states", speed),
-            Self::BranchLeg(index) => ("branches", index),
-            Self::BranchCourse => ("branch_course", 0),
-            Self::RunUpLeg(index) => ("run_ups", index),
-            Self::RunUpCourse => ("run_up_course", 0),
-            Self::RunUpSpectra(index) => ("run_up_spectra", index),
-        }
-    }
+/// Document that a row holds.
+fn document(name: &str, part: u32) -> Result<Document, StoreError> {
+    let found = kinds::all().flat_map(|kind| kind.documents).copied().find(|known| *known == name);
+    let unknown = || StoreError::Unknown { column: "documents.name", value: name.to_owned() };
+    Ok(Document::part(found.ok_or_else(unknown)?, part))
 }
 
 /// Finished speed as it is stored.
@@ -283,7 +223,7 @@ impl Store {
 
     /// Size of the text of a document in bytes, if it exists.
     pub async fn document_bytes(&self, job: JobId, document: Document) -> Result<Option<u64>, StoreError> {
-        let (name, part) = document.columns();
+        let Document { name, part } = document;
         let bytes: Option<i64> = sqlx::query_scalar(
             "select octet_length(body) from documents where job = $1 and name = $2 and part = $3",
         )
@@ -301,12 +241,12 @@ impl Store {
             .bind(job.to_string())
             .fetch_all(&self.readers)
             .await?;
-        rows.iter().map(|row| Document::from_columns(row.try_get("name")?, number(row, "part")?)).collect()
+        rows.iter().map(|row| document(row.try_get("name")?, number(row, "part")?)).collect()
     }
 
     /// Finds a document of a finished job, as JSON text.
     pub async fn document(&self, job: JobId, document: Document) -> Result<Option<String>, StoreError> {
-        let (name, part) = document.columns();
+        let Document { name, part } = document;
         Ok(sqlx::query_scalar("select body from documents where job = $1 and name = $2 and part = $3")
             .bind(job.to_string())
             .bind(name)
@@ -323,7 +263,7 @@ pub(super) async fn insert_document(
     document: Document,
     body: &str,
 ) -> Result<bool, StoreError> {
-    let (name, part) = document.columns();
+    let Document { name, part } = document;
     let inserted = sqlx::query(
         "insert into documents (job, name, part, body, created_at)
          select $1, $2, $3, $4, $5 where exists (select 1 from jobs where id = $1 and deleted = 0)

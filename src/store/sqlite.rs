@@ -6,15 +6,13 @@ use std::time::Duration;
 
 use sqlx::any::{AnyConnectOptions, AnyPoolOptions, install_default_drivers};
 use sqlx::migrate::MigrateError;
-#[cfg(test)]
-use sqlx::migrate::Migrator;
 use sqlx::sqlite::{
     SqliteAutoVacuum, SqliteConnectOptions, SqliteConnection, SqliteJournalMode, SqliteSynchronous,
 };
-use sqlx::{AnyConnection, AnyPool, ConnectOptions, Connection};
+use sqlx::{AnyConnection, AnyPool, AssertSqlSafe, ConnectOptions, Connection, Executor};
 
 use super::error::StoreError;
-use super::migrations::SQLITE;
+use super::migrations::{Joining, SQLITE};
 use super::packages::count_packages;
 
 /// Name of the database in its folder.
@@ -107,7 +105,8 @@ async fn bring_up_to_date(folder: &Path) -> Result<(), StoreError> {
         .busy_timeout(PATIENCE)
         .connect()
         .await?;
-    SQLITE.run(&mut connection).await.map_err(|error| match error {
+    join(&mut connection).await?;
+    SQLITE.migrator.run(&mut connection).await.map_err(|error| match error {
         MigrateError::VersionMissing(found) => {
             StoreError::NewerTables { part: "the data folder", found, known: known_version() }
         }
@@ -118,9 +117,43 @@ async fn bring_up_to_date(folder: &Path) -> Result<(), StoreError> {
     Ok(())
 }
 
+/// Brings tables that earlier programs made in many steps to those that are now made as a whole.
+async fn join(connection: &mut SqliteConnection) -> Result<(), StoreError> {
+    let history =
+        "select exists (select 1 from sqlite_master where type = 'table' and name = '_sqlx_migrations')";
+    if !sqlx::query_scalar::<_, bool>(history).fetch_one(&mut *connection).await? {
+        return Ok(());
+    }
+    let Joining { from, sql, to, checksum } = &SQLITE.joining;
+    let found: Option<i64> =
+        sqlx::query_scalar("select max(version) from _sqlx_migrations").fetch_one(&mut *connection).await?;
+    match found {
+        Some(found) if found == *from => {}
+        Some(found) if found < *from => return Err(StoreError::OlderTables { found, least: *from }),
+        _ => return Ok(()),
+    }
+    tracing::info!("bringing the tables up to date, once");
+    // References to tables that are made anew are checked again afterwards; the setting cannot be changed within a transaction.
+    connection.execute("pragma foreign_keys = off").await?;
+    let mut transaction = connection.begin_with("begin immediate").await?;
+    transaction.execute(AssertSqlSafe(sql.as_str())).await?;
+    transaction.execute("delete from _sqlx_migrations").await?;
+    sqlx::query(
+        "insert into _sqlx_migrations (version, description, success, checksum, execution_time)
+         values ($1, 'tables', true, $2, 0)",
+    )
+    .bind(to)
+    .bind(checksum)
+    .execute(&mut *transaction)
+    .await?;
+    transaction.commit().await?;
+    connection.execute("pragma foreign_keys = on").await?;
+    Ok(())
+}
+
 /// Version to which this program brings tables.
 pub(super) fn known_version() -> i64 {
-    SQLITE.iter().map(|migration| migration.version).max().unwrap_or_default()
+    SQLITE.migrator.iter().map(|migration| migration.version).max().unwrap_or_default()
 }
 
 /// Version of the tables of `database`, which has some.
@@ -146,38 +179,21 @@ async fn make_shrinkable(connection: &mut SqliteConnection) -> Result<(), StoreE
 
 #[cfg(test)]
 mod tests {
-    use sqlx::SqlitePool;
-
     use super::*;
     use crate::store::Store;
-    use crate::store::jobs::JobId;
+    use crate::store::jobs::JobFilter;
     use crate::store::packages::{package_path, packages_folder};
-    use crate::store::results::Document;
 
-    /// Data folder as the program made it with the migrations before `version`, with one finished sweep.
-    async fn older_folder(job: JobId, version: i64) -> tempfile::TempDir {
+    /// Data folder of an earlier program, whose tables have version 26.
+    async fn older_folder() -> tempfile::TempDir {
         let folder = tempfile::tempdir().unwrap();
-        let file = folder.path().join("rubmap.sqlite");
-        let options = SqliteConnectOptions::new().filename(file).create_if_missing(true).foreign_keys(true);
-        let pool = SqlitePool::connect_with(options).await.unwrap();
-        let older = SQLITE.iter().filter(|migration| migration.version < version).cloned().collect();
-        Migrator::with_migrations(older).run(&pool).await.unwrap();
-        sqlx::query(
-            "insert into jobs (id, kind, status, model, modes_per_speed, facts, request, speeds, created_at,
-                 finished_at, updated_at)
-             values ($1, 'sweep', 'successful', 'm', 20, '{}', '{}', 1, 'a', 'b', 'c')",
-        )
-        .bind(job.to_string())
-        .execute(&pool)
-        .await
-        .unwrap();
-        for result in [
-            "insert into speed_results (job, speed, status, point, created_at) values ($1, 7, 'failed', '{}', 'a')",
-            "insert into documents (job, name, part, body, created_at) values ($1, 'campbell', 0, '[1]', 'a')",
-        ] {
-            sqlx::query(result).bind(job.to_string()).execute(&pool).await.unwrap();
-        }
-        pool.close().await;
+        let options = SqliteConnectOptions::new()
+            .filename(folder.path().join(DATABASE))
+            .create_if_missing(true)
+            .foreign_keys(false);
+        let mut connection = options.connect().await.unwrap();
+        connection.execute(include_str!("testing/tables_0026.sql")).await.unwrap();
+        connection.close().await.unwrap();
         folder
     }
 
@@ -283,50 +299,92 @@ mod tests {
         assert!(!wrong.is_disk_full(), "{wrong}");
     }
 
-    /// Migrations without a transaction run again if the service dies before it records them.
+    /// Jobs of every kind are read after the one step from the tables of an earlier program, and the unfinished one goes on.
     #[tokio::test]
-    async fn scripts_without_a_transaction_may_run_again() {
-        for version in [4, 9] {
-            let job = JobId::new();
-            let folder = older_folder(job, version + 1).await;
-            let options = SqliteConnectOptions::new().filename(folder.path().join(DATABASE));
-            let pool = SqlitePool::connect_with(options).await.unwrap();
-            sqlx::query("delete from _sqlx_migrations where version = $1")
-                .bind(version)
-                .execute(&pool)
-                .await
-                .unwrap();
-            pool.close().await;
-            let store = Store::open(folder.path()).await.unwrap();
-            assert_eq!(store.finished_speeds(job).await.unwrap().len(), 1);
-            store.close().await;
-        }
-    }
-
-    #[tokio::test]
-    async fn results_of_older_versions_stay_when_the_table_of_jobs_is_made_anew() {
-        for version in [4, 9] {
-            stays(version).await;
-        }
-    }
-
-    async fn stays(version: i64) {
-        let job = JobId::new();
-        let folder = older_folder(job, version).await;
+    async fn jobs_of_an_earlier_program_stay() {
+        let folder = older_folder().await;
         let store = Store::open(folder.path()).await.unwrap();
-        assert_eq!(store.finished_speeds(job).await.unwrap().into_iter().collect::<Vec<_>>(), [7]);
-        assert_eq!(store.document(job, Document::Campbell).await.unwrap().as_deref(), Some("[1]"));
-        let kept: (String, i64) = sqlx::query_as("select updated_at, modes_per_speed from jobs")
-            .fetch_one(&store.readers)
-            .await
-            .unwrap();
-        assert_eq!(kept, ("c".to_owned(), 20));
+        let heads = store.jobs(JobFilter::default(), 100).await.unwrap();
+        let mut kinds: Vec<&str> = heads.iter().map(|job| job.kind.name).collect();
+        kinds.sort_unstable();
+        let all = [
+            "branches",
+            "campaign",
+            "case_study",
+            "modal_analysis",
+            "model_generation",
+            "run_up",
+            "sweep",
+            "sweep",
+        ];
+        assert_eq!(kinds, all);
+        for head in &heads {
+            let job = store.job(head.id).await.unwrap().unwrap();
+            assert_eq!(job.request.speeds(), head.speeds.total, "{}", head.kind.name);
+            // The form in which these were stored is not the one that is posted.
+            let resolved_otherwise =
+                ["branches", "campaign", "case_study", "run_up"].contains(&head.kind.name);
+            assert_eq!(job.posted.is_none(), resolved_otherwise, "{}", head.kind.name);
+            if let Some(posted) = &job.posted {
+                (head.kind.read)(&posted.body).unwrap();
+            }
+            let documents = store.documents(head.id).await.unwrap();
+            assert_eq!(
+                documents.is_empty(),
+                ["campaign", "model_generation"].contains(&head.kind.name) || !head.status.is_final()
+            );
+        }
+        let unfinished = heads.iter().find(|job| job.status.wants_work()).unwrap();
+        assert_eq!((unfinished.labels.name.as_deref(), unfinished.speeds.finished), (Some("unfinished"), 0));
+        let finished = heads.iter().find(|job| job.labels.name.as_deref() == Some("first")).unwrap();
+        assert_eq!(store.finished_speeds(finished.id).await.unwrap().len(), 2);
 
         // References are checked as before, now to the new table.
         let lost =
             "insert into documents (job, name, part, body, created_at) values ('x', 'campbell', 0, '1', 'a')";
         assert!(sqlx::query(lost).execute(&store.writer).await.is_err());
         sqlx::query("delete from jobs").execute(&store.writer).await.unwrap();
-        assert!(store.finished_speeds(job).await.unwrap().is_empty());
+        assert!(store.finished_speeds(finished.id).await.unwrap().is_empty());
+        store.close().await;
+        // The step is not made twice.
+        Store::open(folder.path()).await.unwrap().close().await;
+    }
+
+    /// Tables that came from an earlier program are those of a new folder.
+    #[tokio::test]
+    async fn older_tables_become_what_new_ones_are() {
+        let (older, new) = (older_folder().await, tempfile::tempdir().unwrap());
+        let mut found = Vec::new();
+        for folder in [older.path(), new.path()] {
+            let store = Store::open(folder).await.unwrap();
+            let indices =
+                "select name, sql from sqlite_master where type = 'index' and sql is not null order by name";
+            let indices: Vec<(String, String)> =
+                sqlx::query_as(indices).fetch_all(&store.readers).await.unwrap();
+            let columns = "select tables.name || '.' || columns.name,
+                    columns.type || columns.\"notnull\" || columns.pk || coalesce(columns.dflt_value, '')
+                from sqlite_master as tables, pragma_table_info(tables.name) as columns
+                where tables.type = 'table' and tables.name not like 'sqlite%' order by 1";
+            let columns: Vec<(String, String)> =
+                sqlx::query_as(columns).fetch_all(&store.readers).await.unwrap();
+            let plain = |sql: &str| {
+                sql.to_lowercase().split_whitespace().collect::<Vec<_>>().join(" ").replace('"', "")
+            };
+            found.push((indices.iter().map(|(_, sql)| plain(sql)).collect::<Vec<_>>(), columns));
+            store.close().await;
+        }
+        assert_eq!(found[0], found[1]);
+    }
+
+    #[tokio::test]
+    async fn tables_that_are_too_old_are_left_alone() {
+        let folder = older_folder().await;
+        let options = SqliteConnectOptions::new().filename(folder.path().join(DATABASE));
+        let mut connection = options.connect().await.unwrap();
+        connection.execute("delete from _sqlx_migrations where version = 26").await.unwrap();
+        connection.close().await.unwrap();
+        let refused = Store::open(folder.path()).await.unwrap_err();
+        assert!(matches!(refused, StoreError::OlderTables { found: 25, least: 26 }), "{refused}");
+        assert!(!refused.may_pass());
     }
 }

@@ -5,9 +5,10 @@
 use std::collections::BTreeMap;
 
 use sqlx::migrate::{MigrateError, Migrator};
-use sqlx::{AnyConnection, AssertSqlSafe};
+use sqlx::{AnyConnection, AssertSqlSafe, Connection, Executor};
 
 use super::error::StoreError;
+use super::migrations::Joining;
 use super::refusal::is_forbidden;
 
 /// Rights of the accounts that bring tables up to date, and of those that use them.
@@ -29,6 +30,8 @@ pub(super) struct Part<'a> {
     pub(super) name: &'static str,
     /// Name of the table that records which migrations were run.
     pub(super) history: &'static str,
+    /// Step from the tables that earlier programs made.
+    pub(super) joining: Option<&'a Joining>,
     pub(super) migrations: &'a Migrator,
 }
 
@@ -49,6 +52,7 @@ impl Part<'_> {
         &self,
         connection: &mut AnyConnection,
     ) -> Result<Upgrade, StoreError> {
+        let joined = self.join(connection).await?;
         let steps = self.missing(connection).await?;
         if steps > 0 {
             self.migrations.run(connection).await.map_err(|error| match error {
@@ -62,14 +66,41 @@ impl Part<'_> {
                 error => error.into(),
             })?;
         }
-        Ok(Upgrade { part: self.name, steps, version: self.version() })
+        Ok(Upgrade { part: self.name, steps: steps + usize::from(joined), version: self.version() })
+    }
+
+    /// Brings tables that earlier programs made in many steps to those that are now made as a whole; returns whether there were such.
+    async fn join(&self, connection: &mut AnyConnection) -> Result<bool, StoreError> {
+        let Some(Joining { from, sql, to, checksum }) = self.joining else { return Ok(false) };
+        let is_from = |found: &BTreeMap<i64, Vec<u8>>| found.keys().next_back() == Some(from);
+        let found = self.found(connection).await.map_err(not_up_to_date)?;
+        if let Some((found, _)) = found.last_key_value().filter(|(found, _)| *found < from) {
+            return Err(StoreError::OlderTables { found: *found, least: *from });
+        }
+        if !is_from(&found) {
+            return Ok(false);
+        }
+        let mut transaction = connection.begin().await?;
+        // Other processes that want the same wait here, and find it done.
+        let lock = format!("lock table {} in exclusive mode", self.history);
+        transaction.execute(AssertSqlSafe(lock)).await.map_err(not_up_to_date)?;
+        if !is_from(&self.found(&mut transaction).await?) {
+            return Ok(false);
+        }
+        transaction.execute(AssertSqlSafe(sql.as_str())).await.map_err(not_up_to_date)?;
+        transaction.execute(AssertSqlSafe(format!("delete from {}", self.history))).await?;
+        let record = format!(
+            "insert into {} (version, description, success, checksum, execution_time) values ($1, 'tables', true, $2, 0)",
+            self.history
+        );
+        sqlx::query(AssertSqlSafe(record)).bind(to).bind(checksum).execute(&mut *transaction).await?;
+        transaction.commit().await?;
+        Ok(true)
     }
 
     /// Number of missing migrations.
     async fn missing(&self, connection: &mut AnyConnection) -> Result<usize, StoreError> {
-        let mut found = self.found(connection).await.map_err(|error| {
-            if is_forbidden(&error) { StoreError::NotUpToDate(error) } else { error.into() }
-        })?;
+        let mut found = self.found(connection).await.map_err(not_up_to_date)?;
         let mut missing = 0;
         for migration in self.migrations.iter() {
             match found.remove(&migration.version) {
@@ -99,6 +130,11 @@ impl Part<'_> {
     fn newer(&self, found: i64) -> StoreError {
         StoreError::NewerTables { part: self.name, found, known: self.version() }
     }
+}
+
+/// Error of an account that may not bring tables up to date, or another one.
+fn not_up_to_date(error: sqlx::Error) -> StoreError {
+    if is_forbidden(&error) { StoreError::NotUpToDate(error) } else { error.into() }
 }
 
 #[cfg(all(test, feature = "cluster"))]

@@ -318,7 +318,6 @@ async fn branches_are_told_in_all_forms_and_of_other_jobs_not_at_all() {
     assert_eq!(api.get(&format!("{path}?sensor=99")).await.status, 400);
     assert_eq!(api.get(&format!("{path}?sweep={id}")).await.status, 409);
     assert_eq!(api.get(&format!("/v1/jobs/{id}/interaction-map")).await.status, 409);
-    assert_eq!(api.get(&format!("/v1/jobs/{id}/archive")).await.status, 409);
     let other = api.model(model::package(2.0)).await;
     let of_other = api.sweep(&sweep_of(&other)).await;
     assert_eq!(api.get(&format!("{path}?format=svg&sweep={of_other}")).await.status, 400);

@@ -109,7 +109,6 @@ async fn designs_are_what_their_sweeps_are() {
     get(api, &format!("/v1/jobs/{id}/campaign?format=plotly"), &[]).await.good();
     assert_eq!(api.get(&format!("/v1/jobs/{id}/campaign?parameter=x")).await.status, 400);
     assert_eq!(api.get(&format!("/v1/jobs/{id}/interaction-map")).await.status, 409);
-    assert_eq!(api.get(&format!("/v1/jobs/{id}/archive")).await.status, 409);
     app.stop().await;
 }
 

@@ -43,7 +43,7 @@ async fn a_job_is_called_what_its_owner_likes_and_computes_the_same() {
     // The request is as it was asked for and can be asked for again; the labels are no part of it, nor of what was computed.
     assert_eq!(job["request"], other["request"]);
     assert!(job["request"].get("name").is_none());
-    let mut again = job["request"].clone();
+    let mut again = job["posted"].clone();
     again["tags"] = json!(["again"]);
     assert_eq!(api.finish(&api.sweep(&again).await).await["request"], job["request"]);
     let map = async |id: &str| {

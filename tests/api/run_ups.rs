@@ -122,7 +122,6 @@ async fn run_ups_take_what_was_planned_and_are_told_in_all_forms() {
         (format!("{spectrogram}?over=time"), 400),
         (format!("{path}?sweep={id}"), 409),
         (format!("/v1/jobs/{id}/interaction-map"), 409),
-        (format!("/v1/jobs/{id}/archive"), 409),
     ] {
         assert_eq!(api.get(&query).await.status, status, "{query}");
     }

@@ -45,12 +45,12 @@ export async function show(main, { query }, signal) {
       h('form', { novalidate: true, on: { submit: start } }, fields, told, phase, bar, h('div', { class: 'row' }, button)),
       aside));
   // The plan tells every parameter of the preset.
-  const whole = await api.send('POST', '/v1/models/plan', earlier?.request ?? base, { signal });
+  const whole = await api.send('POST', '/v1/models/plan', earlier?.posted ?? base, { signal });
   const draft = draftHere();
   const kept = draft.kept();
   const value = kept ?? Object.fromEntries(Object.entries(whole.settings).filter(([, part]) => part !== null));
   const made = form({
-    schema: { $ref: '#/components/schemas/LabelledImpellerRequest' },
+    schema: { $ref: '#/components/schemas/ImpellerRequest' },
     definitions, value, groups: GROUPS, skip: ['/preset'],
     initial: (pointer) => (pointer === '/splitter' ? {} : undefined),
     onChange: (now) => {

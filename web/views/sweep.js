@@ -5,50 +5,46 @@ import { h, replace } from '../lib/dom.js';
 import { nameOf, percent } from '../lib/format.js';
 import { placeWith } from '../lib/place.js';
 import { select } from './job/choices.js';
-import { branchesOf } from './request/branches.js';
-import { campaignOf, campaignOfModel } from './request/campaign.js';
-import { runUpsOf, runUpsOfModel } from './request/run-up.js';
-import { askedOf, chooseModel, requestForm } from './request/view.js';
+import { campaignOfModel } from './request/campaign.js';
+import { runUpsOfModel } from './request/run-up.js';
+import { chooseModel, requestForm } from './request/view.js';
 import { CLEARANCE, sceneOf, speedsOf } from './request/sensible.js';
 
-/** Kinds of jobs that are asked for by a form; `asked`: their request again, where a job keeps it in another form. */
+/** Kinds of jobs that are asked for by a form. */
 export const REQUESTS = {
   sweep: {
-    words: 'Sweep: contact over a range of speeds', schema: 'LabelledSweepRequest', path: '/v1/sweeps', plan: '/v1/sweeps/plan', priced: true,
+    words: 'Sweep: contact over a range of speeds', schema: 'SweepRequest', path: '/v1/sweeps', plan: '/v1/sweeps/plan', priced: true,
     begin: (model) => ({ model: model.id, speeds: speedsOf(model), scene: sceneOf(model) }),
   },
   modal_analysis: {
-    words: 'Modal analysis: frequencies over speed', schema: 'LabelledModalAnalysisRequest', path: '/v1/modal-analyses', plan: '/v1/modal-analyses/plan', priced: false,
+    words: 'Modal analysis: frequencies over speed', schema: 'ModalAnalysisRequest', path: '/v1/modal-analyses', plan: '/v1/modal-analyses/plan', priced: false,
     begin: (model) => ({ model: model.id, speeds: { ...speedsOf(model, 25), from: 0 }, lobes: 2 }),
   },
   study: {
-    words: 'Study: what accuracy costs', schema: 'LabelledStudyRequest', path: '/v1/studies', plan: null, priced: false,
+    words: 'Study: what accuracy costs', schema: 'StudyRequest', path: '/v1/studies', plan: '/v1/studies/plan', priced: false,
     begin: (model) => {
       const { to } = speedsOf(model);
       return { model: model.id, speeds: { values: [Math.round(0.6 * to)], unit: 'rpm' }, scene: sceneOf(model) };
     },
   },
   case_study: {
-    words: 'Case study: one speed in detail', schema: 'LabelledCaseStudyRequest', path: '/v1/case-studies', plan: null, priced: false,
+    words: 'Case study: one speed in detail', schema: 'CaseStudyRequest', path: '/v1/case-studies', plan: '/v1/case-studies/plan', priced: false,
     begin: (model) => ({ model: model.id, speed: { value: Math.round(0.6 * speedsOf(model).to), unit: 'rpm' }, scene: sceneOf(model) }),
   },
   branches: {
-    words: 'Branches: periodic responses followed', schema: 'LabelledBranchesRequest', path: '/v1/branches', plan: '/v1/branches/plan', priced: false,
+    words: 'Branches: periodic responses followed', schema: 'BranchesRequest', path: '/v1/branches', plan: '/v1/branches/plan', priced: false,
     begin: (model) => {
       const { from, to } = speedsOf(model);
       return { model: model.id, speed: { value: Math.round(0.6 * to), unit: 'rpm' }, along: { parameter: 'speed', from, to }, scene: sceneOf(model) };
     },
-    asked: branchesOf,
   },
   run_up: {
-    words: 'Run-up or run-down: a speed that changes', schema: 'LabelledRunUpRequest', path: '/v1/run-ups', plan: '/v1/run-ups/plan', priced: false,
+    words: 'Run-up or run-down: a speed that changes', schema: 'RunUpRequest', path: '/v1/run-ups', plan: '/v1/run-ups/plan', priced: false,
     begin: runUpsOfModel,
-    asked: runUpsOf,
   },
   campaign: {
-    words: 'Campaign: many designs of a scene', schema: 'LabelledCampaignRequest', path: '/v1/campaigns', plan: '/v1/campaigns/plan', priced: false,
+    words: 'Campaign: many designs of a scene', schema: 'CampaignRequest', path: '/v1/campaigns', plan: '/v1/campaigns/plan', priced: false,
     begin: campaignOfModel,
-    asked: campaignOf,
   },
 };
 
@@ -58,9 +54,10 @@ export async function show(main, { query }, signal, first = 'sweep') {
     const job = await api.get(`/v1/jobs/${query.get('as')}`, { signal });
     const kind = REQUESTS[job.kind];
     if (!kind) throw new Error(`a job of kind ${job.kind} has no form`);
+    if (job.posted_to !== kind.path) throw new Error('the request of this job was not kept, or belongs to another job: begin a new one');
     replace(main, h('h1', {}, `As ${nameOf(job)}, but …`), place);
     const model = await api.get(`/v1/models/${job.model}`, { signal });
-    await requestForm(place, { model, kind, value: kind.asked ? kind.asked(job) : askedOf(job), words: `Model: ${model.name}` }, signal);
+    await requestForm(place, { model, kind, value: job.posted, words: `Model: ${model.name}` }, signal);
     return;
   }
   const name = query.get('kind') ?? first;

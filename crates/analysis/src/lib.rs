@@ -15,9 +15,7 @@
 //!   ([`run::next`], [`run::next_modes`]) and for the error of a finished sweep ([`run::error_estimate`]).
 
 pub mod accuracy;
-mod branches;
 mod calibration;
-mod campaign;
 mod check;
 mod component;
 mod contact;
@@ -31,7 +29,7 @@ pub mod euler_load;
 pub mod fields;
 mod gauge;
 mod histories;
-mod modal;
+pub mod kinds;
 mod model;
 pub mod monitor;
 mod not_runnable;
@@ -46,7 +44,6 @@ pub mod resolved;
 mod response_curve;
 pub mod result;
 pub mod run;
-mod run_up;
 mod sensed;
 mod speed;
 mod start;

@@ -17,8 +17,7 @@ use super::client::Client;
 use super::progress;
 use super::session::{Session, upload};
 use crate::analysis::run::{REVISION, vectors};
-use crate::http::archive::manifest::{PACKAGE, REQUEST};
-use crate::store::jobs::JobKind;
+use crate::http::archive::manifest::{COMPARED_PACKAGE, PACKAGE, REQUEST};
 
 /// Results at most whose differences are shown.
 const SHOWN: usize = 10;
@@ -49,7 +48,7 @@ pub(super) fn run(args: &RepeatArgs) -> anyhow::Result<ExitCode> {
         return Ok(ExitCode::FAILURE);
     }
     let job = &archived.manifest.job;
-    println!("archive   {}: {} {}, as it was written", args.archive.display(), job.kind.as_str(), job.id);
+    println!("archive   {}: {} {}, as it was written", args.archive.display(), job.kind.name, job.id);
 
     let folder = tempfile::tempdir().context("cannot make a temporary folder")?;
     let repeated = folder.path().join("repeated.zip");
@@ -67,27 +66,28 @@ pub(super) fn run(args: &RepeatArgs) -> anyhow::Result<ExitCode> {
 
 /// Posts the archived request to a service once more, and downloads an archive of its results.
 async fn repeat(archived: &Archive, client: &Client, folder: &Path, to: &Path) -> anyhow::Result<()> {
-    let package = folder.join(PACKAGE);
-    let mut file = File::create(&package).with_context(|| format!("cannot write {}", package.display()))?;
-    archived.extract(PACKAGE, &mut file)?;
     let request: Value = archived.json(REQUEST)?;
-    let model = upload(client, &package).await?;
-    if request["model"] != model.id.as_str() {
-        bail!("the archive's request is about another model than its package");
+    let job = &archived.manifest.job;
+    if !job.posted_to.is_empty() && job.posted_to != job.kind.route {
+        bail!(
+            "its request was posted to {}, a sweep that the archive does not have: repeat the sweep, with `record` for the histories",
+            job.posted_to
+        );
     }
-    let path = match archived.manifest.job.kind {
-        JobKind::Sweep => "/v1/sweeps",
-        JobKind::ModalAnalysis => "/v1/modal-analyses",
-        JobKind::Study => "/v1/studies",
-        JobKind::ModelGeneration
-        | JobKind::CaseStudy
-        | JobKind::Branches
-        | JobKind::RunUp
-        | JobKind::Campaign => {
-            bail!("jobs of this kind are not repeated from an archive")
+    for (name, field) in [(PACKAGE, "model"), (COMPARED_PACKAGE, "compared_model")] {
+        if request.get(field).is_none() {
+            continue;
         }
-    };
-    let job = client.post_job(path, &request).await?;
+        let package = folder.join(name);
+        let mut file =
+            File::create(&package).with_context(|| format!("cannot write {}", package.display()))?;
+        archived.extract(name, &mut file)?;
+        let model = upload(client, &package).await?;
+        if request[field] != model.id.as_str() {
+            bail!("the archive's request is about another model than its {name}");
+        }
+    }
+    let job = client.post_job(job.kind.route, &request).await?;
     let job = progress::follow(client, &job, "once more").await?;
     client.save(job.link("archive")?, to).await
 }

@@ -4,11 +4,12 @@ use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
 
 use super::find;
-use super::kind::Kind;
+use super::kind::kind;
 use crate::cli::client::{Answer, Client, Job, Model, ServerArgs};
 use crate::cli::size::size;
 use crate::cli::stdout::{print, print_json};
 use crate::cli::verb::Verb;
+use crate::kinds::JobKind;
 use crate::store::status::JobStatus;
 
 /// Jobs or models to list.
@@ -21,8 +22,8 @@ pub(in crate::cli) struct LsArgs {
     #[arg(long, value_enum)]
     status: Option<Status>,
     /// Only jobs of this kind
-    #[arg(long, value_enum)]
-    kind: Option<Kind>,
+    #[arg(long, value_parser = kind())]
+    kind: Option<JobKind>,
     /// Only jobs of this model: its id, the beginning of it, or its name
     #[arg(long)]
     model: Option<String>,
@@ -89,7 +90,7 @@ impl Verb for LsArgs {
         };
         let filters = [
             ("status", self.status.map(|status| JobStatus::from(status).as_str())),
-            ("kind", self.kind.map(Kind::word)),
+            ("kind", self.kind.map(|kind| kind.0.name)),
             ("model", model.as_deref()),
             ("name", self.name.as_deref()),
             ("tag", self.tag.as_deref()),

@@ -2,20 +2,29 @@
 
 use std::fmt::Write;
 
-use clap::builder::{PossibleValuesParser, TypedValueParser};
-use clap::{Args, ValueEnum};
+use clap::Args;
+use serde_json::{Value, from_value};
 
-use super::kind::Kind;
+use super::kind::kind;
 use super::submit::RequestArgs;
+use crate::analysis::kinds::branches::BRANCHES;
+use crate::analysis::kinds::campaign::CAMPAIGN;
+use crate::analysis::kinds::case_study::CASE_STUDY;
+use crate::analysis::kinds::modal_analysis::MODAL_ANALYSIS;
+use crate::analysis::kinds::run_up::RUN_UP;
+use crate::analysis::kinds::study::STUDY;
+use crate::analysis::kinds::sweep::SWEEP;
 use crate::analysis::result::{
     BranchesPlan, CampaignPlan, Estimate, Machine, ModalAnalysisPlan, PlannedEffect, ReductionState,
-    RunUpPlan, SweepPlan,
+    RunUpPlan, StudyPlan, SweepPlan,
 };
 use crate::cli::client::{Client, ServerArgs};
 use crate::cli::size::size;
 use crate::cli::stdout::{print, print_json};
 use crate::cli::verb::Verb;
 use crate::impeller::GenerationPlan;
+use crate::kinds::JobKind;
+use crate::kinds::generation::MODEL_GENERATION;
 
 /// Request to plan.
 #[derive(Debug, Args)]
@@ -23,9 +32,8 @@ pub(in crate::cli) struct PlanArgs {
     #[command(flatten)]
     request: RequestArgs,
     /// Kind of the job that would be computed
-    #[arg(long, default_value = "sweep", value_parser =
-        PossibleValuesParser::new(["sweep", "modal-analysis", "branches", "run-up", "campaign", "model-generation"]).try_map(|kind| Kind::from_str(&kind, false)))]
-    kind: Kind,
+    #[arg(long, default_value = "sweep", value_parser = kind())]
+    kind: JobKind,
     /// Print the plan as JSON
     #[arg(long)]
     json: bool,
@@ -44,21 +52,28 @@ impl Verb for PlanArgs {
 
     async fn play(&self, client: &Client) -> anyhow::Result<()> {
         let body = self.request.body(client, self.kind).await?;
-        let path = format!("{}/plan", self.kind.route());
-        if self.json {
-            return print_json(&client.post(&path, &body).await?);
+        let plan: Value = client.post(&format!("{}/plan", self.kind.route), &body).await?;
+        match IN_WORDS.iter().find(|(name, _)| *name == self.kind.name) {
+            Some((_, words)) if !self.json => print(words(plan)?.trim_end()),
+            _ => print_json(&plan),
         }
-        let words = match self.kind {
-            Kind::ModalAnalysis => modal_analysis(&client.post(&path, &body).await?),
-            Kind::Branches => branches(&client.post(&path, &body).await?),
-            Kind::RunUp => run_ups(&client.post(&path, &body).await?),
-            Kind::Campaign => campaign(&client.post(&path, &body).await?),
-            Kind::ModelGeneration => generation(&client.post(&path, &body).await?),
-            _ => sweep(&client.post(&path, &body).await?),
-        };
-        print(words.trim_end())
     }
 }
+
+/// Plan of one kind of job in words.
+type InWords = fn(Value) -> serde_json::Result<String>;
+
+/// Kinds of jobs whose plans are printed in words; those of others are printed as JSON.
+static IN_WORDS: [(&str, InWords); 8] = [
+    (SWEEP.name, |plan| from_value(plan).map(|plan| sweep(&plan))),
+    (CASE_STUDY.name, |plan| from_value(plan).map(|plan| sweep(&plan))),
+    (MODAL_ANALYSIS.name, |plan| from_value(plan).map(|plan| modal_analysis(&plan))),
+    (BRANCHES.name, |plan| from_value(plan).map(|plan| branches(&plan))),
+    (RUN_UP.name, |plan| from_value(plan).map(|plan| run_ups(&plan))),
+    (CAMPAIGN.name, |plan| from_value(plan).map(|plan| campaign(&plan))),
+    (STUDY.name, |plan| from_value(plan).map(|plan| study(&plan))),
+    (MODEL_GENERATION.name, |plan| from_value(plan).map(|plan| generation(&plan))),
+];
 
 fn sweep(plan: &SweepPlan) -> String {
     let mut words = effects(&plan.effects);
@@ -174,6 +189,15 @@ fn modal_analysis(plan: &ModalAnalysisPlan) -> String {
     if let Some(seconds) = plan.computing_time_s {
         let _ = writeln!(words, "time        {}", time(seconds));
     }
+    warnings(words, &plan.warnings)
+}
+
+fn study(plan: &StudyPlan) -> String {
+    let mut words = effects(&plan.effects);
+    let _ = writeln!(words, "runs        {} at {} speeds", plan.simulations, plan.speeds);
+    let _ = writeln!(words, "steps       {:.3} million", plan.steps as f64 / 1e6);
+    let modes: Vec<String> = plan.reductions.iter().map(ToString::to_string).collect();
+    let _ = writeln!(words, "reductions  of {} modes per speed", modes.join(", "));
     warnings(words, &plan.warnings)
 }
 

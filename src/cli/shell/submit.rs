@@ -5,12 +5,14 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use serde_json::{Value, json};
 
-use super::kind::Kind;
+use super::kind::kind;
 use super::{find, watch};
+use crate::analysis::kinds::sweep::SWEEP;
 use crate::cli::client::{Client, ServerArgs, UploadLabels};
 use crate::cli::request::{Setting, read};
 use crate::cli::stdout::{print, print_json};
 use crate::cli::verb::Verb;
+use crate::kinds::JobKind;
 
 /// Request for a job, its model and its changes.
 #[derive(Debug, Args)]
@@ -27,8 +29,8 @@ pub(super) struct RequestArgs {
 
 impl RequestArgs {
     /// Body of the request, with its model and its changes.
-    pub(super) async fn body(&self, client: &Client, kind: Kind) -> anyhow::Result<Value> {
-        let mut body = read(&self.request, kind.route())?;
+    pub(super) async fn body(&self, client: &Client, kind: JobKind) -> anyhow::Result<Value> {
+        let mut body = read(&self.request, kind.route)?;
         for setting in &self.settings {
             setting.apply(&mut body)?;
         }
@@ -68,8 +70,8 @@ pub(in crate::cli) struct SweepArgs {
 #[derive(Debug, Args)]
 pub(in crate::cli) struct SubmitArgs {
     /// Kind of the job
-    #[arg(long, value_enum)]
-    kind: Kind,
+    #[arg(long, value_parser = kind())]
+    kind: JobKind,
     #[command(flatten)]
     job: SweepArgs,
 }
@@ -84,7 +86,7 @@ impl Verb for SweepArgs {
     }
 
     async fn play(&self, client: &Client) -> anyhow::Result<()> {
-        self.submit(client, Kind::Sweep).await
+        self.submit(client, JobKind(&SWEEP)).await
     }
 }
 
@@ -103,9 +105,9 @@ impl Verb for SubmitArgs {
 }
 
 impl SweepArgs {
-    async fn submit(&self, client: &Client, kind: Kind) -> anyhow::Result<()> {
+    async fn submit(&self, client: &Client, kind: JobKind) -> anyhow::Result<()> {
         let body = self.request.body(client, kind).await?;
-        let mut job = client.post_job(kind.route(), &body).await?;
+        let mut job = client.post_job(kind.route, &body).await?;
         if !self.json {
             print(&job.id)?;
         }

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::store::jobs::JobKind;
+use crate::kinds::JobKind;
 
 /// Version of the form of archives.
 pub const FORMAT: u32 = 1;
@@ -17,6 +17,8 @@ pub const SETTINGS: &str = "settings.json";
 pub const CHOICE: &str = "choice.json";
 /// Name of the model's package, byte by byte as it was uploaded.
 pub const PACKAGE: &str = "package.zip";
+/// Name of the package of the model that is compared with the first.
+pub const COMPARED_PACKAGE: &str = "compared-package.zip";
 /// Prefix of the names of results.
 pub const RESULTS: &str = "results/";
 
@@ -40,7 +42,10 @@ pub struct ArchivedJob {
     pub id: String,
     /// Kind of the job.
     pub kind: JobKind,
-    /// Id of the job's model.
+    /// Path to which its request was posted; archives of earlier versions do not have it.
+    #[serde(default)]
+    pub posted_to: String,
+    /// Id of the job's model; of a generation, of the model that it made.
     pub model: String,
     /// Time at which the job was accepted (RFC 3339).
     pub created_at: String,

@@ -8,25 +8,27 @@ use std::io::{self, BufWriter, Write};
 
 use axum::extract::State;
 use axum::response::Response;
+use serde_json::value::RawValue;
 use tokio::runtime::Handle;
 use utoipa::ToSchema;
 
 use self::manifest::{
-    ArchivedJob, CHOICE, Computed, FORMAT, MANIFEST, Manifest, PACKAGE, REQUEST, RESULTS, SETTINGS,
+    ArchivedJob, CHOICE, COMPARED_PACKAGE, Computed, FORMAT, MANIFEST, Manifest, PACKAGE, REQUEST, RESULTS,
+    SETTINGS,
 };
 use self::writer::Writer;
 use super::extract::JobPath;
 use super::forms::TEXT_MEMORY;
-use super::job_body::RequestBody;
 use super::problem::{Kind, Problem};
 use super::results::{expect_successful, find};
 use super::spectra::ROW_MEMORY;
 use super::state::AppState;
 use super::stream;
+use crate::analysis::kinds::document::Document;
+use crate::analysis::kinds::kind::Units;
 use crate::analysis::result::SpeedResult;
 use crate::analysis::run::VERSION;
-use crate::store::jobs::{Job, JobRequest};
-use crate::store::results::Document;
+use crate::store::jobs::{Job, Posted};
 use crate::store::{Store, StoreError};
 use crate::tokens::Principal;
 use crate::version;
@@ -40,14 +42,15 @@ pub(super) struct ArchiveZip(Vec<u8>);
 /// Download a job as an archive, from which `rubmap repeat` computes it again and compares bit by bit.
 ///
 /// The archive is a zip file of `request.json`, which starts the same computation when it is posted again; `settings.json`, the
-/// settings as results repeat them; `package.zip`, the model byte by byte; `results/`; and `manifest.json` with the SHA-256 of
+/// settings as results repeat them; `package.zip`, the model byte by byte, and `compared-package.zip` where two are compared;
+/// `results/`; and `manifest.json` with the SHA-256 of
 /// every entry, the revision of the numerics and the kind of vectors of the processor that computed the job. The archive of a job
 /// always has the same bytes.
 #[utoipa::path(get, path = "/v1/jobs/{id}/archive", operation_id = "get_archive", tag = "results",
     params(("id" = String, Path, description = "Id of a job.")),
     responses(
         (status = 200, description = "The archive.", body = ArchiveZip, content_type = "application/zip"),
-        (status = 409, description = "The job is not successful, generated a model, is a case study, or its model is deleted.", body = Problem,
+        (status = 409, description = "The job is not successful, its model is deleted, or an earlier version did not keep its request.", body = Problem,
             content_type = "application/problem+json"),
     ))]
 pub(super) async fn get_archive(
@@ -56,15 +59,28 @@ pub(super) async fn get_archive(
     JobPath(id): JobPath,
 ) -> Result<Response, Problem> {
     let job = find(&state, &whose, id).await?;
-    let (model, request) = repeatable(&job)?;
-    // A file that is open stays readable when its model is deleted.
-    let package = match state.store.model(&model, Some(&job.owner)).await? {
-        Some(_) => tokio::fs::File::open(state.store.package(&model).await?).await?.into_std().await,
-        None => {
-            let detail = "its model is deleted, and without it nobody can repeat the job; the results are there one by one";
-            return Err(Problem::new(Kind::ResultUnavailable, detail));
-        }
+    expect_successful(&job, "an archive is made of a job that was successful")?;
+    let Some(posted) = job.posted.clone() else {
+        let detail = "an earlier version accepted the job and did not keep its request, which would repeat it; the results are there one by one";
+        return Err(Problem::new(Kind::ResultUnavailable, detail));
     };
+    let mut models: Vec<String> = job.request.models().into_iter().map(ToOwned::to_owned).collect();
+    if models.is_empty() {
+        // A job that computes from no model has made one.
+        models.extend(job.model.clone());
+    }
+    let mut packages = Vec::new();
+    for (model, name) in models.iter().zip([PACKAGE, COMPARED_PACKAGE]) {
+        // A file that is open stays readable when its model is deleted.
+        let package = match state.store.model(model, Some(&job.owner)).await? {
+            Some(_) => tokio::fs::File::open(state.store.package(model).await?).await?.into_std().await,
+            None => {
+                let detail = "its model is deleted, and without it nobody can repeat the job; the results are there one by one";
+                return Err(Problem::new(Kind::ResultUnavailable, detail));
+            }
+        };
+        packages.push((name, package));
+    }
     let documents = state.store.documents(id).await?;
     let mut bytes = ROW_MEMORY * state.store.largest_spectra(id).await?;
     for document in &documents {
@@ -72,50 +88,18 @@ pub(super) async fn get_archive(
     }
     let leave = state.answers.leave(&state.jobs, bytes).await;
     let (store, runtime) = (state.store.clone(), Handle::current());
-    let contents = Contents { job, model, request, package, documents, store, runtime };
+    let model = models.into_iter().next().unwrap_or_default();
+    let contents = Contents { job, model, posted, packages, documents, store, runtime };
     Ok(stream::zip(leave, &format!("rubmap-{id}.zip"), move |mut out| contents.write(&mut out)))
-}
-
-/// Model of a job that can be repeated, and the request that repeats the job.
-fn repeatable(job: &Job) -> Result<(String, RequestBody), Problem> {
-    expect_successful(job, "an archive is made of a job that was successful")?;
-    let request = match &job.request {
-        JobRequest::Sweep(request) => RequestBody::Sweep(Box::new(request.unrefined())),
-        JobRequest::CaseStudy(_) => {
-            let detail = "a case study is of a sweep, whose archive repeats it when the sweep records its histories itself";
-            return Err(Problem::new(Kind::WrongJobKind, detail));
-        }
-        JobRequest::Branches(_) => {
-            let detail = "branches have no archive: their result has the settings that repeat them";
-            return Err(Problem::new(Kind::WrongJobKind, detail));
-        }
-        JobRequest::RunUps(_) => {
-            let detail = "run-ups have no archive: their result has the settings that repeat them";
-            return Err(Problem::new(Kind::WrongJobKind, detail));
-        }
-        JobRequest::Campaign(_) => {
-            let detail = "a campaign has no archive: its result has the settings that repeat it, and every design can be posted as a sweep, \
-                which has one";
-            return Err(Problem::new(Kind::WrongJobKind, detail));
-        }
-        other => other.clone().into(),
-    };
-    match job.request.model() {
-        Some(model) => Ok((model.to_owned(), request)),
-        None => {
-            let detail =
-                "a generation has no other result than its model, which the same parameters give again";
-            Err(Problem::new(Kind::WrongJobKind, detail))
-        }
-    }
 }
 
 /// Contents of an archive.
 struct Contents {
     job: Job,
     model: String,
-    request: RequestBody,
-    package: File,
+    posted: Posted,
+    /// Packages of its models, by the names of their entries.
+    packages: Vec<(&'static str, File)>,
     documents: Vec<Document>,
     store: Store,
     runtime: Handle,
@@ -125,18 +109,20 @@ impl Contents {
     /// Writes the archive, reading the results one by one.
     fn write(mut self, out: &mut impl Write) -> io::Result<()> {
         let mut zip = Writer::new(BufWriter::new(out));
-        zip.json(REQUEST, 0, &self.request)?;
-        zip.json(SETTINGS, 0, &RequestBody::from(self.job.request.clone()))?;
+        zip.json(REQUEST, 0, &RawValue::from_string(self.posted.body.clone())?)?;
+        zip.json(SETTINGS, 0, &RawValue::from_string(self.job.request.text()?)?)?;
         if let Some(choice) = &self.job.choice {
             zip.json(CHOICE, 0, choice)?;
         }
-        let bytes = self.package.metadata()?.len();
-        zip.add(PACKAGE, bytes, |out| io::copy(&mut self.package, out).map(drop))?;
-        if matches!(self.job.request, JobRequest::Sweep(_)) {
+        for (name, package) in &mut self.packages {
+            let bytes = package.metadata()?.len();
+            zip.add(name, bytes, |out| io::copy(package, out).map(drop))?;
+        }
+        if self.job.kind.units == Units::Speeds {
             self.write_speeds(&mut zip)?;
         }
         for document in &self.documents {
-            let (name, part) = document.columns();
+            let Document { name, part } = document;
             let body = self.read(self.store.document(self.job.id, *document))?;
             let name = format!("{RESULTS}{}/{part}.json", name.replace('_', "-"));
             zip.add(&name, body.len() as u64, |out| out.write_all(body.as_bytes()))?;
@@ -179,6 +165,7 @@ impl Contents {
             job: ArchivedJob {
                 id: head.id.to_string(),
                 kind: head.kind,
+                posted_to: self.posted.to.clone(),
                 model: self.model.clone(),
                 created_at: head.created_at.clone(),
                 finished_at: head.finished_at.clone(),

@@ -5,18 +5,21 @@ use serde_json::json;
 use super::{
     begin, facts, keep, labels, model_id, point, queue, queue_request, result, sweep, sweep_on, upload,
 };
-use crate::analysis::result::{PointStatus, SpeedResult, Trial};
+use crate::analysis::kinds::document::Document;
+use crate::analysis::kinds::kind::{Leg, ResolvedJob};
+use crate::analysis::kinds::modal_analysis::CAMPBELL;
+use crate::analysis::kinds::sweep::{CRITICAL_SPEEDS, ERRORS, HISTORIES};
+use crate::analysis::kinds::{branches, run_up};
+use crate::analysis::resolved::ResolvedSweep;
+use crate::analysis::result::{Chosen, PointStatus, SpeedResult, Trial};
 use crate::analysis::run::{Calibration, Estimate, ReducedSector};
-use crate::store::Followed;
+use crate::kinds::JobKind;
 use crate::store::dialect::Dialect;
 use crate::store::idempotency::Answer;
-use crate::store::jobs::{
-    Begun, Chosen, Failure, FailureCause, Insertion, JobDeletion, JobFilter, JobId, JobKind,
-};
+use crate::store::jobs::{Begun, Failure, FailureCause, Insertion, JobDeletion, JobFilter, JobId, NewJob};
 use crate::store::labels::{LabelChanges, Labels};
 use crate::store::limits::{LimitReached, Limits};
 use crate::store::models::{Deletion, ModelFilter};
-use crate::store::results::Document;
 use crate::store::status::JobStatus;
 use crate::store::testing::stores;
 use crate::store::{Backlog, Store};
@@ -121,7 +124,7 @@ async fn jobs_are_listed_as_they_are_asked_for() {
             (all(), vec![third, second, first]),
             (JobFilter { owner: text("eve"), ..all() }, vec![second, first]),
             (JobFilter { status: Some(JobStatus::Running), ..all() }, vec![third]),
-            (JobFilter { kind: Some(JobKind::Study), ..all() }, vec![]),
+            (JobFilter { kind: JobKind::named("study"), ..all() }, vec![]),
             (JobFilter { model: Some(model_id('b')), ..all() }, vec![third, second]),
             (JobFilter { name: text("LOAD"), ..all() }, vec![third, second]),
             (JobFilter { name: text("0%"), ..all() }, vec![first]),
@@ -149,8 +152,9 @@ async fn jobs_are_listed_as_they_are_asked_for() {
 async fn a_job_of_one_kind_stays_with_the_processors_that_began_it() {
     for store in stores().await {
         upload(&store, "", 'a', &Labels::default()).await;
-        let job =
-            async |one_kind| queue_request(&store, "", &sweep_on('a', 2, one_kind), &Labels::default()).await;
+        let job = async |one_kind| {
+            queue_request(&store, "", &*sweep_on('a', 2, one_kind), &Labels::default()).await
+        };
         let (any, one) = (job(false).await, job(true).await);
         let kind = async |job| store.job(job).await.unwrap().unwrap().vectors;
         for (job, on, begun) in [
@@ -184,46 +188,42 @@ async fn a_job_of_one_kind_stays_with_the_processors_that_began_it() {
 }
 
 #[tokio::test]
-async fn legs_of_branches_are_kept_with_the_course_after_them() {
+async fn legs_are_kept_with_the_course_after_them() {
+    let leg = |text: &str, course: Option<&str>| Leg {
+        text: text.to_owned(),
+        beside: None,
+        ended: None,
+        course: course.map(ToOwned::to_owned),
+    };
     for store in stores().await {
         upload(&store, "eve", 'a', &Labels::default()).await;
         let job = queue(&store, "eve", 'a', 1, &Labels::default()).await;
-        assert_eq!(store.legs(job, Followed::Branches).await.unwrap(), 0);
-        store.keep_leg(job, (Followed::Branches, 0), ("[1]", None), None, Some("{\"at\": 1}")).await.unwrap();
-        store
-            .keep_leg(job, (Followed::Branches, 1), ("[22]", None), None, Some("{\"at\": 2}"))
-            .await
-            .unwrap();
+        let names = branches::LEGS;
+        let keep = async |index, leg: &Leg| store.keep_leg(job, names, index, leg).await.unwrap();
+        let kept = async || store.parts(job, names.leg).await.unwrap().0;
+        assert_eq!(kept().await, 0);
+        keep(0, &leg("[1]", Some("{\"at\": 1}"))).await;
+        keep(1, &leg("[22]", Some("{\"at\": 2}"))).await;
         // A slower process stores the leg again.
-        store.keep_leg(job, (Followed::Branches, 0), ("[3]", None), None, Some("{\"at\": 3}")).await.unwrap();
+        keep(0, &leg("[3]", Some("{\"at\": 3}"))).await;
         let text = async |document| store.document(job, document).await.unwrap();
-        assert_eq!(store.legs(job, Followed::Branches).await.unwrap(), 2);
-        assert_eq!(text(Document::BranchLeg(0)).await.as_deref(), Some("[1]"));
-        assert_eq!(text(Document::BranchCourse).await.as_deref(), Some("{\"at\": 2}"));
+        assert_eq!(kept().await, 2);
+        assert_eq!(text(Document::part(names.leg, 0)).await.as_deref(), Some("[1]"));
+        assert_eq!(text(Document::only(names.course)).await.as_deref(), Some("{\"at\": 2}"));
         assert_eq!(store.job(job).await.unwrap().unwrap().stored_bytes, 7);
-        store.keep_leg(job, (Followed::Branches, 2), ("[4]", None), None, None).await.unwrap();
+        keep(2, &leg("[4]", None)).await;
         // The document beside a leg comes and stays with it.
-        for (leg, spectra) in [("[5]", "[55]"), ("[6]", "[66]")] {
-            store
-                .keep_leg(
-                    job,
-                    (Followed::RunUps, 0),
-                    (leg, Some(spectra)),
-                    Some(PointStatus::Diverged),
-                    Some("{}"),
-                )
-                .await
-                .unwrap();
+        for (text, spectra) in [("[5]", "[55]"), ("[6]", "[66]")] {
+            let (beside, ended) = (Some(spectra.to_owned()), Some(PointStatus::Diverged));
+            let leg = Leg { beside, ended, ..leg(text, Some("{}")) };
+            store.keep_leg(job, run_up::LEGS, 0, &leg).await.unwrap();
         }
         let speeds = store.job(job).await.unwrap().unwrap().speeds;
         assert_eq!((speeds.finished, speeds.diverged, speeds.failed), (1, 1, 0));
-        assert_eq!(text(Document::RunUpLeg(0)).await.as_deref(), Some("[5]"));
-        assert_eq!(text(Document::RunUpSpectra(0)).await.as_deref(), Some("[55]"));
-        assert_eq!(store.parts(job, Document::RunUpSpectra(0)).await.unwrap(), (1, 4));
-        assert_eq!(
-            (store.legs(job, Followed::Branches).await.unwrap(), text(Document::BranchCourse).await),
-            (3, None)
-        );
+        assert_eq!(text(Document::part(run_up::LEGS.leg, 0)).await.as_deref(), Some("[5]"));
+        assert_eq!(text(Document::part(run_up::SPECTRA, 0)).await.as_deref(), Some("[55]"));
+        assert_eq!(store.parts(job, run_up::SPECTRA).await.unwrap(), (1, 4));
+        assert_eq!((kept().await, text(Document::only(names.course)).await), (3, None));
     }
 }
 
@@ -234,7 +234,10 @@ async fn a_job_from_its_beginning_to_its_end() {
         let job = queue(&store, "", 'a', 4, &Labels::default()).await;
         let waiting = store.job(job).await.unwrap().unwrap();
         assert_eq!((waiting.status, waiting.speeds.total), (JobStatus::Accepted, 4));
-        assert_eq!((waiting.request.clone(), waiting.started_at.clone()), (sweep('a', 4), None));
+        assert_eq!(
+            (waiting.request.get(), waiting.started_at.clone()),
+            (sweep('a', 4).get::<ResolvedSweep>(), None)
+        );
         assert_eq!(waiting.facts, Some(facts("m")));
         assert!(begin(&store, job).await);
 
@@ -287,19 +290,18 @@ async fn a_job_from_its_beginning_to_its_end() {
         // Engine orders, amplitudes, and one nodal diameter, of two lines each.
         assert_eq!(store.largest_spectra(job).await.unwrap(), 48);
 
-        store.keep_document(job, Document::Histories(3), "[\"ü\"]").await.unwrap();
-        store.keep_document(job, Document::Histories(3), "[]").await.unwrap();
-        let documents =
-            [(Document::Errors, "[1]".to_owned()), (Document::CriticalSpeeds(1), "[2]".to_owned())];
+        store.keep_document(job, Document::part(HISTORIES, 3), "[\"ü\"]").await.unwrap();
+        store.keep_document(job, Document::part(HISTORIES, 3), "[]").await.unwrap();
+        let documents = [(ERRORS, "[1]".to_owned()), (Document::part(CRITICAL_SPEEDS, 1), "[2]".to_owned())];
         assert!(store.complete_job(job, &documents, None).await.unwrap());
         assert!(!store.complete_job(job, &documents, None).await.unwrap());
         assert_eq!(
             store.documents(job).await.unwrap(),
-            [Document::CriticalSpeeds(1), Document::Errors, Document::Histories(3)]
+            [Document::part(CRITICAL_SPEEDS, 1), ERRORS, Document::part(HISTORIES, 3)]
         );
-        assert_eq!(store.document(job, Document::Errors).await.unwrap().as_deref(), Some("[1]"));
-        assert_eq!(store.document_bytes(job, Document::Histories(3)).await.unwrap(), Some(6));
-        assert_eq!(store.document_bytes(job, Document::Campbell).await.unwrap(), None);
+        assert_eq!(store.document(job, ERRORS).await.unwrap().as_deref(), Some("[1]"));
+        assert_eq!(store.document_bytes(job, Document::part(HISTORIES, 3)).await.unwrap(), Some(6));
+        assert_eq!(store.document_bytes(job, CAMPBELL).await.unwrap(), None);
         assert_eq!(store.end_state(job, 0).await.unwrap(), None);
         let done = store.job(job).await.unwrap().unwrap();
         assert_eq!((done.status, done.progress, done.phase.as_str()), (JobStatus::Successful, 100, ""));
@@ -334,24 +336,25 @@ async fn a_job_that_failed_says_why() {
 async fn limits_and_keys_refuse_what_is_too_much() {
     for store in stores().await {
         upload(&store, "eve", 'a', &Labels::default()).await;
-        let insert = async |request, limits, answer: Option<&Answer>| {
-            let (job, whose) = (JobId::new(), ("eve", limits));
-            store.insert_job(job, whose, request, &Labels::default(), None, answer).await
+        let insert = async |request: &dyn ResolvedJob, limits, answer: Option<&Answer>| {
+            let labels = &Labels::default();
+            let new = NewJob { id: JobId::new(), owner: "eve", request, posted: None, labels, facts: None };
+            store.insert_job(new, limits, answer).await
         };
         let limits = Limits { queued_speeds: Some(5), ..Limits::default() };
         let some = sweep('a', 3);
         // The request lacks its facts, which the table of jobs refuses; nothing of it stays.
-        assert!(insert(&some, limits, Some(&answer("eve", "k"))).await.is_err());
+        assert!(insert(&*some, limits, Some(&answer("eve", "k"))).await.is_err());
         assert_eq!(store.answer("eve", "k").await.unwrap(), None);
         queue(&store, "eve", 'a', 3, &Labels::default()).await;
         let reached = LimitReached::QueuedSpeeds { queued: 3, asked: 3, limit: 5 };
-        assert_eq!(insert(&some, limits, None).await.unwrap(), Insertion::Limit(reached));
+        assert_eq!(insert(&*some, limits, None).await.unwrap(), Insertion::Limit(reached));
         let of_none = sweep('x', 1);
-        assert_eq!(insert(&of_none, limits, None).await.unwrap(), Insertion::UnknownModel);
+        assert_eq!(insert(&*of_none, limits, None).await.unwrap(), Insertion::UnknownModel);
         assert!(store.insert_answer(&answer("eve", "k")).await.unwrap());
         assert!(!store.insert_answer(&answer("eve", "k")).await.unwrap());
         assert!(store.insert_answer(&answer("adam", "k")).await.unwrap());
-        assert_eq!(insert(&some, limits, Some(&answer("eve", "k"))).await.unwrap(), Insertion::KeyTaken);
+        assert_eq!(insert(&*some, limits, Some(&answer("eve", "k"))).await.unwrap(), Insertion::KeyTaken);
         assert_eq!(store.answer("eve", "k").await.unwrap(), Some(answer("eve", "k")));
 
         let add = async |limits| {

@@ -9,6 +9,7 @@ use tempfile::TempDir;
 
 use super::alone::{answer, calibration, reduced};
 use super::{begin, keep, labels, model_id, queue, result, upload};
+use crate::analysis::kinds::modal_analysis::CAMPBELL;
 use crate::dynamics::reduction::Checkpoints;
 use crate::store::error::StoreError;
 use crate::store::handle::LOCK;
@@ -16,7 +17,6 @@ use crate::store::jobs::{Failure, FailureCause, JobId};
 use crate::store::labels::Labels;
 use crate::store::models::ModelFilter;
 use crate::store::objects::Address;
-use crate::store::results::Document;
 use crate::store::status::JobStatus;
 use crate::store::testing::{TestStore, stores};
 use crate::store::{Copied, CopyError, Store, copy, sqlite};
@@ -67,7 +67,7 @@ async fn fill(data: &Path) -> [JobId; 3] {
     for index in 0..250 {
         keep(&store, successful, &result(index)).await.unwrap();
     }
-    let document = (Document::Campbell, "[1]".to_owned());
+    let document = (CAMPBELL, "[1]".to_owned());
     assert!(store.complete_job(successful, &[document], None).await.unwrap());
     let failed = queue(&store, "adam", 'a', 1, &Labels::default()).await;
     let failure =
@@ -162,7 +162,7 @@ async fn everything_arrives_and_a_second_copy_changes_nothing() {
     }
     assert_eq!(there.job(jobs[2]).await.unwrap().unwrap().status, JobStatus::Accepted);
     assert_eq!(there.finished_speeds(jobs[2]).await.unwrap().into_iter().collect::<Vec<_>>(), [1]);
-    assert_eq!(there.document(jobs[0], Document::Campbell).await.unwrap().as_deref(), Some("[1]"));
+    assert_eq!(there.document(jobs[0], CAMPBELL).await.unwrap().as_deref(), Some("[1]"));
     assert!(there.reduction(&model_id('a'), 20).await.unwrap().is_some());
     let parts = there.checkpoints(&model_id('a'), 30);
     let part = tokio::task::spawn_blocking(move || parts.load("harmonic-0")).await.unwrap();

@@ -5,17 +5,22 @@ mod alone;
 mod copied;
 mod together;
 
+use std::sync::Arc;
+
 use serde_json::json;
 
 use super::Store;
-use super::jobs::{Begun, Insertion, JobId, JobKind, JobRequest};
+use super::jobs::{Begun, Insertion, JobId, NewJob, kept};
 use super::labels::Labels;
 use super::limits::Limits;
 use super::results::PackedSpeed;
 use crate::analysis::end_state::EndState;
+use crate::analysis::kinds::kind::ResolvedJob;
+use crate::analysis::kinds::sweep::SWEEP;
 use crate::analysis::request::{Component, Sensor};
 use crate::analysis::result::{ContactForces, Point, SensorSpectrum, SpeedResult, SpeedSpectra, WearMap};
 use crate::analysis::run::ModelFacts;
+use crate::kinds::JobKind;
 
 /// Id of a model, made of one letter.
 fn model_id(letter: char) -> String {
@@ -44,30 +49,31 @@ async fn upload(store: &Store, owner: &str, letter: char, labels: &Labels) -> bo
     store.insert_model(whose, &model_id(letter), &facts, labels, &upload).await.unwrap().unwrap().1
 }
 
-fn sweep(letter: char, speeds: u32) -> JobRequest {
+fn sweep(letter: char, speeds: u32) -> Arc<dyn ResolvedJob> {
     sweep_on(letter, speeds, false)
 }
 
 /// Sweep over the model of this letter, on one kind of processor or on any.
-fn sweep_on(letter: char, speeds: u32, one_kind: bool) -> JobRequest {
+fn sweep_on(letter: char, speeds: u32, one_kind: bool) -> Arc<dyn ResolvedJob> {
     let values: Vec<u32> = (1..=speeds).collect();
     let request = json!({
         "model": model_id(letter), "modes_per_speed": 20, "scene": {},
         "speeds": {"values": values, "unit": "hz"}, "reproducible": one_kind,
     });
-    let kept = json!({"schema": 1, "rounds": 0, "request": request});
-    JobRequest::from_json(JobKind::Sweep, &kept.to_string()).unwrap()
+    let text = json!({"schema": 1, "rounds": 0, "request": request});
+    kept::read(JobKind(&SWEEP), &text.to_string()).unwrap()
 }
 
 /// Queues a sweep over the model of this letter.
 async fn queue(store: &Store, owner: &str, letter: char, speeds: u32, labels: &Labels) -> JobId {
-    queue_request(store, owner, &sweep(letter, speeds), labels).await
+    queue_request(store, owner, &*sweep(letter, speeds), labels).await
 }
 
-async fn queue_request(store: &Store, owner: &str, request: &JobRequest, labels: &Labels) -> JobId {
+async fn queue_request(store: &Store, owner: &str, request: &dyn ResolvedJob, labels: &Labels) -> JobId {
     let id = JobId::new();
-    let whose = (owner, Limits::default());
-    let inserted = store.insert_job(id, whose, request, labels, Some(&facts("m")), None).await.unwrap();
+    let facts = facts("m");
+    let new = NewJob { id, owner, request, posted: None, labels, facts: Some(&facts) };
+    let inserted = store.insert_job(new, Limits::default(), None).await.unwrap();
     assert_eq!(inserted, Insertion::Accepted);
     id
 }

@@ -3,15 +3,15 @@
 use futures::future::join_all;
 
 use super::{begin, keep, labels, model_id, queue, queue_request, result, sweep, sweep_on, upload};
+use crate::analysis::kinds::sweep::ERRORS;
 use crate::analysis::run::REVISION;
 use crate::store::Store;
 use crate::store::dialect::Dialect;
 use crate::store::idempotency::Answer;
-use crate::store::jobs::{Insertion, JobDeletion, JobId};
+use crate::store::jobs::{Insertion, JobDeletion, JobId, NewJob};
 use crate::store::labels::Labels;
 use crate::store::limits::{LimitReached, Limits};
 use crate::store::models::Deletion;
-use crate::store::results::Document;
 use crate::store::status::JobStatus;
 use crate::store::testing::stores;
 
@@ -51,7 +51,7 @@ async fn a_job_ends_once() {
         for _ in 0..8 {
             let job = queue(&store, "", 'a', 4, &Labels::default()).await;
             assert!(begin(&store, job).await);
-            let document = [(Document::Errors, "[1]".to_owned())];
+            let document = [(ERRORS, "[1]".to_owned())];
             let last = result(3);
             let (done, also_done, dismissed, last) = tokio::join!(
                 processes[0].complete_job(job, &document, None),
@@ -80,7 +80,9 @@ async fn limits_hold_for_all_processes() {
         let request = sweep('a', 2);
         let insert = async |store: &Store| {
             let labels = labels("n", &[]);
-            store.insert_job(JobId::new(), ("eve", limits), &request, &labels, Some(&facts), None).await
+            let (id, request, facts) = (JobId::new(), &*request, Some(&facts));
+            let new = NewJob { id, owner: "eve", request, posted: None, labels: &labels, facts };
+            store.insert_job(new, limits, None).await
         };
         let inserted = join_all((0..12).map(|i| insert(&processes[i % PROCESSES]))).await;
         let accepted = inserted.iter().filter(|one| matches!(one, Ok(Insertion::Accepted))).count();
@@ -129,8 +131,9 @@ async fn a_key_is_taken_once() {
             let (owner, key, fingerprint, body) = (text("eve"), text("k"), text("f"), text("{}"));
             let answer =
                 Answer { owner, key, fingerprint, status: 202, location: format!("/v1/jobs/{id}"), body };
-            let whose = ("eve", Limits::default());
-            store.insert_job(id, whose, &request, &Labels::default(), Some(&facts), Some(&answer)).await
+            let (labels, request, facts) = (Labels::default(), &*request, Some(&facts));
+            let new = NewJob { id, owner: "eve", request, posted: None, labels: &labels, facts };
+            store.insert_job(new, Limits::default(), Some(&answer)).await
         };
         let inserted = join_all((0..8).map(|i| insert(&processes[i % PROCESSES]))).await;
         let count = |what| inserted.iter().filter(|one| one.as_ref().unwrap() == &what).count();
@@ -148,9 +151,10 @@ async fn no_job_is_left_without_its_model() {
             upload(&store, "", 'a', &Labels::default()).await;
             let id = JobId::new();
             let (labels, model) = (Labels::default(), model_id('a'));
-            let whose = ("", Limits::default());
+            let (request, facts) = (&*request, Some(&facts));
+            let new = NewJob { id, owner: "", request, posted: None, labels: &labels, facts };
             let (inserted, deleted) = tokio::join!(
-                processes[0].insert_job(id, whose, &request, &labels, Some(&facts), None),
+                processes[0].insert_job(new, Limits::default(), None),
                 processes[1].delete_model(&model, None),
             );
             match (inserted.unwrap(), deleted.unwrap()) {
@@ -224,7 +228,7 @@ async fn kinds_of_processors_do_not_mix_within_a_job_that_asks_for_one() {
         };
         for (one_kind, kept) in [(true, 1), (false, 2)] {
             let request = sweep_on('a', 4, one_kind);
-            let job = queue_request(&store, "", &request, &Labels::default()).await;
+            let job = queue_request(&store, "", &*request, &Labels::default()).await;
             assert!(begin(&store, job).await, "on V3");
             assert_eq!(keep(&store, job, &computed_on("V3", 0)).await, Some(1));
             assert_eq!(keep(&store, job, &computed_on("V4", 1)).await, Some(kept));

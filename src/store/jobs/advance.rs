@@ -2,12 +2,12 @@
 
 use super::job::{Failure, JobId};
 use super::row::status_of;
+use crate::analysis::kinds::document::Document;
 use crate::analysis::run::REVISION;
 use crate::store::dialect::Guarded;
 use crate::store::end_states;
 use crate::store::error::StoreError;
 use crate::store::handle::Store;
-use crate::store::results::Document;
 use crate::store::status::JobStatus;
 use crate::store::time::now;
 
@@ -116,7 +116,7 @@ impl Store {
         }
         let time = now();
         for (document, body) in documents {
-            let (name, part) = document.columns();
+            let Document { name, part } = *document;
             sqlx::query(
                 "insert into documents (job, name, part, body, created_at) values ($1, $2, $3, $4, $5)",
             )

@@ -3,8 +3,8 @@
 use sqlx::AssertSqlSafe;
 
 use super::job::{Job, JobHead, JobId};
-use super::job_kind::JobKind;
 use super::row::{HEAD, read, read_head};
+use crate::kinds::JobKind;
 use crate::store::dialect::Dialect;
 use crate::store::error::StoreError;
 use crate::store::handle::Store;
@@ -68,7 +68,7 @@ impl Store {
         let page = page(self.dialect);
         sqlx::query(AssertSqlSafe(format!("select {HEAD} from jobs where id in ({page}) order by id desc")))
             .bind(filter.status.map(JobStatus::as_str))
-            .bind(filter.kind.map(JobKind::as_str))
+            .bind(filter.kind.map(|kind| kind.name))
             .bind(filter.before.map(|id| id.to_string()))
             .bind(i64::from(limit))
             .bind(filter.owner)

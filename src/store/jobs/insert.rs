@@ -1,8 +1,8 @@
 //! Insertion of a new job.
 
-use super::job::JobId;
-use super::job_kind::JobKind;
-use super::job_request::JobRequest;
+use super::job::{JobId, Posted};
+use super::kept;
+use crate::analysis::kinds::kind::{ResolvedJob, Units};
 use crate::analysis::run::{ModelFacts, REVISION};
 use crate::store::dialect::Guarded;
 use crate::store::error::StoreError;
@@ -25,24 +25,39 @@ pub enum Insertion {
     Limit(LimitReached),
 }
 
+/// Job to be stored.
+#[derive(Debug, Clone, Copy)]
+pub struct NewJob<'a> {
+    /// Id of the job.
+    pub id: JobId,
+    /// Owner of the job.
+    pub owner: &'a str,
+    /// Resolved request.
+    pub request: &'a dyn ResolvedJob,
+    /// Request as it was posted.
+    pub posted: Option<&'a Posted>,
+    /// Labels of the job.
+    pub labels: &'a Labels,
+    /// Facts of the model that it computes from, if it does.
+    pub facts: Option<&'a ModelFacts>,
+}
+
 impl Store {
-    /// Stores a new job of `owner`, within `limits`, with the names and tags of `labels`, and with the answer its idempotency key will
-    /// repeat. `facts` are those of the model it computes from, if it does.
+    /// Stores a new job, within the `limits` of its owner, with the answer that its idempotency key will repeat.
     pub async fn insert_job(
         &self,
-        id: JobId,
-        (owner, limits): (&str, Limits),
-        request: &JobRequest,
-        labels: &Labels,
-        facts: Option<&ModelFacts>,
+        new: NewJob<'_>,
+        limits: Limits,
         answer: Option<&Answer>,
     ) -> Result<Insertion, StoreError> {
+        let NewJob { id, owner, request, posted, labels, facts } = new;
+        let models = request.models();
         let mut transaction = self.write().await?;
         transaction.guard(Guarded::Owner(owner)).await?;
         // One order of models: otherwise two jobs that compare the same models could wait for each other.
-        let mut models: Vec<&str> = request.model().into_iter().chain(request.compared_model()).collect();
-        models.sort_unstable();
-        for model in models {
+        let mut guarded = models.clone();
+        guarded.sort_unstable();
+        for model in guarded {
             transaction.guard(Guarded::Model(model)).await?;
         }
         if let Some(answer) = answer
@@ -57,7 +72,7 @@ impl Store {
             transaction.rollback().await?;
             return Ok(Insertion::Limit(reached));
         }
-        if request.kind() == JobKind::ModelGeneration
+        if request.kind().units == Units::Model
             && let Err(reached) = limits.allow_generation(&mut transaction, owner).await?
         {
             transaction.rollback().await?;
@@ -66,17 +81,17 @@ impl Store {
         let time = now();
         let inserted = sqlx::query(
             "insert into jobs (id, kind, model, modes_per_speed, facts, request, speeds, created_at, updated_at, owner,
-                 revision, name, tags, notes, one_kind, compared_model)
-             select $1, $2, $3, $4, $5, $6, $7, $8, $8, $9, $10, $11, $12, $13, $14, $15
+                 revision, name, tags, notes, one_kind, compared_model, posted_to, posted)
+             select $1, $2, $3, $4, $5, $6, $7, $8, $8, $9, $10, $11, $12, $13, $14, $15, $16, $17
              where ($3 is null or exists (select 1 from models where id = $3))
                  and ($15 is null or exists (select 1 from models where id = $15))",
         )
         .bind(id.to_string())
-        .bind(request.kind().as_str())
-        .bind(request.model())
+        .bind(request.kind().name)
+        .bind(models.first().copied())
         .bind(request.modes_per_speed().map(i64::from))
         .bind(facts.map(serde_json::to_string).transpose()?)
-        .bind(request.to_json()?)
+        .bind(kept::write(request)?)
         .bind(i64::from(speeds))
         .bind(time)
         .bind(owner)
@@ -85,7 +100,9 @@ impl Store {
         .bind(serde_json::to_string(&labels.tags)?)
         .bind(&labels.notes)
         .bind(i64::from(request.is_of_one_kind()))
-        .bind(request.compared_model())
+        .bind(models.get(1).copied())
+        .bind(posted.map(|posted| posted.to.as_str()))
+        .bind(posted.map(|posted| posted.body.as_str()))
         .execute(&mut *transaction)
         .await?;
         if inserted.rows_affected() == 0 {

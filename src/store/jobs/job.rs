@@ -1,13 +1,16 @@
 //! Job as it is stored.
 
+use std::sync::Arc;
+
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 use uuid::Uuid;
 
-use super::job_kind::JobKind;
-use super::job_request::JobRequest;
 use crate::analysis::error::Violation;
-use crate::analysis::run::{Choice, Estimate, ModelFacts, ModesChoice};
+use crate::analysis::kinds::kind::ResolvedJob;
+use crate::analysis::result::Chosen;
+use crate::analysis::run::{Estimate, ModelFacts};
+use crate::kinds::JobKind;
 use crate::store::labels::Labels;
 use crate::store::status::JobStatus;
 
@@ -76,14 +79,13 @@ pub enum FailureCause {
     Storage,
 }
 
-/// Settings that the service chose for a job, with the reasons.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
-#[serde(tag = "kind", rename_all = "snake_case")]
-pub enum Chosen {
-    /// Settings of a sweep, chosen by pilot runs.
-    Setting(Choice),
-    /// Modes per speed of a modal analysis, chosen by its reductions.
-    Modes(ModesChoice),
+/// Request as it was posted, which can be posted again as it stands.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Posted {
+    /// Path to which it was posted.
+    pub to: String,
+    /// Body without labels, as JSON.
+    pub body: String,
 }
 
 /// Stored job as lists show it.
@@ -129,7 +131,9 @@ pub struct Job {
     /// Facts of the model that the job computes from, when the job was accepted.
     pub facts: Option<ModelFacts>,
     /// Request as resolved in full, and as revised since: see [`Store::revise_request`](crate::store::Store::revise_request).
-    pub request: JobRequest,
+    pub request: Arc<dyn ResolvedJob>,
+    /// Request as it was posted; `None` for some jobs of earlier versions.
+    pub posted: Option<Posted>,
     /// Expected cost of a sweep when its first speeds were queued.
     pub plan: Option<Estimate>,
     /// Settings that the service chose for the job.

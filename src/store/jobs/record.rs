@@ -1,6 +1,7 @@
 //! Records of a job while it runs: progress, choice and plan.
 
-use super::job::{Chosen, JobId};
+use super::job::JobId;
+use crate::analysis::result::Chosen;
 use crate::analysis::run::Estimate;
 use crate::store::error::StoreError;
 use crate::store::handle::Store;

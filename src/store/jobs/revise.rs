@@ -1,7 +1,8 @@
 //! Revision of the request of a running job.
 
 use super::job::JobId;
-use super::job_request::JobRequest;
+use super::kept;
+use crate::analysis::kinds::kind::ResolvedJob;
 use crate::store::error::StoreError;
 use crate::store::handle::Store;
 use crate::store::time::now;
@@ -12,7 +13,7 @@ impl Store {
     pub async fn revise_request(
         &self,
         id: JobId,
-        request: &JobRequest,
+        request: &dyn ResolvedJob,
         speeds: u32,
     ) -> Result<bool, StoreError> {
         let mut write = self.write().await?;
@@ -21,8 +22,8 @@ impl Store {
              where id = $1 and kind = $2 and status = 'running' and speeds <= $5",
         )
         .bind(id.to_string())
-        .bind(request.kind().as_str())
-        .bind(request.to_json()?)
+        .bind(request.kind().name)
+        .bind(kept::write(request)?)
         .bind(request.modes_per_speed().map(i64::from))
         .bind(i64::from(speeds))
         .bind(now())
@@ -35,21 +36,24 @@ impl Store {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
     use serde_json::json;
 
     use super::*;
     use crate::analysis::run::REVISION;
-    use crate::store::jobs::{Begun, JobKind};
+    use crate::kinds::JobKind;
+    use crate::store::jobs::Begun;
     use crate::store::status::JobStatus;
     use crate::store::testing::stores;
 
-    fn sweep(modes_per_speed: u32, speeds: u32) -> JobRequest {
+    fn sweep(modes_per_speed: u32, speeds: u32) -> Arc<dyn ResolvedJob> {
         let request = json!({
             "model": "m", "modes_per_speed": modes_per_speed, "scene": {},
             "speeds": {"from": 1.0, "to": 2.0, "count": speeds, "unit": "hz"},
         });
-        let kept = json!({"schema": 1, "rounds": 0, "request": request});
-        JobRequest::from_json(JobKind::Sweep, &kept.to_string()).unwrap()
+        let text = json!({"schema": 1, "rounds": 0, "request": request});
+        kept::read(JobKind::named("sweep").unwrap(), &text.to_string()).unwrap()
     }
 
     #[tokio::test]
@@ -60,13 +64,14 @@ mod tests {
                 values ($1, 'sweep', 'm', 20, '{}', $2, 4, 'a', 'a', $3)";
             sqlx::query(insert)
                 .bind(job.to_string())
-                .bind(sweep(20, 4).to_json().unwrap())
+                .bind(kept::write(&*sweep(20, 4)).unwrap())
                 .bind(i64::from(REVISION))
                 .execute(&store.writer)
                 .await
                 .unwrap();
-            let revise =
-                async |modes, speeds| store.revise_request(job, &sweep(modes, speeds), speeds).await.unwrap();
+            let revise = async |modes, speeds| {
+                store.revise_request(job, &*sweep(modes, speeds), speeds).await.unwrap()
+            };
             assert!(!revise(20, 6).await, "nobody has it in hand");
             assert_eq!(store.begin_job(job, "V3").await.unwrap(), Begun::Yes);
             // A repetition changes nothing.
@@ -77,10 +82,10 @@ mod tests {
                     .fetch_one(&store.readers)
                     .await
                     .unwrap();
-            assert_eq!(kept, (sweep(30, 6).to_json().unwrap(), 30, 6));
+            assert_eq!(kept, (kept::write(&*sweep(30, 6)).unwrap(), 30, 6));
             store.advance_job(job, JobStatus::Dismissed, None).await.unwrap();
             assert!(!revise(30, 8).await, "it has ended");
-            assert!(!store.revise_request(JobId::new(), &sweep(30, 8), 8).await.unwrap());
+            assert!(!store.revise_request(JobId::new(), &*sweep(30, 8), 8).await.unwrap());
         }
     }
 }

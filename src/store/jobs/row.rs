@@ -3,9 +3,10 @@
 use sqlx::Row;
 use sqlx::any::AnyRow;
 
-use super::job::{Job, JobHead, JobId, SpeedCounts};
-use super::job_kind::JobKind;
-use super::job_request::JobRequest;
+use super::job::{Job, JobHead, JobId, Posted, SpeedCounts};
+use super::kept;
+use crate::analysis::kinds::kind::{ResolvedJob, Units};
+use crate::kinds::JobKind;
 use crate::store::error::StoreError;
 use crate::store::labels;
 use crate::store::sql::number;
@@ -31,15 +32,12 @@ pub(super) const HEAD: &str = "id, owner, kind, status, model, progress, phase, 
     created_at, started_at, finished_at, updated_at, name, tags, notes";
 
 pub(super) fn read_head(row: &AnyRow) -> Result<JobHead, StoreError> {
-    let kind = JobKind::from_column(row.try_get("kind")?)?;
+    let kind = kind(row.try_get("kind")?)?;
     let status = JobStatus::from_column(row.try_get("status")?)?;
     let total = number(row, "speeds")?;
-    let finished = match (kind, status) {
-        // These kinds of jobs compute all their speeds together.
-        (
-            JobKind::ModalAnalysis | JobKind::Study | JobKind::CaseStudy | JobKind::Branches,
-            JobStatus::Successful,
-        ) => total,
+    // Only speeds that are tasks of their own are counted one by one.
+    let finished = match status {
+        JobStatus::Successful if kind.units != Units::Speeds => total,
         _ => number(row, "finished")?,
     };
     Ok(JobHead {
@@ -66,10 +64,26 @@ pub(super) fn read_head(row: &AnyRow) -> Result<JobHead, StoreError> {
     })
 }
 
+/// Kind that a column holds.
+fn kind(name: &str) -> Result<JobKind, StoreError> {
+    JobKind::named(name).ok_or_else(|| StoreError::Unknown { column: "jobs.kind", value: name.to_owned() })
+}
+
+/// Request as it was posted; earlier versions did not keep it, but what they resolved can often be posted.
+fn posted(row: &AnyRow, head: &JobHead, request: &dyn ResolvedJob) -> Result<Option<Posted>, StoreError> {
+    let (to, body): (Option<String>, Option<String>) = (row.try_get("posted_to")?, row.try_get("posted")?);
+    if let Some((to, body)) = to.zip(body) {
+        return Ok(Some(Posted { to, body }));
+    }
+    Ok(request.as_posted()?.map(|body| Posted { to: head.kind.route.to_owned(), body }))
+}
+
 pub(crate) fn read(row: &AnyRow) -> Result<Job, StoreError> {
     let head = read_head(row)?;
+    let request = kept::read(head.kind, row.try_get("request")?)?;
     Ok(Job {
-        request: JobRequest::from_json(head.kind, row.try_get("request")?)?,
+        posted: posted(row, &head, &*request)?,
+        request,
         facts: row.try_get::<Option<&str>, _>("facts")?.map(serde_json::from_str).transpose()?,
         plan: row.try_get::<Option<&str>, _>("plan")?.map(serde_json::from_str).transpose()?,
         choice: row.try_get::<Option<&str>, _>("choice")?.map(serde_json::from_str).transpose()?,

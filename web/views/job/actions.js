@@ -44,9 +44,11 @@ export function actions(job, { told, deleted }, signal) {
   async function again() {
     const whole = await api.get(`/v1/jobs/${job.id}`, { signal });
     const { name: called, tags, notes } = whole;
-    const body = request?.asked ? request.asked(whole) : whole.request;
+    if (!whole.posted) throw new Error('an earlier version did not keep the request of this job: begin a new one');
     const labels = Object.fromEntries(Object.entries({ name: called, tags, notes }).filter(([, value]) => value?.length > 0));
-    const made = await submit(request ? request.path : '/v1/models', request ? { ...body, model: job.model, ...labels } : { ...body, ...labels }, signal);
+    // Histories of a sweep belong to it and have no labels of their own.
+    const isOwn = whole.posted_to.split('/').length === 3;
+    const made = await submit(whole.posted_to, isOwn ? { ...whole.posted, ...labels } : whole.posted, signal);
     location.hash = `#/jobs/${made.id}`;
   }
 

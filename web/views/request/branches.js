@@ -1,7 +1,7 @@
-// What branches are asked for: from a speed of a sweep, and as branches that are there.
+// What branches are asked for: from a speed of a sweep.
 
 import { rpm } from '../../lib/format.js';
-import { OF_SPEED, tidy } from '../../lib/units.js';
+import { tidy } from '../../lib/units.js';
 
 /** What may change along branches. */
 export const PARAMETERS = {
@@ -42,20 +42,4 @@ function shared(sweep) {
 /** The request of branches of a sweep's scene that begin at a speed. */
 export function branchesFrom(job, speed_rad_s, along) {
   return { model: job.model, speed: { value: tidy(rpm(speed_rad_s)), unit: 'rpm' }, along, ...shared(job.request) };
-}
-
-/** The request of a job of this kind, which keeps it as settings of a sweep of one speed, and speeds along the branch in rad/s. */
-export function branchesOf(job) {
-  const { sweep, along, doubled, most_points } = job.request;
-  const { values, unit } = Array.isArray(sweep.speeds) ? sweep.speeds[0] : sweep.speeds;
-  const of = OF_SPEED[unit] ?? 1;
-  const asked = (value) => (along.parameter === 'speed' ? tidy(of * value) : value);
-  return {
-    model: job.model,
-    speed: { value: values[0], unit },
-    along: { parameter: along.parameter, from: asked(along.from), to: asked(along.to) },
-    ...shared(sweep),
-    doubled,
-    most_points,
-  };
 }

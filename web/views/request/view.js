@@ -110,14 +110,6 @@ export async function requestForm(place, { model, kind, value, words }, signal) 
   }
 }
 
-/** What was asked for of a job: an accuracy or a budget in the place of the setting that was chosen for it. */
-export function askedOf(job) {
-  const asked = job.choice ?? {};
-  const request = { ...job.request, model: job.model };
-  if (asked.accuracy) return { ...withoutKnobs(request), accuracy: asked.accuracy };
-  return asked.budget ? { ...withoutKnobs(request), budget: asked.budget } : request;
-}
-
 /** What an accuracy stands in the place of: the settings of a request and of its integration. */
 const KNOBS = ['budget', 'modes_per_speed'];
 const INTEGRATION_KNOBS = ['scheme', 'kept_modes', 'steps_per_revolution'];

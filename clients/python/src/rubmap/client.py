@@ -10,15 +10,15 @@ from typing import Any, Self, cast
 from urllib.parse import quote
 
 from .contract import (
-    LabelledBranchesRequest,
-    LabelledCampaignRequest,
-    LabelledCaseStudyRequest,
-    LabelledImpellerRequest,
-    LabelledModalAnalysisRequest,
-    LabelledRunUpRequest,
-    LabelledStudyRequest,
-    LabelledSweepRequest,
+    BranchesRequest,
+    CampaignRequest,
+    CaseStudyRequest,
+    ImpellerRequest,
     MeasuredCasing,
+    ModalAnalysisRequest,
+    RunUpRequest,
+    StudyRequest,
+    SweepRequest,
 )
 from .jobs import Job, ModelGeneration, asked_of
 from .models import Model
@@ -79,7 +79,7 @@ class Client:
         path.stat()
         return Model(self.service, self.service.upload("/v1/models", lambda: _pieces(path), query))
 
-    def generate(self, request: LabelledImpellerRequest) -> ModelGeneration:
+    def generate(self, request: ImpellerRequest) -> ModelGeneration:
         """A parametric impeller: a job whose ``model`` is the id of the model."""
         return ModelGeneration(self.service, cast(Mapping[str, Any], request))
 
@@ -101,31 +101,31 @@ class Client:
         text = Path(table).expanduser().read_text(encoding="utf-8-sig")
         return cast(MeasuredCasing, self.service.read_text("/v1/casing-tables", text, "text/csv"))
 
-    def sweep(self, request: LabelledSweepRequest) -> Sweep:
+    def sweep(self, request: SweepRequest) -> Sweep:
         """A sweep over a range of speeds, not submitted yet."""
         return Sweep(self.service, cast(Mapping[str, Any], request))
 
-    def modal_analysis(self, request: LabelledModalAnalysisRequest) -> ModalAnalysis:
+    def modal_analysis(self, request: ModalAnalysisRequest) -> ModalAnalysis:
         """A modal analysis, not submitted yet."""
         return ModalAnalysis(self.service, cast(Mapping[str, Any], request))
 
-    def study(self, request: LabelledStudyRequest) -> Study:
+    def study(self, request: StudyRequest) -> Study:
         """A study of what accuracy costs, not submitted yet."""
         return Study(self.service, cast(Mapping[str, Any], request))
 
-    def case_study(self, request: LabelledCaseStudyRequest) -> CaseStudy:
+    def case_study(self, request: CaseStudyRequest) -> CaseStudy:
         """One speed in detail, not submitted yet."""
         return CaseStudy(self.service, cast(Mapping[str, Any], request))
 
-    def branches(self, request: LabelledBranchesRequest) -> Branches:
+    def branches(self, request: BranchesRequest) -> Branches:
         """Periodic responses followed over speed, clearance, height of the lobes or damping, not submitted yet."""
         return Branches(self.service, cast(Mapping[str, Any], request))
 
-    def run_ups(self, request: LabelledRunUpRequest) -> RunUps:
+    def run_ups(self, request: RunUpRequest) -> RunUps:
         """Run-ups or run-downs, whose speed changes, not submitted yet."""
         return RunUps(self.service, cast(Mapping[str, Any], request))
 
-    def campaign(self, request: LabelledCampaignRequest) -> Campaign:
+    def campaign(self, request: CampaignRequest) -> Campaign:
         """Many designs of a scene over speeds, not submitted yet."""
         return Campaign(self.service, cast(Mapping[str, Any], request))
 

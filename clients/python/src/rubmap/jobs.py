@@ -66,6 +66,15 @@ class Job:
         self.id = str(self._service.post(self.path, self.request, self._key)["id"])
         return self
 
+    def plan(self) -> dict[str, Any]:
+        """What it would do and cost, without starting anything: time, memory, steps, effects on and off, warnings.
+
+        Raises:
+            Refusal: the request is not complete or not possible.
+        """
+        found: dict[str, Any] = self._service.ask(f"{self.path}/plan", self.request)
+        return found
+
     @property
     def state(self) -> dict[str, Any]:
         """The job as the service tells of it now: status, progress (%), phase, error, times, links."""
@@ -182,11 +191,9 @@ class Job:
 
 
 def asked_of(found: Mapping[str, Any]) -> dict[str, Any] | None:
-    """The request of a job that the service tells of, which names its model beside it; lists leave it out."""
-    if "request" not in found:
-        return None
-    model = {} if found["kind"] == "model_generation" else {"model": found["model"]}
-    return {**model, **found["request"]}
+    """The request of a job as it was posted; lists leave it out, and some jobs of earlier services do not have it."""
+    posted: dict[str, Any] | None = found.get("posted")
+    return posted
 
 
 def _left(end: float | None, most: float) -> float:
@@ -194,20 +201,7 @@ def _left(end: float | None, most: float) -> float:
     return most if end is None else min(most, max(0.01, end - time.monotonic()))
 
 
-class Planned(Job):
-    """A job whose price the service tells beforehand."""
-
-    def plan(self) -> dict[str, Any]:
-        """What it would do and cost, without starting anything: time, memory, steps, effects on and off, warnings.
-
-        Raises:
-            Refusal: the request is not complete or not possible.
-        """
-        found: dict[str, Any] = self._service.ask(f"{self.path}/plan", self.request)
-        return found
-
-
-class ModelGeneration(Planned):
+class ModelGeneration(Job):
     """The generation of an impeller from parameters."""
 
     kind = "model_generation"

@@ -12,7 +12,7 @@ import xarray as xr
 
 from .contract import HistoriesRequest
 from .download import Arrays
-from .jobs import Job, Planned
+from .jobs import Job
 from .tables import RPM, credentials, dataset, sensor_unit, sensors, speed_axis, table, units
 
 
@@ -182,7 +182,7 @@ class Sweep(Planned, _Recorded):
         return table(self.arrays("stress"), "node")
 
 
-class ModalAnalysis(Planned):
+class ModalAnalysis(Job):
     """Natural frequencies over speed, and where the lobes meet them."""
 
     kind = "modal_analysis"
@@ -229,7 +229,7 @@ class CaseStudy(_Recorded):
     path = "/v1/case-studies"
 
 
-class Branches(Planned):
+class Branches(Job):
     """Periodic responses, followed while a number of their scene changes."""
 
     kind = "branches"
@@ -328,7 +328,7 @@ def _sensor_table(
     return frame
 
 
-class RunUps(Planned):
+class RunUps(Job):
     """Run-ups or run-downs: a scene whose speed changes, at one rate after the other or through points."""
 
     kind = "run_up"
@@ -429,7 +429,7 @@ def _ended(end: Mapping[str, Any] | None, sensor: int) -> dict[str, Any]:
     )
 
 
-class Campaign(Planned):
+class Campaign(Job):
     """Many designs of a scene, each over the same speeds."""
 
     kind = "campaign"

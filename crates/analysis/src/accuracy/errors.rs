@@ -97,7 +97,7 @@ pub fn errors(trial: &Trial, finer: &Trial) -> Option<Errors> {
 
 /// Relative difference of histories, ‖x − y‖/‖y‖ over the first revolutions, all sensors together; none without histories at the same
 /// instants of motions that begin alike.
-pub(super) fn history_error(trial: &Trial, finer: &Trial) -> Option<f64> {
+pub(crate) fn history_error(trial: &Trial, finer: &Trial) -> Option<f64> {
     // One that was solved for begins on its response, one that was marched where its scene begins.
     if trial.point.is_solved() != finer.point.is_solved() {
         return None;

@@ -24,7 +24,7 @@ use rubmap_wheel::response::sensitivity;
 impl Setting {
     /// Smallest number of steps per revolution, at least `steps`, for which the histories of all settings of `request` share their instants
     /// on a wheel of `sectors`.
-    pub(super) fn aligned_steps(steps: u32, request: &ResolvedSweep, sectors: u32) -> u32 {
+    pub(crate) fn aligned_steps(steps: u32, request: &ResolvedSweep, sectors: u32) -> u32 {
         let aligned = aligned_samples(request, sectors as usize) as u32;
         let most = MOST_STEPS / aligned * aligned;
         steps.checked_next_multiple_of(aligned).map_or(most, |steps| steps.min(most))

@@ -17,18 +17,13 @@ use crate::resolved::{ResolvedModalAnalysis, ResolvedSensor, ResolvedSpeeds, Res
 
 use self::findings::Findings;
 
-pub(crate) mod branches;
-pub(crate) mod campaign;
-pub(crate) mod case_study;
 mod effects;
 pub(crate) mod findings;
 mod gauges;
 pub(crate) mod limits;
-mod plain_sweep;
+pub(crate) mod plain_sweep;
 pub(crate) mod recorded;
-pub(crate) mod run_up;
 pub(crate) mod sensors;
-pub(crate) mod study;
 
 /// Parses a sweep and checks it against its model; without sensors it takes the default ones.
 pub fn resolve_sweep(request: SweepRequest, facts: &ModelFacts) -> Result<ResolvedSweep, Vec<Violation>> {
@@ -116,7 +111,7 @@ pub fn resolve_modal_analysis(
 }
 
 /// Requires that the knobs of a sweep are either given or chosen.
-fn check_knobs(found: &mut Findings, request: &SweepRequest) {
+pub(crate) fn check_knobs(found: &mut Findings, request: &SweepRequest) {
     let Integration { scheme, kept_modes, steps_per_revolution, .. } = request.integration;
     let fixed = [
         ("/modes_per_speed", request.modes_per_speed != AutoOr::Auto),
@@ -144,7 +139,7 @@ fn check_knobs(found: &mut Findings, request: &SweepRequest) {
     );
 }
 
-fn check_controls(found: &mut Findings, sweep: &ResolvedSweep) {
+pub(crate) fn check_controls(found: &mut Findings, sweep: &ResolvedSweep) {
     found.require(
         sweep.control_speeds <= limits::CONTROL_SPEEDS,
         "/control_speeds",
@@ -158,7 +153,7 @@ fn check_controls(found: &mut Findings, sweep: &ResolvedSweep) {
 }
 
 /// Requires either a target or a budget, and none of the knobs (JSON pointer, whether it is given) that it chooses.
-fn check_choice(
+pub(crate) fn check_choice(
     found: &mut Findings,
     accuracy: Option<Accuracy>,
     budget: Option<Budget>,
@@ -193,7 +188,7 @@ fn check_choice(
     }
 }
 
-fn check_modes(found: &mut Findings, modes_per_speed: u32) {
+pub(crate) fn check_modes(found: &mut Findings, modes_per_speed: u32) {
     found.require(
         (1..=limits::MODES_PER_SPEED).contains(&modes_per_speed),
         "/modes_per_speed",
@@ -201,7 +196,7 @@ fn check_modes(found: &mut Findings, modes_per_speed: u32) {
     );
 }
 
-fn check_speeds(
+pub(crate) fn check_speeds(
     found: &mut Findings,
     speeds: &ResolvedSpeeds,
     facts: &ModelFacts,
@@ -240,7 +235,7 @@ pub(crate) fn revolutions_field(integration: &Integration) -> &'static str {
     }
 }
 
-fn check_integration(found: &mut Findings, integration: &Integration, max_engine_order: u32) {
+pub(crate) fn check_integration(found: &mut Findings, integration: &Integration, max_engine_order: u32) {
     let Integration {
         scheme,
         kept_modes,
@@ -318,7 +313,7 @@ fn check_integration(found: &mut Findings, integration: &Integration, max_engine
 }
 
 /// Limits the memory of a speed: displacement over the whole run, and Fourier coordinates of all sectors over the window.
-fn check_memory(found: &mut Findings, request: &ResolvedSweep, facts: &ModelFacts) {
+pub(crate) fn check_memory(found: &mut Findings, request: &ResolvedSweep, facts: &ModelFacts) {
     let sectors = facts.sectors as usize;
     let (revolutions, window_revolutions) =
         (request.integration.revolutions(), request.integration.window_revolutions);
@@ -349,7 +344,7 @@ fn check_memory(found: &mut Findings, request: &ResolvedSweep, facts: &ModelFact
     );
 }
 
-fn default_sensors(facts: &ModelFacts) -> Vec<ResolvedSensor> {
+pub(crate) fn default_sensors(facts: &ModelFacts) -> Vec<ResolvedSensor> {
     let along = Along::Component(Component::Radial);
     let at = |contact_node| ResolvedSensor { place: Place::Contact(contact_node), sector: 0, along };
     match facts.contact_nodes {
@@ -358,7 +353,7 @@ fn default_sensors(facts: &ModelFacts) -> Vec<ResolvedSensor> {
     }
 }
 
-fn check_sensors(found: &mut Findings, sensors: &[ResolvedSensor], facts: &ModelFacts) {
+pub(crate) fn check_sensors(found: &mut Findings, sensors: &[ResolvedSensor], facts: &ModelFacts) {
     found.require(
         sensors.len() <= limits::SENSORS,
         "/sensors",

@@ -11,20 +11,20 @@ use crate::resolve::resolve_sweep;
 use crate::resolved::ResolvedSweep;
 
 /// Part of a request that asks for speeds of a scene.
-pub(super) struct PlainSweep {
-    pub(super) model: String,
-    pub(super) modes_per_speed: AutoOr,
-    pub(super) speeds: SpeedSet,
-    pub(super) scene: Scene,
-    pub(super) integration: Integration,
-    pub(super) sensors: Vec<Sensor>,
-    pub(super) max_engine_order: u32,
-    pub(super) fields: Option<bool>,
+pub(crate) struct PlainSweep {
+    pub(crate) model: String,
+    pub(crate) modes_per_speed: AutoOr,
+    pub(crate) speeds: SpeedSet,
+    pub(crate) scene: Scene,
+    pub(crate) integration: Integration,
+    pub(crate) sensors: Vec<Sensor>,
+    pub(crate) max_engine_order: u32,
+    pub(crate) fields: Option<bool>,
 }
 
 impl PlainSweep {
     /// Parses the sweep and checks it against its model; violations of the speeds are reported at `at`, the field that they came from.
-    pub(super) fn resolve(self, facts: &ModelFacts, at: &str) -> Result<ResolvedSweep, Vec<Violation>> {
+    pub(crate) fn resolve(self, facts: &ModelFacts, at: &str) -> Result<ResolvedSweep, Vec<Violation>> {
         let sweep = SweepRequest {
             model: self.model,
             modes_per_speed: self.modes_per_speed,
@@ -52,11 +52,11 @@ impl PlainSweep {
 }
 
 /// Set of the given speeds.
-pub(super) fn values(values: Vec<f64>, unit: SpeedUnit) -> SpeedSet {
+pub(crate) fn values(values: Vec<f64>, unit: SpeedUnit) -> SpeedSet {
     SpeedSet { from: None, to: None, count: None, values: Some(values), unit }
 }
 
 /// Set of a single speed.
-pub(super) fn one(speed: CaseSpeed) -> SpeedSet {
+pub(crate) fn one(speed: CaseSpeed) -> SpeedSet {
     values(vec![speed.value], speed.unit)
 }

@@ -23,7 +23,7 @@ pub(crate) fn wanted(request: &HistoriesRequest, critical: &BTreeSet<u32>) -> Ve
 }
 
 /// Checks the histories that a sweep asks for, at `pointer`.
-pub(super) fn check_histories(
+pub(crate) fn check_histories(
     found: &mut Findings,
     request: &HistoriesRequest,
     pointer: &str,
@@ -52,7 +52,7 @@ pub(super) fn check_histories(
     check_recorded(found, &request.recorded(), pointer, sweep, facts);
 }
 
-pub(super) fn check_recorded(
+pub(crate) fn check_recorded(
     found: &mut Findings,
     record: &Recorded,
     pointer: &str,
@@ -97,7 +97,7 @@ pub(super) fn check_recorded(
 }
 
 /// Refuses to leave out the rows of the basis that a recording `needs`.
-pub(super) fn check_fields(found: &mut Findings, fields: Option<bool>, needs: bool) {
+pub(crate) fn check_fields(found: &mut Findings, fields: Option<bool>, needs: bool) {
     found.require(
         !needs || fields != Some(false),
         "/fields",
@@ -110,7 +110,7 @@ pub(super) fn check_fields(found: &mut Findings, fields: Option<bool>, needs: bo
 const EXCLUDED_SPACINGS: f64 = 1.0;
 
 /// Checks stress that a sweep asks for, at `pointer`, and fills in its excluded radius.
-pub(super) fn resolve_stress(
+pub(crate) fn resolve_stress(
     found: &mut Findings,
     request: &mut StressRequest,
     pointer: &str,

@@ -4,31 +4,24 @@
 //! Speeds are numbers, defaults are filled in, alternatives are enums. The request can be had back, as the `settings` of results, and asked for
 //! again.
 
-pub mod branches;
-pub mod campaign;
-pub mod case_study;
-pub mod distribution;
 pub mod knobs;
-pub mod modal_analysis;
-pub mod run_up;
 pub mod scene;
 pub mod sensor;
 pub mod speeds;
-pub mod study;
 pub mod sweep;
 pub mod trial;
 
-pub use branches::ResolvedBranches;
-pub use campaign::ResolvedCampaign;
-pub use case_study::ResolvedCaseStudy;
-pub use distribution::Distribution;
+pub use crate::kinds::branches::resolved::ResolvedBranches;
+pub use crate::kinds::campaign::distribution::Distribution;
+pub use crate::kinds::campaign::resolved::ResolvedCampaign;
+pub use crate::kinds::case_study::resolved::ResolvedCaseStudy;
+pub use crate::kinds::modal_analysis::resolved::ResolvedModalAnalysis;
+pub use crate::kinds::run_up::resolved::ResolvedRunUps;
+pub use crate::kinds::study::resolved::ResolvedStudy;
 pub use knobs::{Aim, Modes};
-pub use modal_analysis::ResolvedModalAnalysis;
-pub use run_up::ResolvedRunUps;
 pub use scene::Scene;
 pub use sensor::ResolvedSensor;
 pub use speeds::ResolvedSpeeds;
-pub use study::ResolvedStudy;
 pub use sweep::ResolvedSweep;
 pub use trial::TrialRequest;
 

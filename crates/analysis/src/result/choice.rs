@@ -6,6 +6,17 @@ use crate::request::{Accuracy, Budget, SchemeChoice, Setting};
 use crate::resolved::{ResolvedModalAnalysis, ResolvedSweep};
 use rubmap_wheel::response::settling::Verdict;
 
+/// Settings that the service chose for a job, with the reasons.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[serde(tag = "kind", rename_all = "snake_case")]
+pub enum Chosen {
+    /// Settings of a sweep, chosen by pilot runs.
+    Setting(Choice),
+    /// Modes per speed of a modal analysis, chosen by its reductions.
+    Modes(ModesChoice),
+}
+
 /// The setting that pilot runs chose, and why.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]

@@ -1,8 +1,5 @@
 //! Results of computations: numbers with their credentials.
 
-pub mod branches;
-pub mod campaign;
-pub mod campbell;
 pub mod choice;
 pub mod contact;
 pub mod errors;
@@ -12,10 +9,8 @@ pub mod plan;
 pub mod point;
 pub mod reduction;
 pub mod refinement;
-pub mod run_up;
 pub mod steady;
 pub mod stress;
-pub mod study;
 pub mod surface;
 pub mod sweep;
 pub mod sweep_stress;
@@ -24,17 +19,24 @@ pub mod trial;
 pub mod validity;
 pub mod wheel;
 
-pub use branches::{
+pub use crate::kinds::branches::result::{
     Bifurcation, BifurcationKind, BranchEnd, BranchLeg, BranchMaximum, BranchPoint, BranchTrack, Branches,
     BranchesHead, Track,
 };
-pub use campaign::{
+pub use crate::kinds::campaign::result::{
     Campaign, CampaignDesign, CampaignPlan, CampaignThreshold, Comparison, DesignOutcome, Difference,
     DifferenceVerdict, LimitsMet, ParameterSensitivity, Sensitivities, ThresholdShare, severity_column,
     severity_unit,
 };
-pub use campbell::{AbsoluteFrequencies, Campbell, WaveTables};
-pub use choice::{Choice, ModesChoice, Pilot, TriedModes};
+pub use crate::kinds::modal_analysis::result::{AbsoluteFrequencies, Campbell, WaveTables};
+pub use crate::kinds::run_up::result::{
+    LargestOfRun, PassingRate, PlannedRunUp, RunUp, RunUpEnd, RunUpFrame, RunUpLeg, RunUpPlan, RunUps,
+    Spectrogram,
+};
+pub use crate::kinds::study::result::{
+    Histories, HistoryLine, SpeedStudy, StepOrder, StudyPlan, StudyReduction, StudyRun, WorkPrecision, front,
+};
+pub use choice::{Choice, Chosen, ModesChoice, Pilot, TriedModes};
 pub use contact::{ContactForces, ContactSummary, ForceMap, ForceRow};
 pub use errors::{Control, ErrorEstimate, Errors, PointError, Quantity};
 pub use geometry::{ContactPlace, NodeKind, SectorGeometry, SectorNode};
@@ -51,17 +53,10 @@ pub use reduction::{
     StiffeningVerdict,
 };
 pub use refinement::{Refinement, Unresolvable, Unresolved};
-pub use run_up::{
-    LargestOfRun, PassingRate, PlannedRunUp, RunUp, RunUpEnd, RunUpFrame, RunUpLeg, RunUpPlan, RunUps,
-    Spectrogram,
-};
 pub use steady::{FloquetMultiplier, MarchReport, Stability, SteadyReport};
 pub use stress::{
     LeadingPlace, PointStress, Strengths, StressCycle, StressPeak, drawn_stress_unit, most_utilised_first,
     stress_unit,
-};
-pub use study::{
-    Histories, HistoryLine, SpeedStudy, StepOrder, StudyReduction, StudyRun, WorkPrecision, front,
 };
 pub use surface::{FieldSurface, SurfaceColour};
 pub use sweep::{CriticalSpeed, CriticalSpeeds, InteractionMap};

@@ -1,0 +1,137 @@
+//! Case studies: chosen speeds of which everything is recorded.
+
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+use crate::error::Violation;
+use crate::kinds::case_study::resolve::{histories_of, resolve_case_study};
+#[cfg(feature = "schema")]
+use crate::kinds::kind::Shape;
+use crate::kinds::kind::{
+    self, Asked, GivenModel, Kind, NamedModel, NotStored, Recorded, ResolvedJob, Resolving, Units, Words,
+    Work,
+};
+use crate::kinds::plan::{Grounds, Plan};
+use crate::kinds::sweep::kind::{self as sweep, HISTORIES, STATES};
+use crate::request::{CaseStudyRequest, HistoriesRequest};
+use crate::resolved::{ResolvedCaseStudy, ResolvedSweep};
+use crate::result::SweepPlan;
+
+/// Histories of chosen speeds.
+pub static CASE_STUDY: Kind = Kind {
+    name: "case_study",
+    route: "/v1/case-studies",
+    operation: "case_study",
+    about: "Motion, forces and energy at one speed",
+    create: Words::new(
+        "Simulate one speed and record its histories: displacements, velocities, forces, energy.",
+        "`GET /v1/jobs/{id}/histories` has the histories. A sweep records those of its own speeds with `record`.",
+    ),
+    plan: Words::new(
+        "Plan a case study: what it would do and cost. Starts nothing.",
+        "Takes the body of `POST /v1/case-studies` and answers at once with the plan of its one speed, as of a sweep.",
+    ),
+    example: include_str!("example.json"),
+    results: &[("histories", "/histories")],
+    documents: &[HISTORIES, STATES],
+    units: Units::Once,
+    read: kind::read::<CaseStudyRequest>,
+    stored: |text, rounds| {
+        let written = serde_json::from_str(text)?;
+        Ok(Arc::new(ResolvedCaseStudy::stored(written, rounds).map_err(NotStored::Unsound)?))
+    },
+    #[cfg(feature = "schema")]
+    request: Shape::of::<CaseStudyRequest>(),
+    #[cfg(feature = "schema")]
+    planned: Shape::of::<SweepPlan>(),
+};
+
+impl Asked for CaseStudyRequest {
+    fn kind(&self) -> &'static Kind {
+        &CASE_STUDY
+    }
+
+    fn models(&self) -> Vec<NamedModel<'_>> {
+        vec![NamedModel::own(&self.model)]
+    }
+
+    fn sensors(&self) -> &[crate::request::Sensor] {
+        &self.sensors
+    }
+
+    fn resolve(mut self: Box<Self>, models: Vec<GivenModel>) -> Result<Resolving, Vec<Violation>> {
+        let GivenModel { facts, sensors } = kind::only(models)?;
+        self.sensors = sensors;
+        Ok(Resolving::Done(Arc::new(resolve_case_study(*self, &facts)?)))
+    }
+}
+
+/// Request for histories of a sweep that has ended.
+#[derive(Debug)]
+pub struct HistoriesOfSweep {
+    /// Sweep whose speeds are recorded.
+    pub sweep: ResolvedSweep,
+    /// Indices of its critical speeds, if the request asks for those.
+    pub critical: BTreeSet<u32>,
+    /// Speeds and quantities to record.
+    pub request: HistoriesRequest,
+}
+
+impl Asked for HistoriesOfSweep {
+    fn kind(&self) -> &'static Kind {
+        &CASE_STUDY
+    }
+
+    fn models(&self) -> Vec<NamedModel<'_>> {
+        vec![NamedModel::own(self.sweep.model())]
+    }
+
+    fn resolve(self: Box<Self>, models: Vec<GivenModel>) -> Result<Resolving, Vec<Violation>> {
+        let GivenModel { facts, .. } = kind::only(models)?;
+        Ok(Resolving::Done(Arc::new(histories_of(&self.sweep, &self.request, &self.critical, &facts)?)))
+    }
+}
+
+impl ResolvedJob for ResolvedCaseStudy {
+    fn kind(&self) -> &'static Kind {
+        &CASE_STUDY
+    }
+
+    fn text(&self) -> serde_json::Result<String> {
+        kind::text(self)
+    }
+
+    fn rounds(&self) -> u32 {
+        self.sweep.speeds().rounds()
+    }
+
+    fn models(&self) -> Vec<&str> {
+        vec![self.sweep.model()]
+    }
+
+    fn speeds(&self) -> u32 {
+        self.speeds.len() as u32
+    }
+
+    fn modes_per_speed(&self) -> Option<u32> {
+        self.sweep.modes().given()
+    }
+
+    fn scenes(&self) -> Vec<&ResolvedSweep> {
+        vec![&self.sweep]
+    }
+
+    fn records(&self) -> Recorded {
+        Recorded { stress: false, states: self.records_states() }
+    }
+
+    fn plan(&self, grounds: &Grounds) -> serde_json::Result<Plan> {
+        let plan = sweep::planned(&self.sweep, grounds, 0)?;
+        let plan = SweepPlan { placed_sensors: grounds.placed_sensors.clone(), ..plan };
+        Plan::of(&plan, plan.estimate.clone())
+    }
+
+    fn work(&self) -> Work<'_> {
+        Work::Recorded(self)
+    }
+}

@@ -1,0 +1,189 @@
+//! Sweeps: contact simulations over rotational speeds.
+
+use std::borrow::Cow;
+use std::sync::Arc;
+
+use crate::error::Violation;
+use crate::kinds::document::Document;
+#[cfg(feature = "schema")]
+use crate::kinds::kind::Shape;
+use crate::kinds::kind::{
+    self, Asked, GivenModel, Kind, NamedModel, NotStored, Recorded, ResolvedJob, Resolving, Speeds, ToChoose,
+    Units, Words, Work,
+};
+use crate::kinds::plan::{Capacity, Grounds, Plan};
+use crate::plan::plan_sweep;
+use crate::refine::refine;
+use crate::request::SweepRequest;
+use crate::resolve::resolve_sweep;
+use crate::resolved::ResolvedSweep;
+use crate::result::{Chosen, Point, SpeedResult, SweepPlan};
+
+/// Contact simulations over rotational speeds.
+pub static SWEEP: Kind = Kind {
+    name: "sweep",
+    route: "/v1/sweeps",
+    operation: "sweep",
+    about: "Contact over a range of speeds",
+    create: Words::new(
+        "Simulate contact over rotational speeds.",
+        "The request is checked against its model at once; all violations come in one answer. If the reduction is stored, it is also \
+         checked against the reduced model (fixed numbers of steps or kept modes against the stability limit, friction against what lets \
+         the tips slide); if not, such a violation fails the job before its first speed, with the same pointers. `POST /v1/sweeps/plan` \
+         refuses the same requests.",
+    ),
+    plan: Words::new(
+        "Plan a sweep: what it would do and cost. Starts nothing.",
+        "Takes the body of `POST /v1/sweeps` and answers at once with effects on and off, symmetry, contact pairs, and, if the reduction \
+         is stored, unknowns, scheme and step with the reason that set them, and the expected computing time and memory, from a short \
+         calibration of this machine. The results of a sweep repeat the estimate beside the cost that was spent.",
+    ),
+    example: include_str!("example.json"),
+    results: &[
+        ("interaction-map", "/interaction-map"),
+        ("critical-speeds", "/critical-speeds"),
+        ("wheel-critical-speeds", "/critical-speeds/wheel"),
+        ("spectra", "/spectra/{index}"),
+        ("forces", "/forces"),
+        ("report", "/report"),
+    ],
+    documents: &[CRITICAL_SPEEDS, WHEEL_CRITICAL_SPEEDS.name, ERRORS.name, HISTORIES, STATES],
+    units: Units::Speeds,
+    read: kind::read::<SweepRequest>,
+    stored: |text, rounds| {
+        let written = serde_json::from_str(text)?;
+        Ok(Arc::new(ResolvedSweep::stored(written, rounds).map_err(NotStored::Unsound)?))
+    },
+    #[cfg(feature = "schema")]
+    request: Shape::of::<SweepRequest>(),
+    #[cfg(feature = "schema")]
+    planned: Shape::of::<SweepPlan>(),
+};
+
+/// Critical speeds at the sensor of this index.
+pub const CRITICAL_SPEEDS: &str = "critical_speeds";
+
+/// Critical speeds of the wheel as a whole.
+pub const WHEEL_CRITICAL_SPEEDS: Document = Document::only("wheel_critical_speeds");
+
+/// Estimated errors of all speeds.
+pub const ERRORS: Document = Document::only("errors");
+
+/// Histories at the speed of this index.
+pub const HISTORIES: &str = "histories";
+
+/// States of the whole wheel at the speed of this index.
+pub const STATES: &str = "states";
+
+impl Asked for SweepRequest {
+    fn kind(&self) -> &'static Kind {
+        &SWEEP
+    }
+
+    fn models(&self) -> Vec<NamedModel<'_>> {
+        vec![NamedModel::own(&self.model)]
+    }
+
+    fn sensors(&self) -> &[crate::request::Sensor] {
+        &self.sensors
+    }
+
+    fn resolve(mut self: Box<Self>, models: Vec<GivenModel>) -> Result<Resolving, Vec<Violation>> {
+        let GivenModel { facts, sensors } = kind::only(models)?;
+        self.sensors = sensors;
+        Ok(Resolving::Done(Arc::new(resolve_sweep(*self, &facts)?)))
+    }
+}
+
+impl ResolvedJob for ResolvedSweep {
+    fn kind(&self) -> &'static Kind {
+        &SWEEP
+    }
+
+    fn text(&self) -> serde_json::Result<String> {
+        kind::text(self)
+    }
+
+    fn as_posted(&self) -> serde_json::Result<Option<String>> {
+        kind::text(&self.unrefined()).map(Some)
+    }
+
+    fn rounds(&self) -> u32 {
+        self.speeds().rounds()
+    }
+
+    fn models(&self) -> Vec<&str> {
+        vec![self.model()]
+    }
+
+    fn speeds(&self) -> u32 {
+        self.speeds.count()
+    }
+
+    fn modes_per_speed(&self) -> Option<u32> {
+        self.modes().given()
+    }
+
+    fn is_of_one_kind(&self) -> bool {
+        self.is_of_one_kind()
+    }
+
+    fn chain(&self) -> Option<Vec<u32>> {
+        self.chain()
+    }
+
+    fn scenes(&self) -> Vec<&ResolvedSweep> {
+        vec![self]
+    }
+
+    fn choice(&self) -> Option<ToChoose<'_>> {
+        self.is_sought().then_some(ToChoose::Setting(self))
+    }
+
+    fn records(&self) -> Recorded {
+        Recorded { stress: self.stress_outside().is_some(), states: self.records_states() }
+    }
+
+    fn plan(&self, grounds: &Grounds) -> serde_json::Result<Plan> {
+        let plan = planned(self, grounds, 0)?;
+        let choice = grounds.choice.clone().and_then(|chosen| match chosen {
+            Chosen::Setting(choice) => Some(choice),
+            Chosen::Modes(_) => None,
+        });
+        let plan = SweepPlan { choice, placed_sensors: grounds.placed_sensors.clone(), ..plan };
+        Plan::of(&plan, plan.estimate.clone())
+    }
+
+    fn work(&self) -> Work<'_> {
+        Work::Speeds(self)
+    }
+}
+
+/// Plan of a sweep of model `place` of a job.
+pub(crate) fn planned(
+    sweep: &ResolvedSweep,
+    grounds: &Grounds,
+    place: usize,
+) -> serde_json::Result<SweepPlan> {
+    let (model, Capacity { machine, costs, threads }) = (&grounds.models[place], grounds.capacity()?);
+    let plan = plan_sweep(sweep, &model.facts, model.reduced.as_deref(), costs, *threads);
+    Ok(SweepPlan { machine: Some(machine.clone()), ..plan })
+}
+
+impl Speeds for ResolvedSweep {
+    fn speed(&self, index: u32) -> Result<(Cow<'_, ResolvedSweep>, u32), Vec<Violation>> {
+        Ok((Cow::Borrowed(self), index))
+    }
+
+    fn kept(&self, found: SpeedResult, _index: u32) -> SpeedResult {
+        found
+    }
+
+    fn more(&self, points: &[Point]) -> Option<Arc<dyn ResolvedJob>> {
+        refine(self, points).map(|refined| Arc::new(refined) as Arc<dyn ResolvedJob>)
+    }
+
+    fn concluded(&self) -> Option<&ResolvedSweep> {
+        Some(self)
+    }
+}
