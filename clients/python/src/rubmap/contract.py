@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Literal, NotRequired, TypeAlias
+from typing import Any, Literal, NotRequired, TypeAlias
 from typing_extensions import TypedDict
 
 
@@ -347,12 +347,12 @@ class JobEvent(TypedDict):
 JobKind: TypeAlias = Literal[
     "sweep",
     "modal_analysis",
-    "model_generation",
-    "study",
     "case_study",
     "branches",
     "run_up",
     "campaign",
+    "study",
+    "model_generation",
 ]
 
 
@@ -365,9 +365,6 @@ class LabelPatch(TypedDict, closed=True):
     name: NotRequired[str | None]
     notes: NotRequired[str | None]
     tags: NotRequired[list[str] | None]
-
-
-Superharmonic: TypeAlias = int
 
 
 class LargestDifference(TypedDict):
@@ -457,6 +454,9 @@ class Mistuning(TypedDict, closed=True):
     deviations: NotRequired[list[float] | None]
     seed: NotRequired[int | None]
     spread: NotRequired[float | None]
+
+
+Superharmonic: TypeAlias = int
 
 
 NodeKind: TypeAlias = Literal["internal", "low", "high", "contact", "clamped"]
@@ -1183,32 +1183,7 @@ class ImpellerParameters(TypedDict, closed=True):
     wrap_deg: NotRequired[float]
 
 
-class InSi(TypedDict):
-    contact_radius_m: float
-    mass_kg: float
-    materials: NotRequired[list[MaterialInSi]]
-
-
-class Initial(TypedDict, closed=True):
-    amplitude: float
-    family: int
-    nodal_diameter: int
-    wave: NotRequired[InitialWave]
-
-
-class Integration(TypedDict, closed=True):
-    kept_modes: NotRequired[AutoOr]
-    most_revolutions: NotRequired[int]
-    ramp_revolutions: NotRequired[float]
-    revolutions: NotRequired[AutoOr]
-    scheme: NotRequired[SchemeChoice]
-    settled_to: NotRequired[float]
-    steady: NotRequired[SteadyChoice]
-    steps_per_revolution: NotRequired[AutoOr]
-    window_revolutions: NotRequired[int]
-
-
-class LabelledImpellerRequest(TypedDict, closed=True):
+class ImpellerRequest(TypedDict, closed=True):
     axial_length: NotRequired[float]
     backsweep_deg: NotRequired[float]
     bore_radius: NotRequired[float]
@@ -1233,6 +1208,31 @@ class LabelledImpellerRequest(TypedDict, closed=True):
     top_speed_rad_s: NotRequired[float]
     units: NotRequired[Units]
     wrap_deg: NotRequired[float]
+
+
+class InSi(TypedDict):
+    contact_radius_m: float
+    mass_kg: float
+    materials: NotRequired[list[MaterialInSi]]
+
+
+class Initial(TypedDict, closed=True):
+    amplitude: float
+    family: int
+    nodal_diameter: int
+    wave: NotRequired[InitialWave]
+
+
+class Integration(TypedDict, closed=True):
+    kept_modes: NotRequired[AutoOr]
+    most_revolutions: NotRequired[int]
+    ramp_revolutions: NotRequired[float]
+    revolutions: NotRequired[AutoOr]
+    scheme: NotRequired[SchemeChoice]
+    settled_to: NotRequired[float]
+    steady: NotRequired[SteadyChoice]
+    steps_per_revolution: NotRequired[AutoOr]
+    window_revolutions: NotRequired[int]
 
 
 class MeasuredSurvey(TypedDict):
@@ -1579,23 +1579,6 @@ class JobList(TypedDict):
     next: NotRequired[str | None]
 
 
-class LabelledModalAnalysisRequest(TypedDict, closed=True):
-    accuracy: NotRequired[Accuracy | None]
-    budget: NotRequired[Budget | None]
-    coriolis: NotRequired[bool]
-    families: NotRequired[int]
-    fields: NotRequired[bool | None]
-    lobes: NotRequired[int]
-    max_engine_order: NotRequired[int]
-    model: str
-    modes_per_speed: NotRequired[AutoOr]
-    name: NotRequired[str | None]
-    notes: NotRequired[str | None]
-    speeds: Speeds
-    superharmonics: NotRequired[list[Superharmonic]]
-    tags: NotRequired[list[str]]
-
-
 class MeasuredCasing(TypedDict):
     filled: list[FilledHeight]
     filled_count: int
@@ -1613,8 +1596,11 @@ class ModalAnalysisRequest(TypedDict, closed=True):
     max_engine_order: NotRequired[int]
     model: str
     modes_per_speed: NotRequired[AutoOr]
+    name: NotRequired[str | None]
+    notes: NotRequired[str | None]
     speeds: Speeds
     superharmonics: NotRequired[list[Superharmonic]]
+    tags: NotRequired[list[str]]
 
 
 class ModelFacts(TypedDict):
@@ -1690,10 +1676,13 @@ class StudyRequest(TypedDict, closed=True):
     integration: NotRequired[StudyIntegration]
     max_engine_order: NotRequired[int]
     model: str
+    name: NotRequired[str | None]
+    notes: NotRequired[str | None]
     record: NotRequired[StudyRecord]
     scene: Scene
     sensors: NotRequired[list[Sensor]]
     speeds: Speeds
+    tags: NotRequired[list[str]]
 
 
 class SweepRequest(TypedDict, closed=True):
@@ -1705,6 +1694,8 @@ class SweepRequest(TypedDict, closed=True):
     max_engine_order: NotRequired[int]
     model: str
     modes_per_speed: NotRequired[AutoOr]
+    name: NotRequired[str | None]
+    notes: NotRequired[str | None]
     peak_prominence: NotRequired[float]
     record: NotRequired[Record]
     refine: NotRequired[bool]
@@ -1713,6 +1704,7 @@ class SweepRequest(TypedDict, closed=True):
     sensors: NotRequired[list[Sensor]]
     speeds: Speeds
     sweep: NotRequired[SweepDirection]
+    tags: NotRequired[list[str]]
 
 
 class Validity(TypedDict):
@@ -1738,11 +1730,48 @@ class WorkPrecision(TypedDict):
     version: str
 
 
+class BranchesRequest(TypedDict, closed=True):
+    along: Along
+    doubled: NotRequired[bool]
+    integration: NotRequired[Integration]
+    max_engine_order: NotRequired[int]
+    model: str
+    modes_per_speed: NotRequired[AutoOr]
+    most_points: NotRequired[int]
+    name: NotRequired[str | None]
+    notes: NotRequired[str | None]
+    scene: Scene
+    sensors: NotRequired[list[Sensor]]
+    speed: CaseSpeed
+    tags: NotRequired[list[str]]
+
+
 class BranchesSettings(TypedDict, closed=True):
     along: Along
     doubled: bool
     most_points: int
     sweep: SweepRequest
+
+
+class CampaignRequest(TypedDict, closed=True):
+    compared_model: NotRequired[str | None]
+    design: Design
+    fields: NotRequired[bool | None]
+    integration: NotRequired[Integration]
+    limit: NotRequired[float | None]
+    max_engine_order: NotRequired[int]
+    model: str
+    modes_per_speed: NotRequired[AutoOr]
+    name: NotRequired[str | None]
+    notes: NotRequired[str | None]
+    parameters: list[Parameter]
+    scene: Scene
+    sensors: NotRequired[list[Sensor]]
+    severity: NotRequired[Severity]
+    speeds: Speeds
+    stress: NotRequired[StressRequest | None]
+    tags: NotRequired[list[str]]
+    threshold: NotRequired[Threshold | None]
 
 
 class CampaignSettings(TypedDict, closed=True):
@@ -1770,10 +1799,19 @@ class Campbell(TypedDict):
     waves: NotRequired[WaveTables | None]
 
 
-class CaseStudySettings(TypedDict, closed=True):
-    record: Recorded
-    speeds: list[int]
-    sweep: SweepRequest
+class CaseStudyRequest(TypedDict, closed=True):
+    fields: NotRequired[bool | None]
+    integration: NotRequired[Integration]
+    max_engine_order: NotRequired[int]
+    model: str
+    modes_per_speed: NotRequired[AutoOr]
+    name: NotRequired[str | None]
+    notes: NotRequired[str | None]
+    record: NotRequired[Recorded]
+    scene: Scene
+    sensors: NotRequired[list[Sensor]]
+    speed: CaseSpeed
+    tags: NotRequired[list[str]]
 
 
 class CriticalSpeeds(TypedDict):
@@ -1798,113 +1836,6 @@ class ForceMap(TypedDict):
     speeds_rad_s: list[float]
     units: Units
     version: str
-
-
-class LabelledBranchesRequest(TypedDict, closed=True):
-    along: Along
-    doubled: NotRequired[bool]
-    integration: NotRequired[Integration]
-    max_engine_order: NotRequired[int]
-    model: str
-    modes_per_speed: NotRequired[AutoOr]
-    most_points: NotRequired[int]
-    name: NotRequired[str | None]
-    notes: NotRequired[str | None]
-    scene: Scene
-    sensors: NotRequired[list[Sensor]]
-    speed: CaseSpeed
-    tags: NotRequired[list[str]]
-
-
-class LabelledCampaignRequest(TypedDict, closed=True):
-    compared_model: NotRequired[str | None]
-    design: Design
-    fields: NotRequired[bool | None]
-    integration: NotRequired[Integration]
-    limit: NotRequired[float | None]
-    max_engine_order: NotRequired[int]
-    model: str
-    modes_per_speed: NotRequired[AutoOr]
-    name: NotRequired[str | None]
-    notes: NotRequired[str | None]
-    parameters: list[Parameter]
-    scene: Scene
-    sensors: NotRequired[list[Sensor]]
-    severity: NotRequired[Severity]
-    speeds: Speeds
-    stress: NotRequired[StressRequest | None]
-    tags: NotRequired[list[str]]
-    threshold: NotRequired[Threshold | None]
-
-
-class LabelledCaseStudyRequest(TypedDict, closed=True):
-    fields: NotRequired[bool | None]
-    integration: NotRequired[Integration]
-    max_engine_order: NotRequired[int]
-    model: str
-    modes_per_speed: NotRequired[AutoOr]
-    name: NotRequired[str | None]
-    notes: NotRequired[str | None]
-    record: NotRequired[Recorded]
-    scene: Scene
-    sensors: NotRequired[list[Sensor]]
-    speed: CaseSpeed
-    tags: NotRequired[list[str]]
-
-
-class LabelledRunUpRequest(TypedDict, closed=True):
-    angle_tolerance_rad: NotRequired[float]
-    euler_force: NotRequired[bool]
-    frame_revolutions: NotRequired[AutoOr]
-    integration: NotRequired[RunUpIntegration]
-    limit: NotRequired[float | None]
-    max_engine_order: NotRequired[int]
-    model: str
-    modes_per_speed: NotRequired[AutoOr]
-    name: NotRequired[str | None]
-    notes: NotRequired[str | None]
-    scene: Scene
-    sensors: NotRequired[list[Sensor]]
-    speed: RunUpSpeed
-    tags: NotRequired[list[str]]
-
-
-class LabelledStudyRequest(TypedDict, closed=True):
-    fields: NotRequired[bool | None]
-    grid: NotRequired[Grid]
-    history_revolutions: NotRequired[int]
-    integration: NotRequired[StudyIntegration]
-    max_engine_order: NotRequired[int]
-    model: str
-    name: NotRequired[str | None]
-    notes: NotRequired[str | None]
-    record: NotRequired[StudyRecord]
-    scene: Scene
-    sensors: NotRequired[list[Sensor]]
-    speeds: Speeds
-    tags: NotRequired[list[str]]
-
-
-class LabelledSweepRequest(TypedDict, closed=True):
-    accuracy: NotRequired[Accuracy | None]
-    budget: NotRequired[Budget | None]
-    control_speeds: NotRequired[int | None]
-    fields: NotRequired[bool | None]
-    integration: NotRequired[Integration]
-    max_engine_order: NotRequired[int]
-    model: str
-    modes_per_speed: NotRequired[AutoOr]
-    name: NotRequired[str | None]
-    notes: NotRequired[str | None]
-    peak_prominence: NotRequired[float]
-    record: NotRequired[Record]
-    refine: NotRequired[bool]
-    reproducible: NotRequired[bool]
-    scene: Scene
-    sensors: NotRequired[list[Sensor]]
-    speeds: Speeds
-    sweep: NotRequired[SweepDirection]
-    tags: NotRequired[list[str]]
 
 
 class ModalAnalysisPlan(TypedDict):
@@ -1971,6 +1902,23 @@ class Point(TypedDict):
     version: str
     wall_time_s: float
     wear: NotRequired[WearReport | None]
+
+
+class RunUpRequest(TypedDict, closed=True):
+    angle_tolerance_rad: NotRequired[float]
+    euler_force: NotRequired[bool]
+    frame_revolutions: NotRequired[AutoOr]
+    integration: NotRequired[RunUpIntegration]
+    limit: NotRequired[float | None]
+    max_engine_order: NotRequired[int]
+    model: str
+    modes_per_speed: NotRequired[AutoOr]
+    name: NotRequired[str | None]
+    notes: NotRequired[str | None]
+    scene: Scene
+    sensors: NotRequired[list[Sensor]]
+    speed: RunUpSpeed
+    tags: NotRequired[list[str]]
 
 
 class RunUpSettings(TypedDict, closed=True):
@@ -2050,6 +1998,17 @@ class SpeedStress(TypedDict):
     speed_rad_s: float
     stress: PointStress
     validity: NotRequired[Validity | None]
+
+
+class StudyPlan(TypedDict):
+    effects: list[PlannedEffect]
+    reductions: list[int]
+    settings: StudyRequest
+    simulations: int
+    speeds: int
+    steps: int
+    version: str
+    warnings: NotRequired[list[str]]
 
 
 class SweepPlan(TypedDict):
@@ -2164,15 +2123,16 @@ class InteractionMap(TypedDict):
 MapBody: TypeAlias = InteractionMap | SensorMaps
 
 
-RequestBody: TypeAlias = (
+PostedBody: TypeAlias = (
     SweepRequest
     | ModalAnalysisRequest
+    | CaseStudyRequest
+    | BranchesRequest
+    | RunUpRequest
+    | CampaignRequest
     | StudyRequest
-    | CaseStudySettings
-    | BranchesSettings
-    | RunUpSettings
-    | CampaignSettings
-    | ImpellerParameters
+    | ImpellerRequest
+    | HistoriesRequest
 )
 
 
@@ -2197,5 +2157,7 @@ class Branches(BranchesHead):
 
 class JobDetail(JobBody):
     choice: NotRequired[Chosen | None]
+    posted: NotRequired[PostedBody | None]
+    posted_to: NotRequired[str | None]
     reduction: NotRequired[ReductionReport | None]
-    request: RequestBody
+    request: dict[str, Any]
