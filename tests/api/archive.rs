@@ -187,6 +187,9 @@ async fn every_kind_of_job_repeats_to_the_bit() {
     refined["name"] = "not computed".into();
     let mut coated = sweep_of(&model);
     coated["scene"]["abradable"] = json!({"modulus": 2e4, "yield_stress": 20.0, "hardening": 500.0, "thickness": 2.0, "rods_around": 16});
+    let (mut branches, mut run_ups) = (branches_of(&model), run_ups_of(&model));
+    (branches["most_points"], branches["doubled"]) = (2.into(), false.into());
+    (run_ups["speed"]["to"], run_ups["speed"]["hold_s"]) = (330.into(), 0.into());
     let mut compared = campaign_of(&model);
     compared["compared_model"] = api.model(model::package(1.1)).await.into();
     let asked = [
@@ -195,8 +198,8 @@ async fn every_kind_of_job_repeats_to_the_bit() {
         ("/v1/modal-analyses", modal_analysis_of(&model)),
         ("/v1/studies", study_of(&model)),
         ("/v1/case-studies", case_of(&model)),
-        ("/v1/branches", branches_of(&model)),
-        ("/v1/run-ups", run_ups_of(&model)),
+        ("/v1/branches", branches),
+        ("/v1/run-ups", run_ups),
         ("/v1/campaigns", compared),
         ("/v1/models", coarse()),
     ];
