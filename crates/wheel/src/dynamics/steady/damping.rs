@@ -35,7 +35,8 @@ pub(super) struct Followed {
 pub(super) fn follow(
     simulation: &Simulation<'_>,
     start: &[f64],
-    (search, taken): (&Search, &mut usize),
+    search: &Search,
+    taken: &mut usize,
     go_on: &dyn Fn() -> bool,
 ) -> Result<Followed, NotFound> {
     let stalled = |taken: usize| NotFound::Stalled { residual: f64::INFINITY, passages: taken };

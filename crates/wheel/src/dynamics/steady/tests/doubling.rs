@@ -37,7 +37,7 @@ fn tell(family: &OverSpeed, lap: Lap, motion: &Motion) -> (Floquet, Stepped) {
     let mut told = None;
     let act = &mut |passage: &mut Passage<'_>| {
         let state = passage.state_of(&motion.state);
-        let floquet = Floquet::of(passage, (&state, &vec![1.0; state.len()]), 4).unwrap();
+        let floquet = Floquet::of(passage, &state, &vec![1.0; state.len()], 4).unwrap();
         let size = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
         let grows: Vec<f64> = floquet.multipliers[0].vector.iter().map(|x: &c64| x.re).collect();
         let scale = size(&state) / size(&grows);
