@@ -13,7 +13,7 @@ use super::super::effects::{Effects, FrictionLaw};
 use super::super::energy::EffectWork;
 use super::super::oscillators::Oscillators;
 use super::super::oscillators::lanes::LANES;
-use super::super::oscillators::rows::{Loads, Reading, Rows};
+use super::super::oscillators::rows::{Loads, Readout, Rows};
 use super::super::statistics::RunStatistics;
 use super::instant::Instant;
 use super::residual::ResidualDisplacement;
@@ -151,9 +151,9 @@ impl Obstacle {
     pub(super) fn loads_and_reading<'a>(
         &'a mut self,
         surroundings: Option<&'a Surroundings>,
-    ) -> (Loads<'a>, Reading<'a>) {
+    ) -> (Loads<'a>, Readout<'a>) {
         let Self { rows, harmonic, loaded, force, .. } = self;
-        (Loads { rows: applied(rows, surroundings), loaded, force }, Reading { rows, out: harmonic })
+        (Loads { rows: applied(rows, surroundings), loaded, force }, Readout { rows, out: harmonic })
     }
 
     /// Predicts the gaps g_p = c − p − nᵀu of all sectors. Returns the smallest if it is negative, otherwise a number that is not.

@@ -19,7 +19,7 @@ use pulp::Simd;
 use self::lanes::padded;
 pub(crate) use self::recursion::Exchange;
 use self::recursion::{Advance, Complete, CompleteAndPredict, Modes, Numbers, Pass, Sums};
-use self::rows::{Loads, Reading, Rows};
+use self::rows::{Loads, Readout, Rows};
 use self::segment::Segment;
 use super::initial::{InitialMode, SteppedMode};
 use super::modal_wheel::ModalWheel;
@@ -178,7 +178,7 @@ impl Oscillators {
         &mut self,
         simd: S,
         loads: Loads<'_>,
-        reading: Reading<'_>,
+        reading: Readout<'_>,
     ) -> Exchange {
         self.pass::<S, Advance>(simd, Some(loads), Some(reading))
     }
@@ -190,7 +190,7 @@ impl Oscillators {
         &mut self,
         simd: S,
         loads: Loads<'_>,
-        reading: Reading<'_>,
+        reading: Readout<'_>,
     ) -> Exchange {
         if loads.loaded.is_empty() {
             self.pass::<S, CompleteAndPredict>(simd, None, Some(reading))
@@ -211,7 +211,7 @@ impl Oscillators {
         &mut self,
         simd: S,
         loads: Option<Loads<'_>>,
-        reading: Option<Reading<'_>>,
+        reading: Option<Readout<'_>>,
     ) -> Exchange {
         if self.dissipates {
             self.pass_counting::<S, P, true>(simd, loads, reading)
@@ -225,7 +225,7 @@ impl Oscillators {
         &mut self,
         simd: S,
         loads: Option<Loads<'_>>,
-        mut reading: Option<Reading<'_>>,
+        mut reading: Option<Readout<'_>>,
     ) -> Exchange {
         let zero = simd.splat_f64s(0.0);
         let mut sums = Sums::<S, DISSIPATES>::new(simd);
@@ -249,7 +249,7 @@ impl Oscillators {
                     }
                 }
             }
-            if let Some(Reading { rows, out }) = &mut reading {
+            if let Some(Readout { rows, out }) = &mut reading {
                 rows.project(simd, index, segment, &self.state.z, out);
             }
         }

@@ -30,7 +30,7 @@ pub(crate) struct Loads<'a> {
 
 /// Rows to be read, and where their values go.
 #[derive(Debug)]
-pub(crate) struct Reading<'a> {
+pub(crate) struct Readout<'a> {
     pub(crate) rows: &'a Rows,
     /// Values in Fourier coordinates, `[column][row]`, rows padded to their stride.
     pub(crate) out: &'a mut [f64],

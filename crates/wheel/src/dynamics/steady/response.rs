@@ -1,6 +1,6 @@
 //! Periodic response of a scene: sought from where its march begins, judged, and checked by a march.
 
-use super::damping::{Followed, follow};
+use super::damping::{ContinuedResponse, follow};
 use super::multipliers::MOST_PRODUCTS;
 use super::periodic::{DEPTH, NotFound, Periodic, Search, find};
 use super::stability::{Floquet, Stability};
@@ -102,7 +102,7 @@ fn respond(
             let followed = follow(simulation, &start, &search, &mut taken, go_on);
             *revolutions += (taken * steps) as f64 / per_revolution as f64;
             match followed {
-                Ok(Followed { periodic, from }) => (periodic, Some(from)),
+                Ok(ContinuedResponse { periodic, from }) => (periodic, Some(from)),
                 Err(NotFound::Cancelled) => return Err(NotFound::Cancelled),
                 Err(_) => return Err(stalled),
             }

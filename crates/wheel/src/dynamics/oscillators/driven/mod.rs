@@ -23,10 +23,10 @@ use super::super::effects::Effects;
 use super::super::energy::EffectWork;
 use super::super::excitation::{EngineOrderExcitation, ModalExcitation};
 use super::super::initial::InitialMode;
-use super::super::mistuning::{ModalMistuning, Place, RESOLVED};
+use super::super::mistuning::{ModalMistuning, ModeOffsets, RESOLVED};
 use super::super::modal_wheel::{ModalHarmonic, ModalWheel};
 use super::recursion::{Exchange, Modes};
-use super::rows::{Loads, Reading, Rows};
+use super::rows::{Loads, Readout, Rows};
 use super::segment::Segment;
 use super::{Oscillators, Part};
 use acting::{Acting, DrivenSums, Excitation};
@@ -40,7 +40,7 @@ use turning::Turning;
 pub(crate) struct Drive {
     excitations: Vec<Excitation>,
     mistuning: Option<ModalMistuning>,
-    places: Vec<Place>,
+    offsets: Vec<ModeOffsets>,
     turning: Option<Turning>,
     circulation: Option<Circulation>,
     acting: Acting,
@@ -93,7 +93,7 @@ impl Drive {
             },
             excitations,
             mistuning,
-            places: oscillators.segments.iter().map(Segment::place).collect(),
+            offsets: oscillators.segments.iter().map(Segment::offsets).collect(),
             turning,
             circulation,
             swing: of(true),
@@ -121,7 +121,7 @@ impl Drive {
 
     /// Stiffness −∂f/∂z of mistuning between the Fourier columns of every family that it couples.
     pub(crate) fn mistuned(&self) -> Vec<Mat<f64>> {
-        self.mistuning.as_ref().map(|mistuning| mistuning.stiffness(&self.places)).unwrap_or_default()
+        self.mistuning.as_ref().map(|mistuning| mistuning.stiffness(&self.offsets)).unwrap_or_default()
     }
 
     /// Reverses [`Self::start`] after `revolutions`: leaves the increments that free motion has at the same velocities, as `read` finds them.
@@ -209,7 +209,7 @@ impl Drive {
     #[inline(always)]
     fn pull<S: Simd>(&mut self, simd: S, z: &[f64]) {
         if let Some(mistuning) = &mut self.mistuning {
-            mistuning.force(simd, &self.places, z, &mut self.acting.mistuning);
+            mistuning.force(simd, &self.offsets, z, &mut self.acting.mistuning);
         }
     }
 }
@@ -275,7 +275,7 @@ impl Oscillators {
         drive: &mut Drive,
         loads: Loads<'_>,
         revolutions: f64,
-        reading: Reading<'_>,
+        reading: Readout<'_>,
         work: &mut EffectWork,
     ) -> Exchange {
         let mut sums = DrivenSums::new(simd);
@@ -348,7 +348,7 @@ impl Oscillators {
         drive: &mut Drive,
         loads: Option<Loads<'_>>,
         revolutions: f64,
-        mut reading: Option<Reading<'_>>,
+        mut reading: Option<Readout<'_>>,
         work: &mut EffectWork,
     ) -> Exchange {
         let mut sums = DrivenSums::new(simd);
@@ -367,7 +367,7 @@ impl Oscillators {
                     sums.count(simd, swing, loss, &forces, m);
                 }
             }
-            if let Some(Reading { rows, out }) = &mut reading {
+            if let Some(Readout { rows, out }) = &mut reading {
                 rows.project(simd, index, segment, &self.state.z, out);
             }
         }
