@@ -274,9 +274,9 @@ async fn a_job_of_one_kind_says_that_it_waits_for_it() {
         let queue = store.shared_queue().unwrap();
         upload(store, "", 'a', &Labels::default()).await;
         let [pinned, other, new] = [true, false, true].map(|one_kind| sweep_on('a', 4, one_kind));
-        let pinned = queue_request(store, "", &pinned, &Labels::default()).await;
-        let other = queue_request(store, "", &other, &Labels::default()).await;
-        let new = queue_request(store, "", &new, &Labels::default()).await;
+        let pinned = queue_request(store, "", &*pinned, &Labels::default()).await;
+        let other = queue_request(store, "", &*other, &Labels::default()).await;
+        let new = queue_request(store, "", &*new, &Labels::default()).await;
         assert!(begin(store, pinned).await && begin(store, other).await);
         let phases = async || {
             queue.tell_who_waits().await.unwrap();
