@@ -12,7 +12,7 @@ use clap::Args;
 
 use crate::package::Limits;
 #[cfg(feature = "cluster")]
-use crate::store::Address;
+use crate::store::cluster::address::Address;
 use crate::store::limits as owner;
 
 #[cfg(feature = "cluster")]

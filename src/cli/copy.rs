@@ -8,7 +8,8 @@ use clap::Args;
 use super::keeping::runtime;
 use super::terminal::Terminal;
 use crate::config::DatabaseUrl;
-use crate::store::{self, Address, CopyProgress};
+use crate::store::cluster::address::Address;
+use crate::store::cluster::copy::{self, CopyProgress};
 
 /// Description of what the command does, for its help.
 pub(super) const EFFECTS: &str = "\
@@ -44,7 +45,7 @@ pub(super) fn run(CopyArgs { data, database, objects }: CopyArgs) -> anyhow::Res
         }
     };
     let copied = runtime()?
-        .block_on(store::copy(&data, database.expose(), &objects, progress))
+        .block_on(copy::copy(&data, database.expose(), &objects, progress))
         .with_context(|| format!("could not copy {}", data.display()))?;
     println!(
         "{} models and {} jobs are there: {} of {} rows and {} of {} files were copied, the others were there",

@@ -8,7 +8,7 @@ use clap::Args;
 use super::serve;
 use crate::app::Role;
 use crate::config::{Config, DatabaseUrl};
-use crate::store::Address;
+use crate::store::cluster::address::Address;
 
 /// Settings of a worker.
 #[derive(Debug, Args)]

@@ -12,9 +12,9 @@ use super::error::{self, Interruption};
 use super::machine;
 use super::tasks::{SharedTasks, Tasks};
 use crate::store::StoreError;
+use crate::store::cluster::machines::WorkerProcess;
+use crate::store::cluster::queue::Told;
 use crate::store::jobs::{JobId, Unfinished};
-use crate::store::machines::WorkerProcess;
-use crate::store::shared_queue::Told;
 
 /// Time between two looks for news that may not have been heard.
 const BETWEEN_LOOKS: Duration = Duration::from_secs(2);

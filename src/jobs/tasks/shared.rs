@@ -13,9 +13,9 @@ use super::whose::Whose;
 use crate::analysis::run::vectors;
 use crate::jobs::patience::until_taken;
 use crate::store::StoreError;
+use crate::store::cluster::machines::WorkerProcess;
+use crate::store::cluster::queue::SharedQueue;
 use crate::store::jobs::JobId;
-use crate::store::machines::WorkerProcess;
-use crate::store::shared_queue::SharedQueue;
 use crate::store::tasks::{PrepareJob, RunSpeed};
 
 /// Time after which a queue is asked for tasks without having been notified.

@@ -10,7 +10,7 @@ use sqlx::AnyConnection;
 use super::error::{CopyError, Differences};
 use super::tally::{Copied, CopyProgress};
 use crate::store::error::StoreError;
-use crate::store::folders::{entries, file_name, model_of};
+use crate::store::folders::{entries, file_name, model_of, prefix};
 use crate::store::objects::Objects;
 use crate::store::packages::package_path;
 use crate::store::{bases, checkpoints};
@@ -67,7 +67,8 @@ async fn originals(data: &Path, source: &mut AnyConnection) -> Result<Vec<Origin
         })?;
         originals.push(Original { path, bytes: bytes.len(), is_package: true });
     }
-    for (root, prefix) in [bases::place(), checkpoints::place()] {
+    let places = [(bases::FOLDER, prefix(bases::LAYOUT)), (checkpoints::FOLDER, checkpoints::prefix())];
+    for (root, prefix) in places {
         for folder in entries(&data.join(root)).await? {
             if !models.contains(model_of(file_name(&folder))) {
                 continue;

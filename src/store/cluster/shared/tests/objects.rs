@@ -1,6 +1,6 @@
 //! Tests of objects in a shared folder and in a bucket.
 
-#[path = "../../../tests/cluster/s3.rs"]
+#[path = "../../../../../tests/cluster/s3.rs"]
 mod s3;
 
 use std::io::ErrorKind;
@@ -10,9 +10,10 @@ use object_store::aws::AmazonS3Builder;
 use tempfile::TempDir;
 
 use self::s3::S3;
-use super::remote::{Remote, connect_bucket};
-use super::{Address, Objects};
 use crate::store::StoreError;
+use crate::store::cluster::address::Address;
+use crate::store::cluster::remote::{Remote, connect_bucket};
+use crate::store::objects::Objects;
 use crate::store::reserve::Reserve;
 
 const KEY: &str = "AKIAOFTHETESTS";

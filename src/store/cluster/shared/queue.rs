@@ -15,12 +15,12 @@ use sqlx::postgres::{PgConnection, PgListener, PgPoolOptions};
 use sqlx::{AssertSqlSafe, Executor, PgPool};
 
 use super::claims::Claim;
-use super::error::StoreError;
-use super::jobs::job::JobId;
-use super::session;
-use super::sqlite::PATIENCE;
-use super::tasks::{PrepareJob, RunSpeed};
 use crate::analysis::run::REVISION;
+use crate::store::error::StoreError;
+use crate::store::jobs::job::JobId;
+use crate::store::session;
+use crate::store::sqlite::PATIENCE;
+use crate::store::tasks::{PrepareJob, RunSpeed};
 
 /// Time between two signs of life of a worker; `MISSED`: number that may be missing before others get its tasks. Set here, because the
 /// defaults of the crate differ from its documentation.
@@ -99,7 +99,7 @@ pub struct SharedQueue {
 
 impl SharedQueue {
     /// Opens the queue of the database at `url`, whose tables are up to date.
-    pub(super) async fn open(url: &str) -> Result<Self, StoreError> {
+    pub(in crate::store) async fn open(url: &str) -> Result<Option<Self>, StoreError> {
         let pool = PgPoolOptions::new()
             .max_connections(CONNECTIONS)
             .acquire_timeout(2 * PATIENCE)
@@ -109,14 +109,14 @@ impl SharedQueue {
             })
             .connect(url)
             .await?;
-        Ok(Self { pool })
+        Ok(Some(Self { pool }))
     }
 
-    pub(super) fn pool(&self) -> &PgPool {
+    pub(in crate::store) fn pool(&self) -> &PgPool {
         &self.pool
     }
 
-    pub(super) async fn close(&self) {
+    pub(in crate::store) async fn close(&self) {
         self.pool.close().await;
     }
 
@@ -304,8 +304,8 @@ async fn take_turns(connection: &mut PgConnection, queue: &str) -> Result<(), St
 }
 
 /// Migrations that make the tables of the queue, in order.
-pub(super) fn migrations() -> Migrator {
-    PostgresStorage::<()>::migrations()
+pub(in crate::store) fn migrations() -> Option<Migrator> {
+    Some(PostgresStorage::<()>::migrations())
 }
 
 /// Name of a queue. A worker takes tasks of its own revision of the numerics: all speeds of a job belong to one revision. Some queues

@@ -7,19 +7,20 @@ use std::path::{Path, PathBuf};
 use sqlx::{AnyConnection, AssertSqlSafe, ConnectOptions, Connection, Row};
 use tempfile::TempDir;
 
-use super::alone::{answer, calibration, reduced};
-use super::{begin, keep, labels, model_id, queue, result, upload};
 use crate::analysis::kinds::modal_analysis::CAMPBELL;
 use crate::dynamics::reduction::Checkpoints;
+use crate::store::cluster::address::Address;
+use crate::store::cluster::copy::{Copied, CopyError, copy};
+use crate::store::contract::alone::{answer, calibration, reduced};
+use crate::store::contract::{begin, keep, labels, model_id, queue, result, upload};
 use crate::store::error::StoreError;
 use crate::store::handle::LOCK;
 use crate::store::jobs::{Failure, FailureCause, JobId};
 use crate::store::labels::Labels;
 use crate::store::models::ModelFilter;
-use crate::store::objects::Address;
 use crate::store::status::JobStatus;
 use crate::store::testing::{TestStore, stores};
-use crate::store::{Copied, CopyError, Store, copy, sqlite};
+use crate::store::{Store, sqlite};
 
 /// Tables that are not copied: the migrations run so far, and the probe of readiness.
 const NOT_COPIED: [&str; 2] = ["_sqlx_migrations", "readiness"];

@@ -4,31 +4,17 @@
 //! Objects have the names that files have in the data folder. A file is written whole and flushed here before it is uploaded, and fetched
 //! into an unfinished file before it gets its name here: neither place ever shows a part of one.
 
-#[cfg(not(feature = "cluster"))]
-mod absent;
-mod address;
-#[cfg(feature = "cluster")]
-mod error;
-#[cfg(feature = "cluster")]
-mod remote;
-#[cfg(all(test, feature = "cluster"))]
-mod tests;
-
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use tokio::runtime::Handle;
 
-pub use self::address::{Address, AddressError};
+use super::cluster::address::Address;
+use super::cluster::remote::Remote;
 use super::folders::file_name;
 use super::reserve::Reserve;
 use super::unfinished::{UNFINISHED, unfinished_file};
-
-#[cfg(not(feature = "cluster"))]
-use self::absent::Remote;
-#[cfg(feature = "cluster")]
-use self::remote::Remote;
 
 /// Object store of a data folder, if it has one.
 #[derive(Debug, Clone, Default)]
@@ -51,7 +37,7 @@ impl Objects {
         Ok(Self::over(Remote::open(address).await?, data, reserve))
     }
 
-    fn over(remote: Remote, data: &Path, reserve: Reserve) -> Self {
+    pub(super) fn over(remote: Remote, data: &Path, reserve: Reserve) -> Self {
         let shared = Shared { data: data.to_owned(), reserve, remote, runtime: Handle::current() };
         Self { shared: Some(Arc::new(shared)) }
     }
@@ -61,10 +47,15 @@ impl Objects {
         self.shared.is_some()
     }
 
+    /// Object store, and the name that a file of the data folder has there; none where there is no object store.
+    pub(super) fn remote(&self, path: &Path) -> io::Result<Option<(&Remote, String)>> {
+        self.shared.as_ref().map(|shared| Ok((&shared.remote, shared.name(path)?))).transpose()
+    }
+
     /// Uploads a file of the data folder to the object store.
     pub(super) async fn publish(&self, path: &Path) -> io::Result<()> {
-        let Some(shared) = &self.shared else { return Ok(()) };
-        shared.remote.put(&shared.name(path)?, path).await
+        let Some((remote, name)) = self.remote(path)? else { return Ok(()) };
+        remote.put(&name, path).await
     }
 
     /// Uploads a file like [`Self::publish`], from a computing thread.
@@ -129,28 +120,14 @@ impl Objects {
 
     /// Whether a file of the data folder is in the object store.
     pub(super) async fn have(&self, path: &Path) -> io::Result<bool> {
-        let Some(shared) = &self.shared else { return Ok(false) };
-        shared.remote.has(&shared.name(path)?).await
-    }
-
-    /// Length of a file of the data folder in the object store, bytes.
-    #[cfg(feature = "cluster")]
-    pub(super) async fn size(&self, path: &Path) -> io::Result<Option<u64>> {
-        let Some(shared) = &self.shared else { return Ok(None) };
-        shared.remote.size(&shared.name(path)?).await
-    }
-
-    /// SHA-256 of a file of the data folder in the object store, as it is read back.
-    #[cfg(feature = "cluster")]
-    pub(super) async fn sha256(&self, path: &Path) -> io::Result<Option<[u8; 32]>> {
-        let Some(shared) = &self.shared else { return Ok(None) };
-        shared.remote.sha256(&shared.name(path)?).await
+        let Some((remote, name)) = self.remote(path)? else { return Ok(false) };
+        remote.has(&name).await
     }
 
     /// Removes a file of the data folder from the object store.
     pub(super) async fn remove(&self, path: &Path) -> io::Result<()> {
-        let Some(shared) = &self.shared else { return Ok(()) };
-        shared.remote.remove(&shared.name(path)?).await
+        let Some((remote, name)) = self.remote(path)? else { return Ok(()) };
+        remote.remove(&name).await
     }
 
     /// Removes a file like [`Self::remove`], from a computing thread.

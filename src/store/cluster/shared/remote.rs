@@ -17,7 +17,7 @@ use sha2::{Digest, Sha256};
 use tokio::io::{AsyncReadExt, AsyncWriteExt};
 
 use super::address::Address;
-use super::error::Failure;
+use super::failure::Failure;
 
 /// Size of an upload at once, bytes. Larger files go in parts of this size, or of a [`MOST_PARTS`]th of their length.
 const PART: u64 = 8 << 20;
@@ -38,7 +38,7 @@ const RETRIES: usize = 2;
 const RETRYING: Duration = Duration::from_secs(90);
 
 /// Connection to an object store. Its settings and keys come from the environment (`AWS_…`).
-pub(super) struct Remote {
+pub(in crate::store) struct Remote {
     address: Address,
     store: Arc<dyn ObjectStore>,
 }
@@ -52,12 +52,12 @@ impl std::fmt::Debug for Remote {
 
 impl Remote {
     /// Opens the store at `address` and checks that it answers.
-    pub(super) async fn open(address: &Address) -> io::Result<Self> {
+    pub(in crate::store) async fn open(address: &Address) -> io::Result<Self> {
         let store = connect(address).map_err(|failure| failure.of(address, None))?;
         Self::over(address, store).await
     }
 
-    pub(super) async fn over(address: &Address, store: Arc<dyn ObjectStore>) -> io::Result<Self> {
+    pub(in crate::store) async fn over(address: &Address, store: Arc<dyn ObjectStore>) -> io::Result<Self> {
         let remote = Self { address: address.clone(), store };
         // One page of names proves that keys and bucket are right.
         let first = remote.store.list(None).next().await;
@@ -66,7 +66,7 @@ impl Remote {
     }
 
     /// Uploads the file at `path`, whole or not at all.
-    pub(super) async fn put(&self, name: &str, path: &Path) -> io::Result<()> {
+    pub(in crate::store) async fn put(&self, name: &str, path: &Path) -> io::Result<()> {
         let mut file = tokio::fs::File::open(path).await?;
         let length = file.metadata().await?.len();
         if length <= PART {
@@ -109,7 +109,7 @@ impl Remote {
     }
 
     /// Downloads an object into the file that `make` opens once it knows the length. False if there is no such object.
-    pub(super) async fn get(
+    pub(in crate::store) async fn get(
         &self,
         name: &str,
         make: impl FnOnce(u64) -> io::Result<tokio::fs::File>,
@@ -133,12 +133,12 @@ impl Remote {
         Ok(true)
     }
 
-    pub(super) async fn has(&self, name: &str) -> io::Result<bool> {
+    pub(in crate::store) async fn has(&self, name: &str) -> io::Result<bool> {
         Ok(self.size(name).await?.is_some())
     }
 
     /// Length of an object in bytes, if it is there.
-    pub(super) async fn size(&self, name: &str) -> io::Result<Option<u64>> {
+    pub(in crate::store) async fn size(&self, name: &str) -> io::Result<Option<u64>> {
         match self.store.head(&Name::from(name)).await {
             Ok(object) => Ok(Some(object.size)),
             Err(Error::NotFound { .. }) => Ok(None),
@@ -147,7 +147,7 @@ impl Remote {
     }
 
     /// SHA-256 of an object, if it is there.
-    pub(super) async fn sha256(&self, name: &str) -> io::Result<Option<[u8; 32]>> {
+    pub(in crate::store) async fn sha256(&self, name: &str) -> io::Result<Option<[u8; 32]>> {
         let found = match self.store.get(&Name::from(name)).await {
             Err(Error::NotFound { .. }) => return Ok(None),
             found => found.map_err(|error| self.error(name, error))?,
@@ -161,14 +161,14 @@ impl Remote {
     }
 
     /// Lists the names of the folders in a folder.
-    pub(super) async fn folders(&self, folder: &str) -> io::Result<Vec<String>> {
+    pub(in crate::store) async fn folders(&self, folder: &str) -> io::Result<Vec<String>> {
         let found = self.store.list_with_delimiter(Some(&Name::from(folder))).await;
         let found = found.map_err(|error| self.error(folder, error))?;
         Ok(found.common_prefixes.iter().filter_map(|name| Some(name.filename()?.to_owned())).collect())
     }
 
     /// Removes an object, if it is there.
-    pub(super) async fn remove(&self, name: &str) -> io::Result<()> {
+    pub(in crate::store) async fn remove(&self, name: &str) -> io::Result<()> {
         match self.store.delete(&Name::from(name)).await {
             Ok(()) | Err(Error::NotFound { .. }) => Ok(()),
             Err(error) => Err(self.error(name, error)),
@@ -176,7 +176,7 @@ impl Remote {
     }
 
     /// Removes all objects in a folder.
-    pub(super) async fn remove_folder(&self, folder: &str) -> io::Result<()> {
+    pub(in crate::store) async fn remove_folder(&self, folder: &str) -> io::Result<()> {
         let names = self.store.list(Some(&Name::from(folder))).map_ok(|object| object.location).boxed();
         let mut removed = self.store.delete_stream(names);
         while let Some(removed) = removed.next().await {

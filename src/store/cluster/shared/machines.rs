@@ -1,9 +1,12 @@
 //! Worker processes that compute for all processes sharing a database.
 
-use super::error::StoreError;
-use super::shared_queue::SharedQueue;
+use std::sync::Arc;
+
+use super::queue::SharedQueue;
+use crate::analysis::kinds::plan::Capacity;
 use crate::analysis::result::Machine;
 use crate::analysis::run::Calibration;
+use crate::store::error::StoreError;
 use crate::store::sql::of;
 
 /// Time in seconds without a sign of life after which a worker process counts as gone.
@@ -36,8 +39,20 @@ impl SharedQueue {
         Ok(())
     }
 
+    /// Capacity of all machines that share the work, each taken as fast as the one with most threads; none where nobody computes.
+    pub async fn capacity(&self) -> Result<Option<Capacity>, StoreError> {
+        let processes = self.worker_processes().await?;
+        let threads = processes.iter().map(|process| process.threads as usize).sum();
+        let first = processes.into_iter().next();
+        Ok(first.map(|WorkerProcess { machine, costs, .. }| Capacity {
+            machine,
+            costs: Arc::new(costs),
+            threads,
+        }))
+    }
+
     /// Lists the worker processes that compute, most threads first. Forgets the others.
-    pub async fn worker_processes(&self) -> Result<Vec<WorkerProcess>, StoreError> {
+    async fn worker_processes(&self) -> Result<Vec<WorkerProcess>, StoreError> {
         sqlx::query("delete from machines where seen < now() - make_interval(secs => $1)")
             .bind(SILENCE)
             .execute(self.pool())

@@ -19,12 +19,13 @@ use sqlx::{AnyConnection, ConnectOptions, Connection};
 pub use self::error::CopyError;
 use self::error::Differences;
 pub use self::tally::{Copied, CopyProgress};
-use super::backup::expect_data_folder;
-use super::error::StoreError;
-use super::handle::LOCK;
-use super::objects::{Address, Objects};
-use super::reserve::Reserve;
-use super::{postgres, sqlite};
+use super::address::Address;
+use crate::store::backup::expect_data_folder;
+use crate::store::error::StoreError;
+use crate::store::handle::LOCK;
+use crate::store::objects::Objects;
+use crate::store::reserve::Reserve;
+use crate::store::{postgres, sqlite};
 
 /// Copies all contents of the data folder `data`, on which no service may run, into the database at `url`, which is brought up to date, and
 /// the object store at `address`. The folder is only read. Unfinished jobs wait there for a worker.

@@ -6,7 +6,7 @@ use sqlx::PgPool;
 use tokio::runtime::Handle;
 use tokio::task::JoinHandle;
 
-use super::error::StoreError;
+use crate::store::error::StoreError;
 
 /// Time between two renewals of a claim.
 const RENEWAL: Duration = Duration::from_secs(5);

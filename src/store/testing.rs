@@ -1,11 +1,9 @@
 //! Empty stores for tests, on every database that the program was built for.
 
-#[cfg(feature = "cluster")]
-pub(super) mod server;
-
 use std::ops::Deref;
 
 use super::Store;
+use super::cluster::testing::database;
 
 /// Store with a data folder of its own.
 pub(super) struct TestStore {
@@ -41,10 +39,8 @@ impl TestStore {
 /// Creates a store on `SQLite`, and one on PostgreSQL where it is installed.
 pub(super) async fn stores() -> Vec<TestStore> {
     let folder = tempfile::tempdir().unwrap();
-    #[cfg_attr(not(feature = "cluster"), expect(unused_mut, reason = "there is no other"))]
     let mut stores = vec![TestStore { store: Store::open(folder.path()).await.unwrap(), url: None, folder }];
-    #[cfg(feature = "cluster")]
-    if let Some(url) = server::database().await {
+    if let Some(url) = database().await {
         let folder = tempfile::tempdir().unwrap();
         let store = Store::connect(folder.path(), &url).await.unwrap();
         stores.push(TestStore { store, url: Some(url), folder });

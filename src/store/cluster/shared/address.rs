@@ -21,11 +21,6 @@ pub enum Address {
 /// Error of an invalid address of an object store.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum AddressError {
-    /// Program built without object storage.
-    #[error(
-        "this rubmap was built without object storage; build it with `cargo build --release --features cluster`"
-    )]
-    NotBuilt,
     /// Scheme that is not supported.
     #[error("it begins with s3:// or file:///, or is a folder")]
     Scheme,
@@ -44,9 +39,6 @@ impl FromStr for Address {
     type Err = AddressError;
 
     fn from_str(text: &str) -> Result<Self, AddressError> {
-        if cfg!(not(feature = "cluster")) {
-            return Err(AddressError::NotBuilt);
-        }
         if let Some(rest) = text.strip_prefix("s3://") {
             let (bucket, prefix) = rest.split_once('/').unwrap_or((rest, ""));
             let is_name = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '.' | '_');
@@ -81,7 +73,6 @@ impl fmt::Display for Address {
 mod tests {
     use super::*;
 
-    #[cfg(feature = "cluster")]
     #[test]
     fn buckets_and_folders_are_told_apart() {
         let bucket = |bucket: &str, prefix: &str| {
@@ -106,11 +97,5 @@ mod tests {
             assert_eq!(text.parse::<Address>(), expected, "{text}");
         }
         assert_eq!("s3://wheels/a/".parse::<Address>().unwrap().to_string(), "s3://wheels/a");
-    }
-
-    #[cfg(not(feature = "cluster"))]
-    #[test]
-    fn without_the_feature_there_is_none() {
-        assert_eq!("s3://wheels".parse::<Address>(), Err(AddressError::NotBuilt));
     }
 }
