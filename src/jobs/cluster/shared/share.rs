@@ -6,11 +6,12 @@ use std::time::Duration;
 
 use tokio::task::JoinHandle;
 
-use super::computing::MOST_CRASHES;
-use super::engine::Engine;
-use super::error::{self, Interruption};
-use super::machine;
-use super::tasks::{SharedTasks, Tasks};
+use super::tasks::SharedTasks;
+use crate::jobs::computing::MOST_CRASHES;
+use crate::jobs::engine::Engine;
+use crate::jobs::error::{self, Interruption};
+use crate::jobs::machine;
+use crate::jobs::tasks::Tasks;
 use crate::store::StoreError;
 use crate::store::cluster::machines::WorkerProcess;
 use crate::store::cluster::queue::Told;
@@ -32,6 +33,25 @@ pub(super) fn start(engine: &Arc<Engine>, computes: bool) -> Vec<JoinHandle<()>>
         helpers.push(tokio::spawn(announce(Arc::clone(engine))));
     }
     helpers
+}
+
+impl Engine {
+    /// Jobs in memory.
+    fn live_jobs(&self) -> Vec<JobId> {
+        self.lock_live().keys().copied().collect()
+    }
+
+    /// Ends the computations of a job in memory that has ended or was paused elsewhere.
+    async fn look_at(&self, id: JobId) {
+        if !self.lock_live().contains_key(&id) {
+            return;
+        }
+        if let Ok(found) = self.store.job_head(id).await
+            && found.is_none_or(|job| !job.status.wants_work())
+        {
+            self.retire(id);
+        }
+    }
 }
 
 fn shared(engine: &Engine) -> Option<&SharedTasks> {

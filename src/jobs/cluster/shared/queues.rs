@@ -10,9 +10,11 @@ use futures::future::{self, BoxFuture};
 use tokio::task::JoinHandle;
 use tokio_util::sync::CancellationToken;
 
-use super::engine::Engine;
-use super::perform::{prepare_job, run_speed};
-use super::tasks::{Kind, Tasks, preparations_at_once};
+use super::kind::Kind;
+use crate::jobs::engine::Engine;
+use crate::jobs::perform::{prepare_job, run_speed};
+use crate::jobs::tasks::Tasks;
+use crate::jobs::tasks::own::preparations_at_once;
 use crate::store::tasks::{PrepareJob, RunSpeed};
 
 /// Starts a worker for each queue and kind of tasks, with so many threads.

@@ -4,7 +4,7 @@ use crate::analysis::run::vectors;
 
 /// Tasks that a worker takes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::jobs) enum Kind {
+pub(super) enum Kind {
     /// Tasks of jobs that any processor may compute.
     Any,
     /// Tasks of jobs that belong to processors with the vectors of this one.
@@ -13,7 +13,7 @@ pub(in crate::jobs) enum Kind {
 
 impl Kind {
     /// All kinds, each with workers of its own.
-    pub(in crate::jobs) const ALL: [Self; 2] = [Self::Any, Self::OfThisProcessor];
+    pub(super) const ALL: [Self; 2] = [Self::Any, Self::OfThisProcessor];
 
     /// The vectors that a processor must have; none where any will do.
     pub(super) fn vectors(self) -> Option<String> {

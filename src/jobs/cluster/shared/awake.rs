@@ -10,7 +10,7 @@ use tokio::sync::Notify;
 
 /// Wakes a worker when it is notified, and now and then without: a notification that arrives while the worker is asking
 /// the queue would otherwise be lost.
-pub(in crate::jobs) struct Awake {
+pub(super) struct Awake {
     notifications: Pin<Box<dyn futures::Stream<Item = ()> + Send + Sync>>,
     interval: tokio::time::Interval,
 }

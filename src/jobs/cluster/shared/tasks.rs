@@ -9,14 +9,13 @@ use tokio::sync::Notify;
 
 use super::awake::Awake;
 use super::kind::Kind;
-use super::whose::Whose;
 use crate::analysis::run::vectors;
-use crate::jobs::patience::until_taken;
-use crate::store::StoreError;
+use crate::jobs::patience::{BETWEEN_ATTEMPTS, LONGEST_WRITE, in_time};
 use crate::store::cluster::machines::WorkerProcess;
 use crate::store::cluster::queue::SharedQueue;
 use crate::store::jobs::JobId;
 use crate::store::tasks::{PrepareJob, RunSpeed};
+use crate::store::{Store, StoreError};
 
 /// Time after which a queue is asked for tasks without having been notified.
 const IDLE_POLL: Duration = Duration::from_secs(2);
@@ -39,7 +38,12 @@ pub(in crate::jobs) struct SharedTasks {
 }
 
 impl SharedTasks {
-    pub(in crate::jobs) fn new(queue: SharedQueue) -> Self {
+    /// Tasks that the processes of a store share, if its tables are on a server.
+    pub(in crate::jobs) fn of(store: &Store) -> Option<Self> {
+        store.shared_queue().cloned().map(Self::new)
+    }
+
+    fn new(queue: SharedQueue) -> Self {
         let process = uuid::Uuid::now_v7().simple().to_string();
         Self {
             queue,
@@ -51,24 +55,24 @@ impl SharedTasks {
     }
 
     /// Shared queue itself.
-    pub(in crate::jobs) fn queue(&self) -> &SharedQueue {
+    pub(super) fn queue(&self) -> &SharedQueue {
         &self.queue
     }
 
     /// Makes a name for a worker of this process that no other worker has.
-    pub(in crate::jobs) fn name(&self, worker: &str) -> String {
+    pub(super) fn name(&self, worker: &str) -> String {
         let name = format!("{}-{worker}", self.process);
         self.workers.lock().unwrap_or_else(PoisonError::into_inner).push(name.clone());
         name
     }
 
     /// Announces which machine this process computes on.
-    pub(in crate::jobs) async fn announce(&self, worker: &WorkerProcess) -> Result<(), StoreError> {
+    pub(super) async fn announce(&self, worker: &WorkerProcess) -> Result<(), StoreError> {
         self.queue.announce(&self.process, worker).await
     }
 
     /// Gives others what the workers of this process have not done, once they have ended.
-    pub(super) async fn give_back(&self) {
+    pub(in crate::jobs) async fn give_back(&self) {
         let workers = self.workers.lock().unwrap_or_else(PoisonError::into_inner).clone();
         let given = async {
             self.queue.give_back(&workers).await?;
@@ -83,40 +87,40 @@ impl SharedTasks {
     }
 
     /// Source from which a worker takes jobs to be prepared.
-    pub(in crate::jobs) fn preparations(&self, of: Kind) -> PollWith<PostgresStorage<PrepareJob>, Awake> {
+    pub(super) fn preparations(&self, of: Kind) -> PollWith<PostgresStorage<PrepareJob>, Awake> {
         self.queue
             .preparations(of.vectors().as_deref())
             .poll_with_strategy(Awake::by(&self.new_preparation[of as usize], IDLE_POLL))
     }
 
     /// Source from which a worker takes speeds.
-    pub(in crate::jobs) fn speeds(&self, of: Kind) -> PollWith<PostgresStorage<RunSpeed>, Awake> {
+    pub(super) fn speeds(&self, of: Kind) -> PollWith<PostgresStorage<RunSpeed>, Awake> {
         self.queue
             .speeds(of.vectors().as_deref())
             .poll_with_strategy(Awake::by(&self.new_speeds[of as usize], IDLE_POLL))
     }
 
     /// Wakes the workers: there may be new tasks.
-    pub(in crate::jobs) fn wake(&self) {
+    pub(super) fn wake(&self) {
         for new in self.new_preparation.iter().chain(&self.new_speeds) {
             new.notify_one();
         }
     }
 
-    pub(super) fn prepare(&self, job: JobId, vectors: Option<String>) {
+    pub(in crate::jobs) fn prepare(&self, job: JobId, vectors: Option<String>) {
         let queue = self.queue.clone();
         // The queue tells all machines of it, this one among them.
         tokio::spawn(async move { until_taken(|| queue.push_preparation(job, vectors.as_deref())).await });
     }
 
-    pub(super) fn run(&self, Whose { job, one_kind, .. }: Whose<'_>, speeds: Vec<u32>) {
+    pub(in crate::jobs) fn run(&self, job: JobId, one_kind: bool, speeds: Vec<u32>) {
         let (queue, vectors) = (self.queue.clone(), one_kind.then(vectors));
         tokio::spawn(
             async move { until_taken(|| queue.push_speeds(job, vectors.as_deref(), &speeds)).await },
         );
     }
 
-    pub(super) fn withdraw(&self, job: JobId) {
+    pub(in crate::jobs) fn withdraw(&self, job: JobId) {
         let queue = self.queue.clone();
         // A task that is not withdrawn finds that its job has ended.
         tokio::spawn(async move {
@@ -124,5 +128,13 @@ impl SharedTasks {
                 tracing::debug!(job.id = %job, %error, "could not withdraw the tasks of a job");
             }
         });
+    }
+}
+
+/// Pushes a task until the queue takes it, which it does at once unless memory is short.
+async fn until_taken<P: Future<Output = Result<(), StoreError>>>(push: impl Fn() -> P) {
+    while let Err(error) = in_time(LONGEST_WRITE, push()).await {
+        tracing::error!(%error, "the queue failed");
+        tokio::time::sleep(BETWEEN_ATTEMPTS).await;
     }
 }
