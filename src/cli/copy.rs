@@ -7,7 +7,7 @@ use clap::Args;
 
 use super::keeping::runtime;
 use super::terminal::Terminal;
-use crate::config::DatabaseUrl;
+use crate::config::cluster::DatabaseUrl;
 use crate::store::cluster::address::Address;
 use crate::store::cluster::copy::{self, CopyProgress};
 

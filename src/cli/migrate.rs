@@ -4,7 +4,7 @@ use anyhow::Context;
 use clap::Args;
 
 use super::keeping::runtime;
-use crate::config::DatabaseUrl;
+use crate::config::cluster::DatabaseUrl;
 use crate::store;
 
 /// Database to bring up to date.

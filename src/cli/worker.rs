@@ -7,7 +7,8 @@ use clap::Args;
 
 use super::serve;
 use crate::app::Role;
-use crate::config::{Config, DatabaseUrl};
+use crate::config::Config;
+use crate::config::cluster::{DatabaseUrl, SharedConfig};
 use crate::store::cluster::address::Address;
 
 /// Settings of a worker.
@@ -45,8 +46,7 @@ pub(super) fn run(args: WorkerArgs) -> anyhow::Result<()> {
     let WorkerArgs { addr, data, database, objects, workers, memory_bytes, owner_bytes, until_eof } = args;
     let config = Config {
         addr,
-        database: Some(database),
-        objects: Some(objects),
+        shared: SharedConfig { database: Some(database), objects: Some(objects) },
         workers,
         memory_bytes,
         owner_bytes,
