@@ -5,15 +5,15 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::serve;
 use crate::app::Role;
+use crate::cli::serve;
 use crate::config::Config;
 use crate::config::cluster::{DatabaseUrl, SharedConfig};
 use crate::store::cluster::address::Address;
 
 /// Settings of a worker.
 #[derive(Debug, Args)]
-pub(super) struct WorkerArgs {
+pub(in crate::cli) struct WorkerArgs {
     /// Address of /healthz, /readyz and /metrics; port 0 takes any free port.
     #[arg(long, env = "RUBMAP_ADDR", default_value = "127.0.0.1:0")]
     addr: SocketAddr,

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use anyhow::Context;
 use clap::Args;
 
-use super::keeping::runtime;
-use super::terminal::Terminal;
+use crate::cli::keeping::runtime;
+use crate::cli::terminal::Terminal;
 use crate::config::cluster::DatabaseUrl;
 use crate::store::cluster::address::Address;
 use crate::store::cluster::copy::{self, CopyProgress};
@@ -19,7 +19,7 @@ no row. The file of tokens and the settings of the service are not in the folder
 
 /// Source and targets of a copy.
 #[derive(Debug, Args)]
-pub(super) struct CopyArgs {
+pub(in crate::cli) struct CopyArgs {
     /// Data folder to copy
     #[arg(long, env = "RUBMAP_DATA", default_value = "./data")]
     data: PathBuf,

@@ -3,13 +3,13 @@
 use anyhow::Context;
 use clap::Args;
 
-use super::keeping::runtime;
+use crate::cli::keeping::runtime;
 use crate::config::cluster::DatabaseUrl;
 use crate::store;
 
 /// Database to bring up to date.
 #[derive(Debug, Args)]
-pub(super) struct MigrateArgs {
+pub(in crate::cli) struct MigrateArgs {
     /// PostgreSQL database, by the account that owns its tables
     #[arg(long, env = "RUBMAP_DATABASE", hide_env_values = true, value_name = "postgres://OWNER@HOST/NAME")]
     database: DatabaseUrl,
