@@ -1,7 +1,7 @@
 //! Amplitudes of an interaction map as cells.
 
+use super::attributes::Cells;
 use super::cells::{cells, together};
-use super::document::Cells;
 use super::text::escaped;
 use crate::cells::Cell;
 use crate::heat::loudest_within;
@@ -15,7 +15,7 @@ const LINE_HEIGHT: f64 = 0.012;
 
 /// Amplitude cells of a map: its trace, and the speed that each column reports.
 pub(super) struct Amplitudes {
-    pub(super) trace: Box<Cells>,
+    pub(super) trace: Cells,
     /// Index of the loudest speed of every column.
     pub(super) indices: Vec<usize>,
     /// Message about merged speeds and rows, if there are any.

@@ -1,12 +1,11 @@
 //! Branches of periodic responses.
 
-use plotly::common::{DashType, MarkerSymbol};
 use serde_json::json;
 
+use super::attributes::Scatter;
 use super::document::{Figure, axis, speeds};
-use super::interaction_map::ends;
 use super::marched::dots;
-use super::marks::{PointTrace, line, marks, words};
+use super::marks::{line, marks, words};
 use super::palette::NEUTRAL;
 use crate::branch_line::{Fate, Place};
 use crate::branches::{self as drawing, Curve, Mark, NONE, View};
@@ -34,13 +33,13 @@ pub fn branches(branches: &Branches, sensor: usize, marched: &[Point]) -> Figure
         .with_all(dots(&view.dots))
         .with_all(view.curves.iter().rev().flat_map(|curve| curves(&view, curve)))
         .with_all(Mark::ALL.into_iter().rev().filter_map(|mark| marked(&view, mark)))
-        .axis("xaxis", x.range(ends(view.diagram.x.values)))
-        .axis("yaxis", axis(&view.height()).range(ends(view.diagram.y.values)))
+        .axis("xaxis", x.range(<[f64; 2]>::from(view.diagram.x.values)))
+        .axis("yaxis", axis(&view.height()).range(<[f64; 2]>::from(view.diagram.y.values)))
         .meta("sensor", view.sensor)
 }
 
 /// Traces of a branch, one for each stability.
-fn curves(view: &View<'_>, curve: &Curve<'_>) -> Vec<PointTrace> {
+fn curves(view: &View<'_>, curve: &Curve<'_>) -> Vec<Scatter> {
     let group = format!("branch {}", curve.branch.track.branch + 1);
     let of = |fate: Fate| {
         let runs = || curve.runs.iter().filter(|run| run.fate == fate);
@@ -52,26 +51,26 @@ fn curves(view: &View<'_>, curve: &Curve<'_>) -> Vec<PointTrace> {
         let (places, told): (Vec<_>, Vec<_>) =
             runs().flat_map(|run| run.corners.iter().map(at).chain(gap())).unzip();
         let dash = match fate {
-            Fate::Stable => DashType::Solid,
-            Fate::Unstable => DashType::Dash,
-            Fate::Undecided => DashType::Dot,
+            Fate::Stable => "solid",
+            Fate::Unstable => "dash",
+            Fate::Undecided => "dot",
         };
         let width = if curve.branch.track.branch == 0 { 2.2 } else { 1.6 };
         let name = format!("{group}, {}", fate.words());
         let trace = words(line(&name, places, (curve.colour(), dash, width)), told);
-        (runs().next().is_some()).then(|| trace.legend_group(&group))
+        (runs().next().is_some()).then(|| trace.legendgroup(&group))
     };
     Fate::ALL.into_iter().filter_map(of).collect()
 }
 
-fn marked(view: &View<'_>, mark: Mark) -> Option<PointTrace> {
+fn marked(view: &View<'_>, mark: Mark) -> Option<Scatter> {
     let (symbol, size) = match mark {
-        Mark::Bifurcation(BifurcationKind::Fold) => (MarkerSymbol::TriangleUp, 12),
-        Mark::Bifurcation(BifurcationKind::Flip) => (MarkerSymbol::Diamond, 11),
-        Mark::Bifurcation(BifurcationKind::NeimarkSacker) => (MarkerSymbol::CircleOpenDot, 12),
-        Mark::Bifurcation(BifurcationKind::Branching) => (MarkerSymbol::Square, 10),
-        Mark::Maximum => (MarkerSymbol::CircleOpen, 10),
-        Mark::End => (MarkerSymbol::X, 11),
+        Mark::Bifurcation(BifurcationKind::Fold) => ("triangle-up", 12),
+        Mark::Bifurcation(BifurcationKind::Flip) => ("diamond", 11),
+        Mark::Bifurcation(BifurcationKind::NeimarkSacker) => ("circle-open-dot", 12),
+        Mark::Bifurcation(BifurcationKind::Branching) => ("square", 10),
+        Mark::Maximum => ("circle-open", 10),
+        Mark::End => ("x", 11),
     };
     let of = view.marked.iter().filter(|one| one.mark == mark);
     marks(mark.words(), of.map(|one| (one.place, one.title.clone())), (symbol, size, NEUTRAL))

@@ -1,12 +1,10 @@
 //! Campaign: severity over speed and a parameter, and the sensitivities of its variance to the parameters.
 
-use plotly::common::{DashType, ErrorData, ErrorType, MarkerSymbol};
 use serde_json::json;
 
 use super::cells::{MOST, cells as coloured, linear, together};
 use super::document::{Figure, axis, speeds};
-use super::interaction_map::ends;
-use super::marks::{marks, silent};
+use super::marks::{bars, marks, silent};
 use super::palette::{CURVE, WARNING};
 use super::text::escaped;
 use crate::campaign::{self as drawing, Row};
@@ -45,40 +43,39 @@ pub fn campaign(campaign: &Campaign, parameter: usize) -> Figure {
     let across = |value: f64| [Some((range.0, value)), Some((range.1, value))];
     let met = drawing::met(campaign, parameter);
     let value = met.map(|(value, _)| {
-        silent("limit met with the probability asked for", across(value), (WARNING, DashType::Solid, 1.6))
+        silent("limit met with the probability asked for", across(value), (WARNING, "solid", 1.6))
     });
     let interval = met.into_iter().flat_map(|(_, ends)| ends).flatten();
-    let interval = interval
-        .map(|end| silent("its interval", across(end), (WARNING, DashType::Dash, 1.2)).show_legend(false));
+    let interval =
+        interval.map(|end| silent("its interval", across(end), (WARNING, "dash", 1.2)).showlegend(false));
     let mut figure = Figure::new("campaign", &drawing::title(campaign, parameter), &paragraphs)
         .high(high)
         .with(coloured((x, y), (values, Vec::new()), &told, ("x", "y", "coloraxis")))
         .with_all(value)
         .with_all(interval)
-        .axis("xaxis", speeds().range(ends(range)).anchor("y"))
-        .axis("yaxis", axis(name).domain(&[map, 1.0]))
+        .axis("xaxis", speeds().range(<[f64; 2]>::from(range)).anchor("y"))
+        .axis("yaxis", axis(name).domain([map, 1.0]))
         .attribute(
             "coloraxis",
             linear((0.0, drawing::loudest(campaign)), &drawing::short(campaign), (map, 1.0)),
         )
         .meta("units", json!({"x": "rpm"}))
         .meta("parameter", parameter);
-    let bars = |errors: Vec<f64>, colour: &'static str| {
-        ErrorData::new(ErrorType::Data).array(errors).color(colour).thickness(1.3).width(4)
-    };
+    let bars =
+        |errors: Vec<f64>, colour: &'static str| bars().array(errors).color(colour).thickness(1.3).width(4);
     if !known.is_empty() {
         for (verdict, words, colour) in difference::VERDICTS {
             let of_it = || known.iter().filter(move |(_, of)| of.verdict == verdict);
             let places = of_it().map(|(speed, of)| ((*speed, of.mean), difference::told(*speed, of)));
             let reach = of_it().map(|(_, of)| difference::ends(of).1 - of.mean).collect();
-            let trace = marks(words, places, (MarkerSymbol::Circle, 7, colour));
-            let trace = trace.map(|trace| trace.error_y(bars(reach, colour)).x_axis("x3").y_axis("y3"));
+            let trace = marks(words, places, ("circle", 7, colour));
+            let trace = trace.map(|trace| trace.error_y(bars(reach, colour)).xaxis("x3").yaxis("y3"));
             figure = figure.with_all(trace);
         }
         let words = format!("difference of {}", drawing::short(campaign));
         figure = figure
-            .axis("xaxis3", speeds().range(ends(range)).anchor("y3"))
-            .axis("yaxis3", axis(&words).domain(&differences).anchor("x3"));
+            .axis("xaxis3", speeds().range(<[f64; 2]>::from(range)).anchor("y3"))
+            .axis("yaxis3", axis(&words).domain(differences).anchor("x3"));
     }
     if shown.is_empty() {
         return figure;
@@ -87,22 +84,21 @@ pub fn campaign(campaign: &Campaign, parameter: usize) -> Figure {
     let first =
         shown.iter().enumerate().map(|(at, of)| ((of.first_order, place(at) + 0.12), drawing::told(of)));
     let total = shown.iter().enumerate().map(|(at, of)| ((of.total, place(at) - 0.12), drawing::told(of)));
-    let first = marks("alone (first order)", first, (MarkerSymbol::Circle, 9, CURVE))
+    let first = marks("alone (first order)", first, ("circle", 9, CURVE))
         .map(|trace| trace.error_x(bars(shown.iter().map(|of| of.first_order_error).collect(), CURVE)));
-    let total = marks("with others (total)", total, (MarkerSymbol::CircleOpen, 9, CURVE))
+    let total = marks("with others (total)", total, ("circle-open", 9, CURVE))
         .map(|trace| trace.error_x(bars(shown.iter().map(|of| of.total_error).collect(), CURVE)));
-    figure =
-        figure.with_all([first, total].into_iter().flatten().map(|trace| trace.x_axis("x2").y_axis("y2")));
+    figure = figure.with_all([first, total].into_iter().flatten().map(|trace| trace.xaxis("x2").yaxis("y2")));
     let names: Vec<String> = shown.iter().map(|of| escaped(&of.parameter)).collect();
     let places: Vec<f64> = (0..shown.len()).map(place).collect();
     figure.axis("xaxis2", axis("share of the variance").anchor("y2")).axis(
         "yaxis2",
         axis("")
-            .domain(&sensitivities)
+            .domain(sensitivities)
             .anchor("x2")
-            .range(vec![0.4, shown.len() as f64 + 0.6])
-            .tick_values(places)
-            .tick_text(names),
+            .range([0.4, shown.len() as f64 + 0.6])
+            .tickvals(places)
+            .ticktext(names),
     )
 }
 

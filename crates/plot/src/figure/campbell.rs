@@ -1,10 +1,8 @@
 //! The Campbell diagram in the rotating frame.
 
-use plotly::common::{DashType, MarkerSymbol, Mode, Position};
-
+use super::attributes::Scatter;
 use super::document::{Figure, axis, speeds};
-use super::interaction_map::ends;
-use super::marks::{PointTrace, line, marks, silent, strokes, words};
+use super::marks::{line, marks, silent, strokes, words};
 use super::palette::{NEUTRAL, WARNING, colour, dash};
 use crate::campbell::{self as drawing, Curve, HIGHEST_ORDER, Ray};
 use crate::cells::rpm;
@@ -20,21 +18,24 @@ pub fn campbell(campbell: &Campbell) -> Figure {
     let driven = drawing::driven(campbell, &diagram)
         .map(|(found, _)| ((rpm(found.speed_rad_s), found.frequency_hz), driven_words(found)));
     let driven_name = format!("driven, k ≤ {HIGHEST_ORDER} (i, j)");
-    let rings = (MarkerSymbol::CircleOpen, 10, NEUTRAL);
+    let rings = ("circle-open", 10, NEUTRAL);
     Figure::new("campbell", "Campbell diagram", &drawing::words(campbell))
         .high(600)
         .with_all(rays(campbell, drawing::rays(campbell, &diagram)))
         .with_all(curves(harmonics, drawing::curves(campbell)))
         .with_all(marks("linear (i, j, n)", linear, rings))
-        .with_all(marks(&driven_name, driven, (MarkerSymbol::Diamond, 10, WARNING)))
-        .axis("xaxis", speeds().range(ends(diagram.x.values)))
-        .axis("yaxis", axis("natural frequency in the rotating frame, Hz").range(ends(diagram.y.values)))
+        .with_all(marks(&driven_name, driven, ("diamond", 10, WARNING)))
+        .axis("xaxis", speeds().range(<[f64; 2]>::from(diagram.x.values)))
+        .axis(
+            "yaxis",
+            axis("natural frequency in the rotating frame, Hz").range(<[f64; 2]>::from(diagram.y.values)),
+        )
         .meta("units", serde_json::json!({"x": "rpm", "y": "Hz"}))
         .meta("speeds_rpm", campbell.speeds_rad_s.iter().map(|speed| rpm(*speed)).collect::<Vec<f64>>())
 }
 
 /// Traces of the modes: dashes show the family, forward waves are thin.
-fn curves(harmonics: usize, curves: Vec<Curve>) -> Vec<PointTrace> {
+fn curves(harmonics: usize, curves: Vec<Curve>) -> Vec<Scatter> {
     let mut named = vec![false; harmonics];
     let curve = |curve: Curve| {
         let (i, told) = (curve.nodal_diameter, curve.words());
@@ -49,26 +50,26 @@ fn curves(harmonics: usize, curves: Vec<Curve>) -> Vec<PointTrace> {
         let pen = (colour(i, harmonics), dash(curve.family.min(3)));
         let trace = words(line(&name, curve.places, (&pen.0, pen.1, width)), told);
         let first = count > 0 && !std::mem::replace(&mut named[i], true);
-        trace.legend_group(name).show_legend(first)
+        trace.legendgroup(name).showlegend(first)
     };
     curves.into_iter().map(curve).collect()
 }
 
 /// Traces of the engine orders; those that the lobes excite have their numbers.
-fn rays(campbell: &Campbell, rays: Vec<Ray>) -> Vec<PointTrace> {
+fn rays(campbell: &Campbell, rays: Vec<Ray>) -> Vec<Scatter> {
     let (excited, others): (Vec<Ray>, Vec<Ray>) = rays.into_iter().partition(|ray| ray.excited);
     let mut traces = Vec::new();
     if !others.is_empty() {
         let lines = strokes(others.iter().map(|ray| ray.ends));
-        traces.push(silent("other engine orders", lines, ("#b0b0b0", DashType::Dot, 0.8)));
+        traces.push(silent("other engine orders", lines, ("#b0b0b0", "dot", 0.8)));
     }
     if !excited.is_empty() {
         let lines = strokes(excited.iter().map(|ray| ray.ends));
         let number = |ray: &Ray| if ray.numbered { ray.order.to_string() } else { String::new() };
         let numbers = excited.iter().flat_map(|ray| [String::new(), number(ray), String::new()]);
-        let trace = silent(&drawing::excited_words(campbell), lines, (NEUTRAL, DashType::Solid, 1.0));
+        let trace = silent(&drawing::excited_words(campbell), lines, (NEUTRAL, "solid", 1.0));
         traces.push(
-            trace.mode(Mode::LinesText).text_array(numbers.collect()).text_position(Position::BottomLeft),
+            trace.mode("lines+text").text(numbers.collect::<Vec<String>>()).textposition("bottom left"),
         );
     }
     traces

@@ -1,10 +1,8 @@
 //! Campbell diagram as seen from beside the wheel.
 
-use plotly::common::{DashType, MarkerSymbol};
-
+use super::attributes::Scatter;
 use super::document::{Figure, axis, speeds};
-use super::interaction_map::ends;
-use super::marks::{PointTrace, line, marks, words};
+use super::marks::{line, marks, words};
 use super::palette::{NEUTRAL, colour};
 use crate::campbell_fixed_frame::{self as drawing, Curve, Seen};
 use crate::cells::rpm;
@@ -25,20 +23,20 @@ pub fn campbell_fixed_frame(campbell: &Campbell) -> Figure {
     Figure::new("campbell_fixed_frame", drawing::TITLE, &paragraphs)
         .high(640)
         .with_all(traces(campbell, &curves))
-        .with_all(marks("stands still: (i, j, n)", standing, (MarkerSymbol::CircleOpen, 10, NEUTRAL)))
-        .axis("xaxis", speeds().range(ends(diagram.x.values)))
-        .axis("yaxis", axis("frequency in the fixed frame, Hz").range(ends(diagram.y.values)))
+        .with_all(marks("stands still: (i, j, n)", standing, ("circle-open", 10, NEUTRAL)))
+        .axis("xaxis", speeds().range(<[f64; 2]>::from(diagram.x.values)))
+        .axis("yaxis", axis("frequency in the fixed frame, Hz").range(<[f64; 2]>::from(diagram.y.values)))
         .meta("units", serde_json::json!({"x": "rpm", "y": "Hz"}))
         .meta("speeds_rpm", campbell.speeds_rad_s.iter().map(|speed| rpm(*speed)).collect::<Vec<f64>>())
 }
 
 /// Line style for each kind of wave.
-fn pen(seen: Seen) -> (DashType, f64, &'static str) {
+fn pen(seen: Seen) -> (&'static str, f64, &'static str) {
     match seen {
-        Seen::Backward => (DashType::Solid, 1.8, "drawn through"),
-        Seen::Forward => (DashType::Solid, 0.7, "thin"),
-        Seen::Superharmonic(n) if n % 2 == 0 => (DashType::Dash, 1.0, "dashed"),
-        Seen::Superharmonic(_) => (DashType::Dot, 1.0, "dotted"),
+        Seen::Backward => ("solid", 1.8, "drawn through"),
+        Seen::Forward => ("solid", 0.7, "thin"),
+        Seen::Superharmonic(n) if n % 2 == 0 => ("dash", 1.0, "dashed"),
+        Seen::Superharmonic(_) => ("dot", 1.0, "dotted"),
     }
 }
 
@@ -53,7 +51,7 @@ fn kinds(curves: &[Curve]) -> Vec<String> {
     kinds.into_iter().map(|seen| format!("{}: {}", pen(seen).2, seen.words())).collect()
 }
 
-fn traces(campbell: &Campbell, curves: &[Curve]) -> Vec<PointTrace> {
+fn traces(campbell: &Campbell, curves: &[Curve]) -> Vec<Scatter> {
     let mut named: Vec<usize> = Vec::new();
     let trace = |curve: &Curve| {
         let (i, told, (dash, width, _)) = (curve.nodal_diameter, curve.words(), pen(curve.seen));
@@ -69,7 +67,7 @@ fn traces(campbell: &Campbell, curves: &[Curve]) -> Vec<PointTrace> {
         if first {
             named.push(i);
         }
-        trace.legend_group(name).show_legend(first)
+        trace.legendgroup(name).showlegend(first)
     };
     curves.iter().map(trace).collect()
 }

@@ -1,10 +1,8 @@
 //! Heat map cells, no more than a screen shows, and their colour bar.
 
-use plotly::HeatMap;
-use plotly::common::{ColorScale, ColorScalePalette, Title};
 use serde_json::{Value, json};
 
-use super::document::Cells;
+use super::attributes::{Cells, ColorAxis, ColorBar, Title};
 use super::marks::template;
 use super::text::escaped;
 use crate::axis::logarithmic_ticks;
@@ -23,10 +21,9 @@ pub(super) fn cells(
     (values, told): (Vec<Vec<f32>>, Vec<Vec<Vec<f32>>>),
     words: &str,
     (x_axis, y_axis, coloraxis): (&str, &str, &'static str),
-) -> Box<Cells> {
-    let map = HeatMap::new(x, y, values).hover_on_gaps(false).hover_template(template(words));
-    let map = *map.x_axis(x_axis).y_axis(y_axis);
-    Box::new(Cells { map, coloraxis, customdata: told })
+) -> Cells {
+    let cells = Cells::default().kind("heatmap").x(x).y(y).z(values).customdata(told).hoverongaps(false);
+    cells.hovertemplate(template(words)).xaxis(x_axis).yaxis(y_axis).coloraxis(coloraxis)
 }
 
 /// Lower and upper end of a colour bar, as shares of the height of the figure.
@@ -34,23 +31,23 @@ type Place = (f64, f64);
 
 /// Colour axis for logarithms of amplitudes, labelled with the amplitudes.
 pub(super) fn logarithmic((low, high): (f64, f64), title: &str, place: Place) -> Value {
-    let ticks = logarithmic_ticks((low, high));
-    let (values, texts): (Vec<f64>, Vec<&str>) =
-        ticks.iter().map(|(value, text)| (value.log10(), text.as_str())).unzip();
-    let mut axis = linear((low.log10(), high.log10()), title, place);
-    axis["colorbar"]["tickmode"] = json!("array");
-    axis["colorbar"]["tickvals"] = json!(values);
-    axis["colorbar"]["ticktext"] = json!(texts);
-    axis
+    let (values, texts): (Vec<f64>, Vec<String>) =
+        logarithmic_ticks((low, high)).into_iter().map(|(value, text)| (value.log10(), text)).unzip();
+    let bar = bar(title, place).tickmode("array").tickvals(values).ticktext(texts);
+    coloured((low.log10(), high.log10()), bar)
 }
 
 /// Linear colour axis.
-pub(super) fn linear((low, high): (f64, f64), title: &str, (bottom, top): Place) -> Value {
-    json!({
-        "colorscale": ColorScale::Palette(ColorScalePalette::Viridis), "cmin": low, "cmax": high,
-        "colorbar": {
-            "title": Title::with_text(escaped(title)).side(plotly::common::Side::Right), "thickness": 12, "lenmode": "fraction",
-            "len": top - bottom, "y": 0.5 * (bottom + top), "x": 1.01, "outlinewidth": 0,
-        },
-    })
+pub(super) fn linear(range: (f64, f64), title: &str, place: Place) -> Value {
+    coloured(range, bar(title, place))
+}
+
+fn coloured((low, high): (f64, f64), bar: ColorBar) -> Value {
+    json!(ColorAxis::default().colorscale("Viridis").cmin(low).cmax(high).colorbar(bar))
+}
+
+fn bar(title: &str, (bottom, top): Place) -> ColorBar {
+    let title = Title::default().text(escaped(title)).side("right");
+    let bar = ColorBar::default().title(title).thickness(12.0).lenmode("fraction").len(top - bottom);
+    bar.y(0.5 * (bottom + top)).x(1.01).outlinewidth(0.0)
 }

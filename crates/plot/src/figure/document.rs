@@ -1,11 +1,9 @@
 //! Figure for Plotly: its traces, title, axes and metadata.
 
-use plotly::common::{ExponentFormat, Font, Orientation, Title as AxisTitle};
-use plotly::layout::{Axis, HoverMode, Margin};
-use plotly::{HeatMap, Layout, Scatter};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
+use super::attributes::{Axis, Cells, Font, Scatter, Title};
 use super::text::broken;
 
 /// Largest number of characters in a line of the title, of the paragraphs below it, and beside an axis: what fits into 390 pixels.
@@ -18,46 +16,27 @@ const COLUMNS: (usize, usize, usize) = (44, 60, 46);
 #[derive(Debug, Clone, Serialize)]
 pub struct Figure {
     data: Vec<Trace>,
-    layout: Around,
+    layout: Map<String, Value>,
 }
 
 /// Trace of a figure: points and lines, or cells.
 #[derive(Debug, Clone, Serialize)]
 #[serde(untagged)]
 pub(super) enum Trace {
-    Scatter(Box<Scatter<f64, f64>>),
+    Scatter(Box<Scatter>),
     Cells(Box<Cells>),
 }
 
-/// Heat map with a shared colour axis and data of every cell, which the crate's trace does not support.
-#[derive(Debug, Clone, Serialize)]
-pub(super) struct Cells {
-    #[serde(flatten)]
-    pub(super) map: HeatMap<f64, f64, Vec<f32>>,
-    pub(super) coloraxis: &'static str,
-    /// Numbers of every cell that the pointer shows, row by row.
-    pub(super) customdata: Vec<Vec<Vec<f32>>>,
-}
-
-impl From<Box<Scatter<f64, f64>>> for Trace {
-    fn from(trace: Box<Scatter<f64, f64>>) -> Self {
-        Self::Scatter(trace)
+impl From<Scatter> for Trace {
+    fn from(trace: Scatter) -> Self {
+        Self::Scatter(Box::new(trace))
     }
 }
 
-impl From<Box<Cells>> for Trace {
-    fn from(trace: Box<Cells>) -> Self {
-        Self::Cells(trace)
+impl From<Cells> for Trace {
+    fn from(trace: Cells) -> Self {
+        Self::Cells(Box::new(trace))
     }
-}
-
-/// Layout of the crate, and attributes that it does not have.
-#[derive(Debug, Clone, Serialize)]
-struct Around {
-    #[serde(flatten)]
-    layout: Layout,
-    #[serde(flatten)]
-    more: Map<String, Value>,
 }
 
 impl Figure {
@@ -75,21 +54,21 @@ impl Figure {
         });
         // The legend lies below the diagrams, as wide as the figure.
         let legend = json!({
-            "orientation": Orientation::Horizontal, "x": 0, "xanchor": "left", "xref": "container", "y": 0.0, "yanchor": "bottom",
+            "orientation": "h", "x": 0, "xanchor": "left", "xref": "container", "y": 0.0, "yanchor": "bottom",
             "yref": "container", "font": {"size": 11}, "tracegroupgap": 0,
         });
-        let more = [("title", title), ("legend", legend), ("meta", json!({"kind": kind}))];
-        let layout = Layout::new()
-            .hover_mode(HoverMode::Closest)
-            .margin(Margin::new().top(top).left(64).right(16).bottom(48));
-        let more = more.into_iter().map(|(name, value)| (name.to_owned(), value)).collect();
-        Self { data: Vec::new(), layout: Around { layout, more } }
+        let figure = Self { data: Vec::new(), layout: Map::new() };
+        figure
+            .attribute("hovermode", json!("closest"))
+            .attribute("margin", json!({"t": top, "l": 64, "r": 16, "b": 48}))
+            .attribute("title", title)
+            .attribute("legend", legend)
+            .attribute("meta", json!({"kind": kind}))
     }
 
     /// Sets the height of the figure, in pixels.
-    pub(super) fn high(mut self, pixels: usize) -> Self {
-        self.layout.layout = self.layout.layout.height(pixels);
-        self
+    pub(super) fn high(self, pixels: usize) -> Self {
+        self.attribute("height", json!(pixels))
     }
 
     /// Adds a trace, drawn over those before it.
@@ -111,13 +90,13 @@ impl Figure {
 
     /// Sets an attribute of the layout.
     pub(super) fn attribute(mut self, name: &str, value: Value) -> Self {
-        self.layout.more.insert(name.to_owned(), value);
+        self.layout.insert(name.to_owned(), value);
         self
     }
 
     /// Sets an entry of `layout.meta`.
     pub(super) fn meta(mut self, name: &str, value: impl Serialize) -> Self {
-        if let Some(Value::Object(meta)) = self.layout.more.get_mut("meta") {
+        if let Some(Value::Object(meta)) = self.layout.get_mut("meta") {
             meta.insert(name.to_owned(), json!(value));
         }
         self
@@ -125,7 +104,7 @@ impl Figure {
 
     /// Puts a message in the middle, where there is nothing to draw.
     pub(super) fn empty(self, words: &str) -> Self {
-        let hidden = || Axis::new().visible(false);
+        let hidden = || Axis::default().visible(false);
         self.axis("xaxis", hidden()).axis("yaxis", hidden()).attribute(
             "annotations",
             json!([{"text": broken(words, COLUMNS.0), "xref": "paper", "yref": "paper", "x": 0.5, "y": 0.5, "showarrow": false}]),
@@ -135,11 +114,11 @@ impl Figure {
 
 /// Axis with a title.
 pub(super) fn axis(title: &str) -> Axis {
-    let title = AxisTitle::with_text(broken(title, COLUMNS.2)).font(Font::new().size(12));
-    Axis::new().title(title).auto_margin(true).separate_thousands(true)
+    let title = Title::default().text(broken(title, COLUMNS.2)).font(Font::default().size(12u32));
+    Axis::default().title(title).automargin(true).separatethousands(true)
 }
 
 /// Axis of rotational speeds.
 pub(super) fn speeds() -> Axis {
-    axis("rotational speed Ω, rpm").exponent_format(ExponentFormat::None)
+    axis("rotational speed Ω, rpm").exponentformat("none")
 }

@@ -1,7 +1,6 @@
 //! Errors over the time step: how fast a scheme converges.
 
-use plotly::common::{DashType, Marker, Mode};
-
+use super::attributes::Marker;
 use super::document::Figure;
 use super::marks::{line, silent, words};
 use super::palette::{NEUTRAL, dash};
@@ -23,7 +22,7 @@ pub fn error_over_step(study: &WorkPrecision, speed: usize, quantity: Quantity) 
         return figure.empty(&reason(at, quantity));
     }
     let orders = view.orders().into_iter().enumerate().map(|(index, (ends, words))| {
-        let dash = if index == 0 { DashType::Dot } else { DashType::DashDot };
+        let dash = if index == 0 { "dot" } else { "dashdot" };
         silent(&format!("order {} ({words})", index + 1), ends.map(Some), (NEUTRAL, dash, 1.2))
     });
     let ladder = |ladder: &Ladder| {
@@ -33,7 +32,9 @@ pub fn error_over_step(study: &WorkPrecision, speed: usize, quantity: Quantity) 
         let places = ladder.runs.iter().map(|drawn| Some((step(drawn), drawn.error)));
         let told = ladder.runs.iter().map(|drawn| drawn.title()).collect();
         let trace = words(line(&name, places, (colour, dash(rank), 1.6)), told);
-        trace.mode(Mode::LinesMarkers).marker(Marker::new().symbol(mark(ladder.scheme)).size(9).color(colour))
+        trace
+            .mode("lines+markers")
+            .marker(Marker::default().symbol(mark(ladder.scheme)).size(9.0).color(colour))
     };
     let runs = || view.ladders.iter().flat_map(|ladder| &ladder.runs);
     figure

@@ -1,13 +1,11 @@
 //! Contact over speed and contact node.
 
-use plotly::common::DashType;
-use plotly::layout::RangeMode;
 use serde_json::json;
 
+use super::attributes::Scatter;
 use super::cells::{MOST, cells as coloured, linear, together};
 use super::document::{Figure, axis, speeds};
-use super::interaction_map::ends;
-use super::marks::{PointTrace, line, silent, words};
+use super::marks::{line, silent, words};
 use super::palette::{CURVE, WARNING, colour, dash};
 use super::text::escaped;
 use crate::cells::{Cell, cells, extent};
@@ -52,12 +50,9 @@ pub fn force_map(map: &ForceMap, quantity: ForceQuantity) -> Figure {
         .high(640)
         .with(coloured((x, y), (values, data), &words, ("x", "y", "coloraxis")))
         .with_all(curves(map, &cells, quantity))
-        .axis("xaxis", speeds().range(ends(range)).anchor("y"))
-        .axis("yaxis", axis(NODES).domain(&[0.0, 0.58]).range(vec![-0.5, nodes.max(1) as f64 - 0.5]))
-        .axis(
-            "yaxis2",
-            axis(&quantity.short(map)).domain(&[0.66, 1.0]).range_mode(RangeMode::ToZero).anchor("x"),
-        )
+        .axis("xaxis", speeds().range(<[f64; 2]>::from(range)).anchor("y"))
+        .axis("yaxis", axis(NODES).domain([0.0, 0.58]).range([-0.5, nodes.max(1) as f64 - 0.5]))
+        .axis("yaxis2", axis(&quantity.short(map)).domain([0.66, 1.0]).rangemode("tozero").anchor("x"))
         .attribute("coloraxis", linear(scale, &quantity.short(map), (0.0, 0.58)))
         .meta("units", json!({"x": "rpm", "y": "contact_node"}))
         .meta("speeds_rpm", cells.iter().map(|cell| cell.rpm).collect::<Vec<f64>>())
@@ -70,7 +65,7 @@ fn of_node(row: &ForceRow, quantity: ForceQuantity, node: usize) -> Option<f64> 
 }
 
 /// Traces of the wheel over speed.
-fn curves(map: &ForceMap, cells: &[Cell], quantity: ForceQuantity) -> Vec<PointTrace> {
+fn curves(map: &ForceMap, cells: &[Cell], quantity: ForceQuantity) -> Vec<Scatter> {
     let all = drawing::curves(map, quantity);
     let count = all.len();
     let trace = |(index, (name, _, value)): (usize, drawing::Curve)| {
@@ -81,13 +76,13 @@ fn curves(map: &ForceMap, cells: &[Cell], quantity: ForceQuantity) -> Vec<PointT
         let trace =
             words(line(name, places, (&colour, dash(index), 1.6)), cells.iter().map(words_of).collect());
         // A speed between two without results has no line, so marks are needed.
-        trace.mode(plotly::common::Mode::LinesMarkers).y_axis("y2")
+        trace.mode("lines+markers").yaxis("y2")
     };
     let mut traces: Vec<_> = all.into_iter().enumerate().map(trace).collect();
     if quantity == ForceQuantity::Consumption {
         let (slow, fast) = extent(cells);
         let limit = [Some((slow, 1.0)), Some((fast, 1.0))];
-        traces.push(silent(REACHES, limit, (WARNING, DashType::Dash, 1.2)).y_axis("y2"));
+        traces.push(silent(REACHES, limit, (WARNING, "dash", 1.2)).yaxis("y2"));
     }
     traces
 }

@@ -1,11 +1,10 @@
 //! Haigh diagram: alternating over mean stress, and the limits of the materials.
 
-use plotly::common::{ColorBar, ColorScale, ColorScalePalette, DashType, Marker, Side, Title};
 use serde_json::json;
 
+use super::attributes::{ColorBar, Marker, Scatter, Title};
 use super::document::{Figure, axis};
-use super::interaction_map::ends;
-use super::marks::{PointTrace, marks, silent, strokes};
+use super::marks::{marks, silent, strokes};
 use super::palette::{NEUTRAL, WARNING, dash, symbol};
 use super::text::escaped;
 use crate::haigh::{self as drawing, Cycle, HaighColour, LINES, MOST, NO_STRESS};
@@ -32,12 +31,12 @@ pub fn haigh(stress: &SweepStress, by: HaighColour) -> Figure {
         .high(620)
         .with_all(limits(stress, diagram.x.values.0))
         .with_all(dots(shown, by, unit, drawing::colours(&cycles, by, &diagram)))
-        .axis("xaxis", axis(&drawing::mean_axis(unit)).range(ends(diagram.x.values)))
-        .axis("yaxis", axis(&drawing::alternating_axis(unit)).range(ends(diagram.y.values)))
+        .axis("xaxis", axis(&drawing::mean_axis(unit)).range(<[f64; 2]>::from(diagram.x.values)))
+        .axis("yaxis", axis(&drawing::alternating_axis(unit)).range(<[f64; 2]>::from(diagram.y.values)))
 }
 
 /// Traces of Goodman's lines and the yield lines.
-fn limits(stress: &SweepStress, left: f64) -> Vec<PointTrace> {
+fn limits(stress: &SweepStress, left: f64) -> Vec<Scatter> {
     let mut traces = Vec::new();
     for (index, set) in stress.strengths.iter().enumerate() {
         if let (Some(fatigue), Some(ultimate)) = (set.fatigue, set.ultimate) {
@@ -49,11 +48,11 @@ fn limits(stress: &SweepStress, left: f64) -> Vec<PointTrace> {
             );
             let parts =
                 silent("utilisation 0.25, 0.5, 0.75", strokes(LINES.map(line)), (WARNING, dash(index), 0.7));
-            traces.extend([whole, parts.legend_group("parts").show_legend(index == 0)]);
+            traces.extend([whole, parts.legendgroup("parts").showlegend(index == 0)]);
         }
         if let Some(bears) = set.yield_ {
             let yields = strokes([drawing::yields(bears)]);
-            traces.push(silent(&format!("yield: {}", set.set), yields, (NEUTRAL, DashType::DashDot, 1.2)));
+            traces.push(silent(&format!("yield: {}", set.set), yields, (NEUTRAL, "dashdot", 1.2)));
         }
     }
     traces
@@ -65,7 +64,7 @@ fn dots(
     by: HaighColour,
     unit: &str,
     (scale, title): (crate::axis::Scale, &str),
-) -> Vec<PointTrace> {
+) -> Vec<Scatter> {
     let mut sets: Vec<&str> = Vec::new();
     for (_, cycle) in cycles {
         if !sets.contains(&cycle.set.as_str()) {
@@ -82,11 +81,11 @@ fn dots(
                 here.iter().map(|cycle| ((cycle.1.mean, cycle.1.alternating), drawing::told(cycle, unit)));
             let name = if known { set.to_owned() } else { format!("{set}, {title} not known") };
             let Some(trace) = marks(&name, told, (symbol(index, true), 7, NEUTRAL)) else { continue };
-            let indices: Vec<u32> = here.iter().map(|cycle| cycle.0.index).collect();
-            let trace = trace.custom_data(indices);
+            let indices: Vec<usize> = here.iter().map(|cycle| cycle.0.index as usize).collect();
+            let trace = trace.customdata(indices);
             let values: Vec<f64> = here.iter().filter_map(|cycle| drawing::value(cycle, by)).collect();
             traces.push(match known && drawing::tells_apart(cycles, by) {
-                true => trace.marker(coloured(values, scale.values, title, index).show_scale(index == 0)),
+                true => trace.marker(coloured(values, scale.values, title, index).showscale(index == 0)),
                 false => trace,
             });
         }
@@ -95,8 +94,11 @@ fn dots(
 }
 
 fn coloured(values: Vec<f64>, (low, high): (f64, f64), title: &str, index: usize) -> Marker {
-    let bar = ColorBar::new().title(Title::with_text(escaped(title)).side(Side::Right)).thickness(12).x(1.01);
-    let scale = ColorScale::Palette(ColorScalePalette::Viridis);
-    let marker = Marker::new().symbol(symbol(index, true)).size(7).color_array(values);
-    marker.color_scale(scale).cmin(low).cmax(high).color_bar(bar)
+    let bar = ColorBar::default()
+        .title(Title::default().text(escaped(title)).side("right"))
+        .thickness(12.0)
+        .x(1.01);
+    let scale = "Viridis";
+    let marker = Marker::default().symbol(symbol(index, true)).size(7.0).color(values);
+    marker.colorscale(scale).cmin(low).cmax(high).colorbar(bar)
 }

@@ -1,7 +1,5 @@
 //! Displacements over the first revolutions, one line per size.
 
-use plotly::common::DashType;
-
 use super::document::{Figure, axis};
 use super::marks::{line, template};
 use super::palette::{NEUTRAL, colour, dash};
@@ -25,11 +23,11 @@ pub fn histories(histories: &Histories, sensor: usize) -> Figure {
         together = together.max(here);
         let colour = colour(index, curves.len());
         let pen = match curve.line.reference {
-            true => (NEUTRAL, DashType::Solid, 1.0),
+            true => (NEUTRAL, "solid", 1.0),
             false => (colour.as_str(), dash(index), 2.2),
         };
         let told = format!("{}<br>%{{x:.4f}} revolutions: %{{y:.4~g}}", escaped(&curve.title()));
-        traces.push(line(&curve.size(), places.into_iter().map(Some), pen).hover_template(template(&told)));
+        traces.push(line(&curve.size(), places.into_iter().map(Some), pen).hovertemplate(template(&told)));
     }
     let paragraphs: Vec<String> =
         [drawing::words(histories)].into_iter().chain(thinned::words(together)).collect();

@@ -1,14 +1,13 @@
 //! Interaction map: level and amplitudes over speed, engine orders, critical speeds, linear prediction.
 
-use plotly::common::{DashType, MarkerSymbol, Mode, Position};
-use plotly::layout::Axis;
 use serde_json::json;
 
 use super::amplitudes::amplitudes;
+use super::attributes::{Axis, Scatter};
 use super::cells::{MOST, logarithmic};
 use super::document::{Figure, axis, speeds};
 use super::level;
-use super::marks::{PointTrace, line, marks, silent, strokes, words};
+use super::marks::{line, marks, silent, strokes, words};
 use super::palette::{WARNING, colour, dash};
 use crate::cells::{Cell, cells, rpm};
 use crate::level::{LevelColour, axis as level_axis};
@@ -77,7 +76,7 @@ fn seen_in(
         .chain(validity::without_thickness(map).then(|| validity::WITHOUT_THICKNESS.to_owned()))
         .chain(shown.thinned.clone())
         .collect();
-    let x = speeds().range(ends(view.diagram.x.values)).anchor("y");
+    let x = speeds().range(<[f64; 2]>::from(view.diagram.x.values)).anchor("y");
     let seen = cells.iter().filter(|cell| view.diagram.x.contains(cell.rpm)).copied();
     let seen: Vec<Cell> = seen.collect();
     Figure::new("interaction_map", &drawing::title(map, view.frame), &paragraphs)
@@ -91,11 +90,8 @@ fn seen_in(
             critical.map(|critical| critical_speeds(critical, &view, level_colour)).into_iter().flatten(),
         )
         .axis("xaxis", x)
-        .axis("yaxis", upwards(&view).domain(&MAP))
-        .axis(
-            "yaxis2",
-            axis(&level_axis(map)).domain(&LEVEL).range_mode(plotly::layout::RangeMode::ToZero).anchor("x"),
-        )
+        .axis("yaxis", upwards(&view).domain(MAP))
+        .axis("yaxis2", axis(&level_axis(map)).domain(LEVEL).rangemode("tozero").anchor("x"))
         .attribute("coloraxis", logarithmic(scale, &format!("amplitude, {unit}"), (MAP[0], MAP[1])))
         .meta("sensor", map.sensor)
         .meta("units", json!({"x": "rpm", "y": y_unit(&view), "amplitude": unit}))
@@ -115,23 +111,18 @@ fn y_unit(view: &View) -> &'static str {
 
 /// Vertical axis of a view.
 pub(super) fn upwards(view: &View) -> Axis {
-    axis(view.axis_words()).range(ends(view.diagram.y.values))
-}
-
-/// Ends of an axis as a list.
-pub(super) fn ends((low, high): (f64, f64)) -> Vec<f64> {
-    vec![low, high]
+    axis(view.axis_words()).range(<[f64; 2]>::from(view.diagram.y.values))
 }
 
 /// Traces of the engine orders; those that the lobes excite have their numbers in a map of frequencies.
-pub(super) fn engine_orders(map: &InteractionMap, view: &View) -> Vec<PointTrace> {
+pub(super) fn engine_orders(map: &InteractionMap, view: &View) -> Vec<Scatter> {
     let (excited, others): (Vec<OrderLine>, Vec<OrderLine>) =
         view.order_lines(map).into_iter().partition(|line| line.excited && lobes(map) > 1);
     let other_words = if lobes(map) > 1 { "other engine orders" } else { "engine orders" };
     let mut traces = Vec::new();
     for (name, lines, pen) in [
-        (other_words, &others, ("rgba(176, 176, 176, 0.6)", DashType::Dot, 1.0)),
-        ("engine orders of lobes", &excited, ("rgba(176, 176, 176, 0.45)", DashType::Solid, 1.0)),
+        (other_words, &others, ("rgba(176, 176, 176, 0.6)", "dot", 1.0)),
+        ("engine orders of lobes", &excited, ("rgba(176, 176, 176, 0.45)", "solid", 1.0)),
     ] {
         if lines.is_empty() {
             continue;
@@ -141,7 +132,7 @@ pub(super) fn engine_orders(map: &InteractionMap, view: &View) -> Vec<PointTrace
         let numbers = lines.iter().flat_map(|line| [String::new(), line.order.to_string(), String::new()]);
         traces.push(match rising {
             true => {
-                trace.mode(Mode::LinesText).text_array(numbers.collect()).text_position(Position::BottomLeft)
+                trace.mode("lines+text").text(numbers.collect::<Vec<String>>()).textposition("bottom left")
             }
             false => trace,
         });
@@ -150,7 +141,7 @@ pub(super) fn engine_orders(map: &InteractionMap, view: &View) -> Vec<PointTrace
 }
 
 /// Traces of the natural frequencies in the rotating frame, those of a nodal diameter under one name.
-fn natural(campbell: &Campbell, view: &View) -> Vec<PointTrace> {
+fn natural(campbell: &Campbell, view: &View) -> Vec<Scatter> {
     let harmonics = campbell.frequencies_hz.first().map_or(0, Vec::len);
     let lines = view.natural(campbell);
     let of = |i: usize| {
@@ -164,7 +155,7 @@ fn natural(campbell: &Campbell, view: &View) -> Vec<PointTrace> {
 }
 
 /// Traces of the crossings of natural frequencies with the linear criterion and with the lobes' engine orders.
-fn crossings(critical: &CriticalSpeeds, view: &View) -> Vec<PointTrace> {
+fn crossings(critical: &CriticalSpeeds, view: &View) -> Vec<Scatter> {
     let place = |speed_rad_s: f64, order: u32| view.seen(rpm(speed_rad_s), f64::from(order));
     let linear = critical.linear_crossings.iter().filter_map(|crossing| {
         let order = crossing.nodal_diameter * crossing.superharmonic;
@@ -173,17 +164,16 @@ fn crossings(critical: &CriticalSpeeds, view: &View) -> Vec<PointTrace> {
     let driven = critical.driven_crossings.iter().filter_map(|crossing| {
         Some((place(crossing.speed_rad_s, crossing.engine_order)?, driven_words(crossing)))
     });
-    let rings = marks("linear (i, j, n)", linear, (MarkerSymbol::CircleOpen, 10, LINEAR));
-    let diamonds = marks("driven (i, j)", driven, (MarkerSymbol::Diamond, 9, DRIVEN));
+    let rings = marks("linear (i, j, n)", linear, ("circle-open", 10, LINEAR));
+    let diamonds = marks("driven (i, j)", driven, ("diamond", 9, DRIVEN));
     rings.into_iter().chain(diamonds).collect()
 }
 
 /// Traces of the critical speeds: lines through both panels, and a mark at the level of each.
-fn critical_speeds(critical: &CriticalSpeeds, view: &View, by: LevelColour) -> Vec<PointTrace> {
+fn critical_speeds(critical: &CriticalSpeeds, view: &View, by: LevelColour) -> Vec<Scatter> {
     let said = by == LevelColour::Utilisation;
     let mut traces = Vec::new();
-    for (resolved, name, dash) in
-        [(true, "critical speed", DashType::Dash), (false, "critical, not resolved", DashType::Dot)]
+    for (resolved, name, dash) in [(true, "critical speed", "dash"), (false, "critical, not resolved", "dot")]
     {
         let of = |speed: &&CriticalSpeed| {
             speed.resolved == resolved && view.diagram.x.contains(rpm(speed.speed_rad_s))
@@ -196,11 +186,11 @@ fn critical_speeds(critical: &CriticalSpeeds, view: &View, by: LevelColour) -> V
             let words = format!("{}{}", critical_words(speed, said), known_to(speed));
             ((rpm(speed.speed_rad_s), speed.rms), words)
         };
-        let symbol = if resolved { MarkerSymbol::TriangleDown } else { MarkerSymbol::TriangleDownOpen };
+        let symbol = if resolved { "triangle-down" } else { "triangle-down-open" };
         let Some(peaks) = marks(name, found.iter().map(told), (symbol, 11, WARNING)) else { continue };
-        let indices: Vec<u32> = found.iter().map(|speed| speed.index).collect();
-        let peaks = peaks.custom_data(indices).y_axis("y2").show_legend(false);
-        traces.extend([lines.legend_group(name), peaks.legend_group(name)]);
+        let indices: Vec<usize> = found.iter().map(|speed| speed.index as usize).collect();
+        let peaks = peaks.customdata(indices).yaxis("y2").showlegend(false);
+        traces.extend([lines.legendgroup(name), peaks.legendgroup(name)]);
     }
     traces
 }

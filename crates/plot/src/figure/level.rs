@@ -1,11 +1,8 @@
 //! Level over speed, above a map, with its error, how well it has settled, and the validity of linear theory.
 
-use plotly::Scatter;
-use plotly::common::{ErrorData, ErrorType, Fill, HoverInfo, Line, MarkerSymbol, Mode};
-
-use super::marks::{PointTrace, columns, marks, strokes, words};
+use super::attributes::{Line, Scatter};
+use super::marks::{bars, columns, marks, scatter, strokes, words};
 use super::palette::{CURVE, NEUTRAL, WARNING};
-use super::text::escaped;
 use crate::cells::Cell;
 use crate::level::{self, LevelColour, rms};
 use crate::settling_strip::Standing;
@@ -13,34 +10,34 @@ use crate::{map_view, margin, validity};
 use rubmap_analysis::result::{InteractionMap, ValidityVerdict, Verdict};
 
 /// Traces of the level over speed, in the panel of these axes.
-pub(super) fn traces(map: &InteractionMap, cells: &[Cell], by: LevelColour, y_axis: &str) -> Vec<PointTrace> {
+pub(super) fn traces(map: &InteractionMap, cells: &[Cell], by: LevelColour, y_axis: &str) -> Vec<Scatter> {
     let below = |cell: &Cell| Some((0.0, rms(map, cell.index)?));
     let mut traces = if by == LevelColour::Utilisation { utilisation(map, cells, below) } else { Vec::new() };
     traces.push(curve(map, cells));
     traces.extend(Standing::ALL.into_iter().filter_map(|standing| standings(map, cells, standing)));
     traces.extend(validity::MARKED.into_iter().filter_map(|verdict| verdicts(map, cells, verdict)));
-    traces.into_iter().map(|trace| trace.y_axis(y_axis)).collect()
+    traces.into_iter().map(|trace| trace.yaxis(y_axis)).collect()
 }
 
 /// Trace of the level, with error bars where errors were estimated.
-fn curve(map: &InteractionMap, cells: &[Cell]) -> PointTrace {
+fn curve(map: &InteractionMap, cells: &[Cell]) -> Scatter {
     let (x, y) = columns(cells.iter().map(|cell| Some((cell.rpm, rms(map, cell.index)?))));
-    let pen = Line::new().color(CURVE).width(1.6);
-    let curve = Scatter::new(x, y).name("level").mode(Mode::Lines).line(pen).hover_info(HoverInfo::Skip);
+    let pen = Line::default().color(CURVE).width(1.6);
+    let curve = scatter("level", "lines", (x, y)).line(pen).hoverinfo("skip");
     let Some(errors) = map.errors.as_ref().filter(|errors| !errors.points.is_empty()) else { return curve };
     let error = |cell: &Cell| Some(rms(map, cell.index)? * errors.of(cell.index as u32)?);
-    let bars = cells.iter().map(|cell| error(cell).unwrap_or(f64::NAN)).collect();
-    curve.error_y(ErrorData::new(ErrorType::Data).array(bars).color(CURVE).thickness(1.0).width(2))
+    let errors: Vec<f64> = cells.iter().map(|cell| error(cell).unwrap_or(f64::NAN)).collect();
+    curve.error_y(bars().array(errors).color(CURVE).thickness(1.0).width(2))
 }
 
 /// Marks of the speeds of one standing: at their level, or on the axis if they have none.
-fn standings(map: &InteractionMap, cells: &[Cell], standing: Standing) -> Option<PointTrace> {
+fn standings(map: &InteractionMap, cells: &[Cell], standing: Standing) -> Option<Scatter> {
     let style = match standing {
-        Standing::Settled(Verdict::Periodic) => (MarkerSymbol::Circle, 4, CURVE),
-        Standing::Settled(Verdict::Subharmonic) => (MarkerSymbol::Square, 6, "#009e73"),
-        Standing::Settled(Verdict::Aperiodic) => (MarkerSymbol::Diamond, 7, "#cc79a7"),
-        Standing::Settled(Verdict::NotSettled) => (MarkerSymbol::TriangleUp, 8, "#e69f00"),
-        Standing::Missing => (MarkerSymbol::X, 7, NEUTRAL),
+        Standing::Settled(Verdict::Periodic) => ("circle", 4, CURVE),
+        Standing::Settled(Verdict::Subharmonic) => ("square", 6, "#009e73"),
+        Standing::Settled(Verdict::Aperiodic) => ("diamond", 7, "#cc79a7"),
+        Standing::Settled(Verdict::NotSettled) => ("triangle-up", 8, "#e69f00"),
+        Standing::Missing => ("x", 7, NEUTRAL),
         // Gaps show pending speeds.
         Standing::Pending => return None,
     };
@@ -54,14 +51,14 @@ fn standings(map: &InteractionMap, cells: &[Cell], standing: Standing) -> Option
         ((cell.rpm, rms.unwrap_or(0.0)), told)
     };
     let trace = marks(standing.words(), of.iter().map(place), style)?;
-    Some(trace.custom_data(of.iter().map(|(cell, _)| cell.index).collect::<Vec<usize>>()))
+    Some(trace.customdata(of.iter().map(|(cell, _)| cell.index).collect::<Vec<usize>>()))
 }
 
 /// Rings about the speeds at which linear theory has this verdict.
-fn verdicts(map: &InteractionMap, cells: &[Cell], verdict: ValidityVerdict) -> Option<PointTrace> {
+fn verdicts(map: &InteractionMap, cells: &[Cell], verdict: ValidityVerdict) -> Option<Scatter> {
     let (symbol, size) = match verdict {
-        ValidityVerdict::Beyond => (MarkerSymbol::CircleXOpen, 12),
-        _ => (MarkerSymbol::CircleOpen, 12),
+        ValidityVerdict::Beyond => ("circle-x-open", 12),
+        _ => ("circle-open", 12),
     };
     let place = |cell: &Cell| {
         let found =
@@ -79,7 +76,7 @@ pub(super) fn utilisation(
     map: &InteractionMap,
     cells: &[Cell],
     heights: impl Fn(&Cell) -> Option<(f64, f64)>,
-) -> Vec<PointTrace> {
+) -> Vec<Scatter> {
     let of = |class: usize| {
         let bars = cells.iter().filter_map(|cell| {
             let used = margin::utilisation(map, cell.index)?;
@@ -92,9 +89,9 @@ pub(super) fn utilisation(
         let (x, y) = columns(strokes(corners));
         let told = bars.iter().flat_map(|(cell, _, used)| vec![margin::words(cell, *used); 6]).collect();
         let fill = margin::fill(class);
-        let pen = Line::new().color(fill.clone()).width(0.0);
-        let trace = Scatter::new(x, y).name(escaped(margin::CLASSES[class].2)).mode(Mode::Lines).line(pen);
-        let trace = trace.fill(Fill::ToSelf).fill_color(fill);
+        let pen = Line::default().color(fill.clone()).width(0.0);
+        let trace = scatter(margin::CLASSES[class].2, "lines", (x, y)).line(pen);
+        let trace = trace.fill("toself").fillcolor(fill);
         (!bars.is_empty()).then(|| words(trace, told))
     };
     (0..margin::CLASSES.len()).filter_map(of).collect()

@@ -3,9 +3,10 @@
 use serde_json::{Value, json};
 
 use super::amplitudes::amplitudes;
+use super::attributes::Title;
 use super::cells::{MOST, logarithmic};
 use super::document::{Figure, axis};
-use super::interaction_map::{ends, engine_orders, upwards};
+use super::interaction_map::{engine_orders, upwards};
 use super::level;
 use super::text::escaped;
 use crate::cells::cells;
@@ -45,12 +46,12 @@ pub fn map_sheet(maps: &[InteractionMap], window: Window, level_colour: LevelCol
         let (x, y) = (name("x", index), name("y", index));
         let shown = amplitudes(map, &cells, &view, scale.0, (&x, &y), most);
         thinned = thinned.or(shown.thinned);
-        let lines = engine_orders(map, &view).into_iter().map(|trace| trace.show_legend(index == 0));
-        figure = figure.with(shown.trace).with_all(lines.map(|trace| trace.x_axis(&x).y_axis(&y)));
+        let lines = engine_orders(map, &view).into_iter().map(|trace| trace.showlegend(index == 0));
+        figure = figure.with(shown.trace).with_all(lines.map(|trace| trace.xaxis(&x).yaxis(&y)));
         if level_colour == LevelColour::Utilisation {
             let (low, high) = view.diagram.y.values;
             let strips = level::utilisation(map, &cells, |_| Some((high - 0.04 * (high - low), high)));
-            let strips = strips.into_iter().map(|trace| trace.show_legend(index == 0).x_axis(&x).y_axis(&y));
+            let strips = strips.into_iter().map(|trace| trace.showlegend(index == 0).xaxis(&x).yaxis(&y));
             figure = figure.with_all(strips);
         }
         let (wide, high) = (1.0 / columns as f64, 1.0 / rows as f64);
@@ -60,14 +61,14 @@ pub fn map_sheet(maps: &[InteractionMap], window: Window, level_colour: LevelCol
         let along = [foot + if row + 1 < rows { 0.25 * high } else { 0.0 }, foot + 0.92 * high];
         let below = index + columns >= maps.len();
         let mut x_axis = axis(if below { "Ω, rpm" } else { "" })
-            .n_ticks(4)
-            .tick_angle(0.0)
-            .range(ends(view.diagram.x.values))
-            .domain(&across)
+            .nticks(4u32)
+            .tickangle(0.0)
+            .range(<[f64; 2]>::from(view.diagram.x.values))
+            .domain(across)
             .anchor(&y);
-        let mut y_axis = upwards(&view).domain(&along).anchor(&x);
+        let mut y_axis = upwards(&view).domain(along).anchor(&x);
         if column > 0 {
-            y_axis = y_axis.title("");
+            y_axis = y_axis.title(Title::default().text(""));
         }
         if index > 0 {
             (x_axis, y_axis) = (x_axis.matches("x"), y_axis.matches("y"));

@@ -4,6 +4,7 @@
 //! a screen shows; of merged cells and samples the largest is drawn, and the figure says so.
 
 mod amplitudes;
+mod attributes;
 mod branches;
 mod campaign;
 mod campbell;

@@ -1,7 +1,5 @@
 //! Colours, dashes and symbols that can be distinguished on light and on dark, and by the colour-blind.
 
-use plotly::common::{DashType, MarkerSymbol};
-
 use crate::colour::{self, DISTINCT};
 
 /// Neutral grey, as far from white as from black.
@@ -23,24 +21,19 @@ pub(super) fn colour(index: usize, count: usize) -> String {
 }
 
 /// Dashes of the line with this index; they repeat.
-pub(super) fn dash(index: usize) -> DashType {
-    [DashType::Solid, DashType::Dash, DashType::Dot, DashType::DashDot][index % 4].clone()
+pub(super) fn dash(index: usize) -> &'static str {
+    ["solid", "dash", "dot", "dashdot"][index % 4]
 }
 
 /// Symbol of the mark with this index, filled or open; symbols repeat.
-pub(super) fn symbol(index: usize, filled: bool) -> MarkerSymbol {
-    use MarkerSymbol::{
-        Circle, CircleOpen, Diamond, DiamondOpen, Hexagon, HexagonOpen, Square, SquareOpen, TriangleDown,
-        TriangleDownOpen, TriangleUp, TriangleUpOpen,
-    };
-    let [full, open] = [
-        [Circle, CircleOpen],
-        [Square, SquareOpen],
-        [TriangleUp, TriangleUpOpen],
-        [Diamond, DiamondOpen],
-        [TriangleDown, TriangleDownOpen],
-        [Hexagon, HexagonOpen],
-    ][index % 6]
-        .clone();
+pub(super) fn symbol(index: usize, filled: bool) -> &'static str {
+    let (full, open) = [
+        ("circle", "circle-open"),
+        ("square", "square-open"),
+        ("triangle-up", "triangle-up-open"),
+        ("diamond", "diamond-open"),
+        ("triangle-down", "triangle-down-open"),
+        ("hexagon", "hexagon-open"),
+    ][index % 6];
     if filled { full } else { open }
 }

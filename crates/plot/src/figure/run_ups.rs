@@ -1,12 +1,11 @@
 //! Run-ups: amplitude of a sensor over the speed, at every rate.
 
-use plotly::common::{DashType, Marker, MarkerSymbol, Mode};
 use serde_json::json;
 
+use super::attributes::{Marker, Scatter};
 use super::document::{Figure, axis, speeds};
-use super::interaction_map::ends;
 use super::marched::dots;
-use super::marks::{PointTrace, line, marks, silent, words};
+use super::marks::{line, marks, silent, words};
 use super::palette::{NEUTRAL, colour};
 use crate::run_up_line::{Line, Step};
 use crate::run_up_words as told;
@@ -34,25 +33,25 @@ pub fn run_ups(run_ups: &RunUps, sensor: usize, swept: &[Point]) -> Figure {
         .with_all(touching(&view))
         .with_all(view.shown().into_iter().rev().map(|of| line_of(&view, of, listed.contains(&of.rank))))
         .with_all(peaks(&view))
-        .axis("xaxis", speeds().range(ends(view.diagram.x.values)))
-        .axis("yaxis", axis(&view.height()).range(ends(view.diagram.y.values)))
+        .axis("xaxis", speeds().range(<[f64; 2]>::from(view.diagram.x.values)))
+        .axis("yaxis", axis(&view.height()).range(<[f64; 2]>::from(view.diagram.y.values)))
         .meta("sensor", view.sensor)
         .meta("rates_rad_s2", view.lines.iter().map(|line| line.rate_rad_s2).collect::<Vec<_>>())
 }
 
 /// Trace of a run.
-fn line_of(view: &View<'_>, of: &Line, is_listed: bool) -> PointTrace {
+fn line_of(view: &View<'_>, of: &Line, is_listed: bool) -> Scatter {
     let told = of.steps.iter().map(|step| format!("{}: {}", of.title, step.words(view.unit))).collect();
     let places = of.steps.iter().map(|step| Some(step.over_speed()));
     let width = if view.lines.len() > LISTED { 1.2 } else { 2.0 };
-    let pen = (&*colour(of.rank, view.lines.len()), DashType::Solid, width);
-    let trace = words(line(&of.name, places, pen), told).show_legend(is_listed).legend_group(group(of));
+    let pen = (&*colour(of.rank, view.lines.len()), "solid", width);
+    let trace = words(line(&of.name, places, pen), told).showlegend(is_listed).legendgroup(group(of));
     // A line through one point is invisible.
-    if of.steps.len() == 1 { trace.mode(Mode::LinesMarkers) } else { trace }
+    if of.steps.len() == 1 { trace.mode("lines+markers") } else { trace }
 }
 
 /// Broad traces of the stretches in contact; the first of them explains the width in the legend.
-fn touching(view: &View<'_>) -> Vec<PointTrace> {
+fn touching(view: &View<'_>) -> Vec<Scatter> {
     const WIDTH: u16 = 8;
     let touching: Vec<&Line> =
         view.shown().into_iter().filter(|line| line.touching().next().is_some()).collect();
@@ -62,12 +61,12 @@ fn touching(view: &View<'_>) -> Vec<PointTrace> {
             places.into_iter().chain([None])
         };
         let colour = colour(of.rank, view.lines.len());
-        let pen = (&*colour, DashType::Solid, f64::from(WIDTH));
+        let pen = (&*colour, "solid", f64::from(WIDTH));
         let trace = silent("something touches", of.touching().flat_map(stretch), pen).opacity(0.3);
-        let trace = trace.legend_group(group(of)).show_legend(index == 0);
+        let trace = trace.legendgroup(group(of)).showlegend(index == 0);
         let has_one_alone = of.touching().any(|steps| steps.len() == 1);
         if has_one_alone {
-            trace.mode(Mode::LinesMarkers).marker(Marker::new().size(usize::from(WIDTH)).color(colour))
+            trace.mode("lines+markers").marker(Marker::default().size(f64::from(WIDTH)).color(colour))
         } else {
             trace
         }
@@ -81,10 +80,10 @@ fn group(of: &Line) -> String {
 }
 
 /// Marks of the largest amplitude of each run.
-fn peaks(view: &View<'_>) -> Option<PointTrace> {
+fn peaks(view: &View<'_>) -> Option<Scatter> {
     let of = view.lines.iter().filter_map(|line| {
         let step = line.largest?;
         Some((step.over_speed(), format!("largest of {}: {}", line.title, step.words(view.unit))))
     });
-    marks("largest half peak-to-peak", of, (MarkerSymbol::CircleOpen, 10, NEUTRAL))
+    marks("largest half peak-to-peak", of, ("circle-open", 10, NEUTRAL))
 }

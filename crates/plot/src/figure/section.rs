@@ -1,10 +1,10 @@
 //! Sections of a sector.
 
-use plotly::common::{DashType, MarkerSymbol};
 use serde_json::json;
 
+use super::attributes::Scatter;
 use super::document::{Figure, axis};
-use super::marks::{PointTrace, line, marks, silent, strokes};
+use super::marks::{line, marks, silent, strokes};
 use super::palette::{CURVE, NEUTRAL, WARNING};
 use crate::outline::outline;
 use crate::section::{self as drawing, Drawing, NO_NODES, SectionView, project};
@@ -32,38 +32,38 @@ pub fn section(geometry: &SectorGeometry, view: SectionView) -> Figure {
             let told = drawn.seen(look.kind).into_iter().map(|node| {
                 (project(view, node.position), format!("node {}, {}", node.id, look.words(view)))
             });
-            Some(marks(look.words(view), told, style(look.kind))?.legend_group(look.words(view)))
+            Some(marks(look.words(view), told, style(look.kind))?.legendgroup(look.words(view)))
         }))
         .with_all(contact_line(geometry, view))
         .with_all(drawn.wall().map(|wall| {
             let places = wall.into_iter().map(|place| Some(project(view, place)));
-            silent("casing at rest", places, (NEUTRAL, DashType::Solid, 3.0))
+            silent("casing at rest", places, (NEUTRAL, "solid", 3.0))
         }))
         .axis("xaxis", axis(&x))
-        .axis("yaxis", axis(&y).scale_anchor("x").scale_ratio(1.0))
+        .axis("yaxis", axis(&y).scaleanchor("x").scaleratio(1.0))
 }
 
-fn style(kind: NodeKind) -> (MarkerSymbol, usize, &'static str) {
+fn style(kind: NodeKind) -> (&'static str, u32, &'static str) {
     match kind {
-        NodeKind::Internal => (MarkerSymbol::Circle, 2, NEUTRAL),
-        NodeKind::Low => (MarkerSymbol::Circle, 4, CURVE),
-        NodeKind::High => (MarkerSymbol::Diamond, 5, "#e69f00"),
-        NodeKind::Clamped => (MarkerSymbol::Square, 5, "#009e73"),
-        NodeKind::Contact => (MarkerSymbol::TriangleUp, 6, WARNING),
+        NodeKind::Internal => ("circle", 2, NEUTRAL),
+        NodeKind::Low => ("circle", 4, CURVE),
+        NodeKind::High => ("diamond", 5, "#e69f00"),
+        NodeKind::Clamped => ("square", 5, "#009e73"),
+        NodeKind::Contact => ("triangle-up", 6, WARNING),
     }
 }
 
 /// Outline of the area that the nodes cover, turned into one plane.
-fn rim(geometry: &SectorGeometry, view: SectionView) -> Option<PointTrace> {
+fn rim(geometry: &SectorGeometry, view: SectionView) -> Option<Scatter> {
     (view == SectionView::Meridional).then_some(())?;
     let places: Vec<(f64, f64)> = geometry.nodes.iter().map(|node| project(view, node.position)).collect();
     let (_, edges) = outline(&places);
-    let pen = (NEUTRAL, DashType::Solid, 1.2);
+    let pen = (NEUTRAL, "solid", 1.2);
     (!edges.is_empty()).then(|| silent("what the nodes cover", strokes(edges), pen))
 }
 
 /// Trace of the contact line, with the clearance of every node where it is known.
-fn contact_line(geometry: &SectorGeometry, view: SectionView) -> Option<PointTrace> {
+fn contact_line(geometry: &SectorGeometry, view: SectionView) -> Option<Scatter> {
     let places = geometry.contact.iter().map(|place| Some(project(view, place.position)));
     let told = geometry.contact.iter().enumerate().map(|(k, place)| {
         let clearance = place.clearance.map(|clearance| {
@@ -71,9 +71,9 @@ fn contact_line(geometry: &SectorGeometry, view: SectionView) -> Option<PointTra
         });
         format!("contact node {k}: node {}{}", place.id, clearance.unwrap_or_default())
     });
-    let trace = line(LINE, places, (WARNING, DashType::Solid, 2.2));
-    let trace = super::marks::words(trace, told.collect()).legend_group(LINE);
+    let trace = line(LINE, places, (WARNING, "solid", 2.2));
+    let trace = super::marks::words(trace, told.collect()).legendgroup(LINE);
     // Known nodes of the contact line have its name already.
     let named = geometry.nodes.iter().any(|node| node.kind == NodeKind::Contact);
-    (!geometry.contact.is_empty()).then(|| trace.show_legend(!named))
+    (!geometry.contact.is_empty()).then(|| trace.showlegend(!named))
 }

@@ -2,14 +2,12 @@
 
 use std::f64::consts::TAU;
 
-use plotly::common::{DashType, MarkerSymbol};
-use plotly::layout::Axis;
 use serde_json::json;
 
+use super::attributes::{Axis, Cells as Trace, Scatter};
 use super::cells::{MOST, cells, logarithmic};
-use super::document::{Cells as Trace, Figure, axis, speeds};
-use super::interaction_map::ends;
-use super::marks::{PointTrace, line, marks, silent};
+use super::document::{Figure, axis, speeds};
+use super::marks::{line, marks, silent};
 use super::palette::CURVE;
 use super::text::escaped;
 use crate::cells::rpm;
@@ -47,8 +45,8 @@ pub fn spectrogram(run_ups: &RunUps, run: usize, sensor: usize, unit: Spectrogra
         .high(high)
         .with(map(&view, &found, range.0, length))
         .with_all(engine_orders(&view))
-        .axis("xaxis", across(view.over).range(ends(view.x)).anchor("y"))
-        .axis("yaxis", axis(view.upwards()).range(ends(view.y)).domain(&[0.0, top]))
+        .axis("xaxis", across(view.over).range(<[f64; 2]>::from(view.x)).anchor("y"))
+        .axis("yaxis", axis(view.upwards()).range(<[f64; 2]>::from(view.y)).domain([0.0, top]))
         .attribute("coloraxis", logarithmic(range, &format!("amplitude, {length}"), (0.0, top)))
         .meta("sensor", view.sensor)
         .meta("run", view.run.run)
@@ -57,9 +55,12 @@ pub fn spectrogram(run_ups: &RunUps, run: usize, sensor: usize, unit: Spectrogra
     for (place, curve) in curves.iter().enumerate() {
         let foot = 1.0 - share * (place + 1) as f64;
         let (short, long) = (format!("y{}", place + 2), format!("yaxis{}", place + 2));
-        let upwards = axis(&curve.axis).range(ends(curve.y)).domain(&[foot + 0.02, foot + share]).anchor("x");
+        let upwards = axis(&curve.axis)
+            .range(<[f64; 2]>::from(curve.y))
+            .domain([foot + 0.02, foot + share])
+            .anchor("x");
         figure =
-            figure.with_all(strip(curve).into_iter().map(|trace| trace.y_axis(&short))).axis(&long, upwards);
+            figure.with_all(strip(curve).into_iter().map(|trace| trace.yaxis(&short))).axis(&long, upwards);
     }
     figure
 }
@@ -78,7 +79,7 @@ fn y_unit(unit: SpectrogramUnit) -> &'static str {
     }
 }
 
-fn map(view: &View<'_>, found: &Cells<'_>, quietest: f64, unit: &str) -> Box<Trace> {
+fn map(view: &View<'_>, found: &Cells<'_>, quietest: f64, unit: &str) -> Trace {
     let middle = |(from, to): &(f64, f64)| 0.5 * (from + to);
     let x: Vec<f64> = match found.columns[..] {
         // A single column has its edges: nothing else says how wide it is.
@@ -117,7 +118,7 @@ fn map(view: &View<'_>, found: &Cells<'_>, quietest: f64, unit: &str) -> Box<Tra
 }
 
 /// Traces of the engine orders, those that the lobes excite apart.
-fn engine_orders(view: &View<'_>) -> Vec<PointTrace> {
+fn engine_orders(view: &View<'_>) -> Vec<Scatter> {
     let lines = view.order_lines();
     let some_excited = lines.iter().any(|line| line.excited);
     let of = |excited: bool| {
@@ -125,11 +126,9 @@ fn engine_orders(view: &View<'_>) -> Vec<PointTrace> {
         let places: Vec<_> =
             lines.flat_map(|line| line.places.iter().copied().map(Some).chain([None])).collect();
         let (name, pen) = match excited {
-            true => ("engine orders of lobes", ("rgba(176, 176, 176, 0.45)", DashType::Solid, 1.0)),
-            false if some_excited => {
-                ("other engine orders", ("rgba(176, 176, 176, 0.6)", DashType::Dot, 1.0))
-            }
-            false => ("engine orders", ("rgba(176, 176, 176, 0.6)", DashType::Dot, 1.0)),
+            true => ("engine orders of lobes", ("rgba(176, 176, 176, 0.45)", "solid", 1.0)),
+            false if some_excited => ("other engine orders", ("rgba(176, 176, 176, 0.6)", "dot", 1.0)),
+            false => ("engine orders", ("rgba(176, 176, 176, 0.6)", "dot", 1.0)),
         };
         (!places.is_empty()).then(|| silent(name, places, pen))
     };
@@ -137,9 +136,9 @@ fn engine_orders(view: &View<'_>) -> Vec<PointTrace> {
 }
 
 /// Traces of a curve above the map, with its marks.
-fn strip(curve: &Strip) -> Vec<PointTrace> {
+fn strip(curve: &Strip) -> Vec<Scatter> {
     let places = curve.places.iter().copied().map(Some);
-    let drawn = line(&curve.axis, places, (CURVE, DashType::Solid, 1.6)).show_legend(false);
-    let peaks = marks("largest", curve.marks.iter().cloned(), (MarkerSymbol::Circle, 8, CURVE));
-    [drawn].into_iter().chain(peaks.map(|peaks| peaks.show_legend(false))).collect()
+    let drawn = line(&curve.axis, places, (CURVE, "solid", 1.6)).showlegend(false);
+    let peaks = marks("largest", curve.marks.iter().cloned(), ("circle", 8, CURVE));
+    [drawn].into_iter().chain(peaks.map(|peaks| peaks.showlegend(false))).collect()
 }

@@ -1,11 +1,10 @@
 //! Spectra of one speed.
 
-use plotly::common::{ErrorData, ErrorType};
-use plotly::layout::{Axis, AxisType};
 use serde_json::json;
 
+use super::attributes::{Axis, Scatter};
 use super::document::{Figure, axis};
-use super::marks::{PointTrace, marks};
+use super::marks::{bars, marks};
 use super::palette::{CURVE, colour, symbol};
 use crate::axis::label;
 use crate::cells::rpm;
@@ -36,17 +35,17 @@ pub fn spectrum(spectra: &SpeedSpectra, point: &Point, units: &Units, sensor: us
         .meta("speed_index", point.index)
         .meta("speed_rpm", rpm(point.speed_rad_s));
     let Some(shown) = shown else { return figure.empty(drawing::ALL_STILL) };
-    let x = axis(lines.axis()).range(vec![0.0, lines.widest() + 0.5]);
+    let x = axis(lines.axis()).range([0.0, lines.widest() + 0.5]);
     let y = upwards(&format!("nodal diameters, {unit}"), shown.range);
     let figure = figure.high(if frame == Frame::Rotating { 680 } else { 520 });
     let figure = figure.with_all(by_diameter(&lines, &shown, point, unit));
     match (frame, drawing::whole_lines(spectra, found)) {
         (Frame::Rotating, Some((range, largest))) => {
-            let y2 = upwards(&format!("amplitude, {unit}"), range).domain(&[0.56, 1.0]).anchor("x");
+            let y2 = upwards(&format!("amplitude, {unit}"), range).domain([0.56, 1.0]).anchor("x");
             figure
                 .with_all(whole(found, &largest, range.0, point, unit))
                 .axis("xaxis", x.anchor("y"))
-                .axis("yaxis", y.domain(&[0.0, 0.47]))
+                .axis("yaxis", y.domain([0.0, 0.47]))
                 .axis("yaxis2", y2)
         }
         _ => figure.axis("xaxis", x).axis("yaxis", y),
@@ -55,10 +54,7 @@ pub fn spectrum(spectra: &SpeedSpectra, point: &Point, units: &Units, sensor: us
 
 /// Logarithmic axis of amplitudes.
 fn upwards(title: &str, range: (f64, f64)) -> Axis {
-    axis(title)
-        .type_(AxisType::Log)
-        .range(vec![range.0.log10(), range.1.log10()])
-        .exponent_format(plotly::common::ExponentFormat::SmallE)
+    axis(title).kind("log").range([range.0.log10(), range.1.log10()]).exponentformat("e")
 }
 
 /// Frequency of a line seen at this multiple of the rotational frequency, in words that follow others.
@@ -67,10 +63,9 @@ fn hertz(order: f64, point: &Point) -> String {
 }
 
 /// Adds stems down to the foot of the axis, drawn as error bars with one end there.
-fn stems(trace: PointTrace, heights: Vec<f64>, foot: f64, colour: &str) -> PointTrace {
-    let down = heights.iter().map(|height| height - foot).collect();
-    let bars =
-        ErrorData::new(ErrorType::Data).array(vec![0.0; heights.len()]).array_minus(down).symmetric(false);
+fn stems(trace: Scatter, heights: Vec<f64>, foot: f64, colour: &str) -> Scatter {
+    let down: Vec<f64> = heights.iter().map(|height| height - foot).collect();
+    let bars = bars().array(vec![0.0; heights.len()]).arrayminus(down).symmetric(false);
     trace.error_y(bars.color(colour.to_owned()).thickness(1.5).width(0))
 }
 
@@ -81,17 +76,17 @@ fn whole(
     foot: f64,
     point: &Point,
     unit: &str,
-) -> Option<PointTrace> {
+) -> Option<Scatter> {
     let told = |(order, amplitude): &(f64, f64)| {
         let words = drawing::whole_words(*order, *amplitude, unit);
         ((*order, *amplitude), format!("{words}{}", hertz(*order, point)))
     };
     let trace = marks(&found.sensor.to_string(), lines.iter().map(told), (symbol(0, true), 4, CURVE))?;
-    Some(stems(trace, lines.iter().map(|line| line.1).collect(), foot, CURVE).y_axis("y2"))
+    Some(stems(trace, lines.iter().map(|line| line.1).collect(), foot, CURVE).yaxis("y2"))
 }
 
 /// Traces of the lines of every nodal diameter, one for each direction of travel.
-fn by_diameter(lines: &Lines, shown: &Shown, point: &Point, unit: &str) -> Vec<PointTrace> {
+fn by_diameter(lines: &Lines, shown: &Shown, point: &Point, unit: &str) -> Vec<Scatter> {
     let of = |(i, forward): (usize, bool)| {
         let here = shown.lines.iter().filter(|line| line.nodal_diameter == i && line.forward == forward);
         let heights: Vec<f64> = here.clone().map(|line| line.amplitude).collect();

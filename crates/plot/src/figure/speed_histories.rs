@@ -27,7 +27,7 @@ pub fn speed_histories(histories: &SpeedHistories, what: HistoryQuantity, index:
         let height = 1.0 / panels.len() as f64;
         let foot = 1.0 - height * (place + 1) as f64;
         let room = if place + 1 < panels.len() { 0.05 } else { 0.0 };
-        axes.push((name, axis(&panel.axis).domain(&[foot + room, foot + height])));
+        axes.push((name, axis(&panel.axis).domain([foot + room, foot + height])));
         for (index, curve) in panel.curves.iter().enumerate() {
             let at = |(j, value): (usize, &f64)| (begin + (j + 1) as f64 * step, *value);
             let (places, here) = thinned::thinned(curve.values.iter().enumerate().map(at).collect(), all);
@@ -40,7 +40,7 @@ pub fn speed_histories(histories: &SpeedHistories, what: HistoryQuantity, index:
             };
             let name = if curve.words.is_empty() { &panel.axis } else { &curve.words };
             let trace = line(name, places.into_iter().map(Some), (&colour, dash(index), 1.5));
-            traces.push(trace.hover_template(template(&told)).y_axis(&short).show_legend(count > 1));
+            traces.push(trace.hovertemplate(template(&told)).yaxis(&short).showlegend(count > 1));
         }
     }
     let paragraphs: Vec<String> =

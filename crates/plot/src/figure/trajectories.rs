@@ -1,9 +1,6 @@
 //! Trajectories of blade tips before the lobes of their casing, seen from beside the wheel.
 
-use plotly::common::DashType;
-
 use super::document::{Figure, axis};
-use super::interaction_map::ends;
 use super::marks::{line, template};
 use super::palette::{NEUTRAL, colour, dash};
 use super::text::escaped;
@@ -21,8 +18,8 @@ pub fn trajectories(histories: &SpeedHistories) -> Figure {
         template(&format!("{}<br>%{{x:.1f}}°: %{{y:.4~g}} {}", escaped(words), escaped(length)))
     };
     let casings = view.walls.iter().enumerate().map(|(index, place)| {
-        let wall = line(view.casing_words(), drawing::wall(place).map(Some), (NEUTRAL, DashType::Solid, 2.0));
-        wall.hover_template(told(&drawing::wall_words(place))).legend_group("casing").show_legend(index == 0)
+        let wall = line(view.casing_words(), drawing::wall(place).map(Some), (NEUTRAL, "solid", 2.0));
+        wall.hovertemplate(told(&drawing::wall_words(place))).legendgroup("casing").showlegend(index == 0)
     });
     let mut together = 1;
     let mut paths = Vec::new();
@@ -38,7 +35,7 @@ pub fn trajectories(histories: &SpeedHistories) -> Figure {
         }
         let colour = colour(index, view.tips.len().max(2));
         let words = tip.words();
-        paths.push(line(&words, places, (&colour, dash(index), 1.3)).hover_template(told(&words)));
+        paths.push(line(&words, places, (&colour, dash(index), 1.3)).hovertemplate(told(&words)));
     }
     let mut paragraphs = drawing::words(histories);
     paragraphs.extend(thinned::words(together));
@@ -52,6 +49,6 @@ pub fn trajectories(histories: &SpeedHistories) -> Figure {
         .high(540)
         .with_all(casings.collect::<Vec<_>>())
         .with_all(paths)
-        .axis("xaxis", axis(ANGLE).range(vec![0.0, 360.0]).dtick(45.0).tick_suffix("°"))
-        .axis("yaxis", axis(&drawing::outward(length)).range(ends(view.diagram.y.values)))
+        .axis("xaxis", axis(ANGLE).range([0.0, 360.0]).dtick(45.0).ticksuffix("°"))
+        .axis("yaxis", axis(&drawing::outward(length)).range(<[f64; 2]>::from(view.diagram.y.values)))
 }

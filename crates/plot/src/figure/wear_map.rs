@@ -1,6 +1,5 @@
 //! Wear of the coating of the casing.
 
-use plotly::layout::RangeMode;
 use serde_json::json;
 
 use super::cells::{MOST, cells, linear, together};
@@ -43,23 +42,20 @@ pub fn wear_map(wear: &WearMap, point: &Point, units: &Units) -> Figure {
         .iter()
         .zip(&x)
         .map(|(column, x)| Some((*x, column.iter().map(|rod| deepest(rod)).fold(0.0, f64::max))));
-    let curve = line("deepest", curve, (CURVE, plotly::common::DashType::Solid, 1.6));
-    let curve = curve.hover_template(template(&format!("%{{x:.1f}}°: %{{y:.4~g}} {length}")));
+    let curve = line("deepest", curve, (CURVE, "solid", 1.6));
+    let curve = curve.hovertemplate(template(&format!("%{{x:.1f}}°: %{{y:.4~g}} {length}")));
     let y = (0..nodes).map(|node| node as f64).collect();
     let told = format!("%{{x:.1f}}°, contact node %{{y}}<br>%{{z:.4~g}} {length}");
     let scale = (0.0, if most > 0.0 { most } else { 1.0 });
     figure
         .high(600)
         .with(cells((x, y), (values, Vec::new()), &told, ("x", "y", "coloraxis")))
-        .with(curve.y_axis("y2").show_legend(false))
-        .axis("xaxis", axis(ANGLE).range(vec![0.0, 360.0]).dtick(45.0).tick_suffix("°").anchor("y"))
-        .axis("yaxis", axis(NODES).domain(&[0.0, 0.62]).range(vec![-0.5, nodes as f64 - 0.5]))
+        .with(curve.yaxis("y2").showlegend(false))
+        .axis("xaxis", axis(ANGLE).range([0.0, 360.0]).dtick(45.0).ticksuffix("°").anchor("y"))
+        .axis("yaxis", axis(NODES).domain([0.0, 0.62]).range([-0.5, nodes as f64 - 0.5]))
         .axis(
             "yaxis2",
-            axis(&format!("deepest, {}", units.length))
-                .domain(&[0.7, 1.0])
-                .range_mode(RangeMode::ToZero)
-                .anchor("x"),
+            axis(&format!("deepest, {}", units.length)).domain([0.7, 1.0]).rangemode("tozero").anchor("x"),
         )
         .attribute("coloraxis", linear(scale, &format!("depth, {}", units.length), (0.0, 0.62)))
 }

@@ -1,11 +1,10 @@
 //! Work and precision: error over computing time of every setting of a study.
 
-use plotly::common::{DashType, ErrorData, ErrorType, Line, LineShape, Marker, MarkerSymbol, Mode};
-use plotly::layout::{Axis, AxisType};
 use serde_json::json;
 
+use super::attributes::{Axis, Line, Marker, Scatter};
 use super::document::{Figure, axis};
-use super::marks::{PointTrace, marks, silent};
+use super::marks::{bars, marks, silent};
 use super::palette::{NEUTRAL, symbol};
 use crate::axis::label;
 use crate::cells::rpm;
@@ -30,22 +29,18 @@ pub fn work_precision(study: &WorkPrecision, speed: usize, quantity: Quantity) -
     let places = |runs: &[&Drawn]| -> Vec<Option<(f64, f64)>> {
         runs.iter().map(|drawn| Some((drawn.run.time_s, drawn.error))).collect()
     };
-    let pen = Line::new().color(NEUTRAL).width(1.2).dash(DashType::Dash).shape(LineShape::Hv);
-    let front_line = silent(FRONT, places(&front), (NEUTRAL, DashType::Dash, 1.2)).line(pen);
+    let pen = Line::default().color(NEUTRAL).width(1.2).dash("dash").shape("hv");
+    let front_line = silent(FRONT, places(&front), (NEUTRAL, "dash", 1.2)).line(pen);
     let rings = front.iter().map(|drawn| ((drawn.run.time_s, drawn.error), drawn.title()));
-    let rings = marks(FRONT, rings, (MarkerSymbol::CircleOpen, 22, NEUTRAL));
+    let rings = marks(FRONT, rings, ("circle-open", 22, NEUTRAL));
     let schemes: Vec<SchemeChoice> = view.schemes().collect();
     figure
-        .with(front_line.legend_group("front"))
-        .with_all(rings.map(|rings| rings.legend_group("front").show_legend(false)))
+        .with(front_line.legendgroup("front"))
+        .with_all(rings.map(|rings| rings.legendgroup("front").showlegend(false)))
         .with_all(schemes.iter().map(|scheme| {
             let name = scheme::words(*scheme);
-            let own = silent(
-                &name,
-                places(&view.unbeaten(*scheme)),
-                (scheme::colour(*scheme), DashType::Solid, 1.8),
-            );
-            own.legend_group(name).show_legend(false)
+            let own = silent(&name, places(&view.unbeaten(*scheme)), (scheme::colour(*scheme), "solid", 1.8));
+            own.legendgroup(name).showlegend(false)
         }))
         .with_all(schemes.iter().filter_map(|scheme| runs(&view, *scheme)))
         .axis("xaxis", logarithmic(TIME, view.diagram.x.values))
@@ -73,12 +68,12 @@ pub(super) fn no_speed(kind: &str, title: &str, speed: usize) -> Figure {
 
 /// Logarithmic axis.
 pub(super) fn logarithmic(title: &str, (low, high): (f64, f64)) -> Axis {
-    let axis = axis(title).type_(AxisType::Log).range(vec![low.log10(), high.log10()]);
-    axis.exponent_format(plotly::common::ExponentFormat::SmallE)
+    let axis = axis(title).kind("log").range([low.log10(), high.log10()]);
+    axis.exponentformat("e")
 }
 
 /// Symbol of a scheme.
-pub(super) fn mark(scheme: SchemeChoice) -> MarkerSymbol {
+pub(super) fn mark(scheme: SchemeChoice) -> &'static str {
     match scheme {
         SchemeChoice::ExactModal => symbol(0, true),
         SchemeChoice::MasslessBoundary => symbol(1, true),
@@ -88,21 +83,23 @@ pub(super) fn mark(scheme: SchemeChoice) -> MarkerSymbol {
 }
 
 /// Runs of a scheme with their steps per revolution; bars are the standard error where trajectories are chaotic.
-fn runs(view: &View, scheme: SchemeChoice) -> Option<PointTrace> {
+fn runs(view: &View, scheme: SchemeChoice) -> Option<Scatter> {
     let of: Vec<&Drawn> = view.runs.iter().filter(|drawn| drawn.run.setting.scheme == scheme).collect();
     let told = of.iter().map(|drawn| ((drawn.run.time_s, drawn.error), drawn.title()));
     let name = scheme::words(scheme);
     let trace = marks(&name, told, (mark(scheme), 8, scheme::colour(scheme)))?;
-    let sizes =
-        of.iter().map(|drawn| (2.2 * view.radius(drawn.run.setting.modes_per_speed)) as usize).collect();
-    let marker = Marker::new().symbol(mark(scheme)).size_array(sizes).color(scheme::colour(scheme));
-    let steps = of.iter().map(|drawn| label(drawn.run.setting.steps_per_revolution.into(), 0)).collect();
-    let trace = trace.marker(marker).mode(Mode::MarkersText).text_array(steps);
-    let trace =
-        trace.text_position(plotly::common::Position::TopRight).legend_group(name).clip_on_axis(false);
+    let sizes = of
+        .iter()
+        .map(|drawn| (2.2 * view.radius(drawn.run.setting.modes_per_speed)) as usize as f64)
+        .collect::<Vec<f64>>();
+    let marker = Marker::default().symbol(mark(scheme)).size(sizes).color(scheme::colour(scheme));
+    let steps: Vec<String> =
+        of.iter().map(|drawn| label(drawn.run.setting.steps_per_revolution.into(), 0)).collect();
+    let trace = trace.marker(marker).mode("markers+text").text(steps);
+    let trace = trace.textposition("top right").legendgroup(name).cliponaxis(false);
     let spreads: Vec<f64> = of.iter().map(|drawn| drawn.spread.unwrap_or(f64::NAN)).collect();
     Some(match view.bars {
-        true => trace.error_y(ErrorData::new(ErrorType::Data).array(spreads).color(scheme::colour(scheme))),
+        true => trace.error_y(bars().array(spreads).color(scheme::colour(scheme))),
         false => trace,
     })
 }
