@@ -189,7 +189,7 @@ async fn every_kind_of_job_repeats_to_the_bit() {
     coated["scene"]["abradable"] = json!({"modulus": 2e4, "yield_stress": 20.0, "hardening": 500.0, "thickness": 2.0, "rods_around": 16});
     let (mut branches, mut run_ups) = (branches_of(&model), run_ups_of(&model));
     (branches["most_points"], branches["doubled"]) = (2.into(), false.into());
-    (run_ups["speed"]["to"], run_ups["speed"]["hold_s"]) = (330.into(), 0.into());
+    (run_ups["speed"]["to"], run_ups["speed"]["hold_s"]) = (400.into(), 0.into());
     let mut compared = campaign_of(&model);
     compared["compared_model"] = api.model(model::package(1.1)).await.into();
     let asked = [
