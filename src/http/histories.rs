@@ -195,14 +195,14 @@ pub(super) async fn create_histories(
     let critical = critical(&state, id, settings, &body.value).await?;
     let posted = Posted { to: format!("/v1/jobs/{id}/histories"), body: serde_json::to_string(&body.value)? };
     let sweep = settings.clone();
-    let asking = ReceivedRequest {
+    let received = ReceivedRequest {
         asked: Box::new(HistoriesOfSweep { sweep, critical, request: body.value }),
         labels: Labels::default(),
         posted: Some(posted),
         // The same words on another job are another request.
         fingerprint: format!("{}-{id}", body.fingerprint),
     };
-    kinds::accept(&state, &whose, key, asking).await
+    kinds::accept(&state, &whose, key, received).await
 }
 
 /// Indices of the critical speeds, if the request asks for them; otherwise none.

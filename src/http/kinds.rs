@@ -81,9 +81,9 @@ pub(super) async fn accept(
     state: &AppState,
     whose: &Principal,
     key: IdempotencyKey,
-    asking: ReceivedRequest,
+    received: ReceivedRequest,
 ) -> Result<Response, Problem> {
-    let ReceivedRequest { asked, labels, posted, fingerprint } = asking;
+    let ReceivedRequest { asked, labels, posted, fingerprint } = received;
     if let Some(response) = key.replay(&state.store, whose, &fingerprint).await? {
         return Ok(response);
     }
@@ -117,8 +117,8 @@ async fn create(
     kind: &'static Kind,
     request: Request,
 ) -> Result<Response, Problem> {
-    let asking = ReceivedRequest::read(&state, kind, request).await?;
-    accept(&state, &whose, key, asking).await
+    let received = ReceivedRequest::read(&state, kind, request).await?;
+    accept(&state, &whose, key, received).await
 }
 
 async fn plan(
@@ -127,8 +127,8 @@ async fn plan(
     kind: &'static Kind,
     request: Request,
 ) -> Result<Response, Problem> {
-    let asking = ReceivedRequest::read(&state, kind, request).await?;
-    let plan = state.jobs.plan(&whose, asking.asked).await?;
+    let received = ReceivedRequest::read(&state, kind, request).await?;
+    let plan = state.jobs.plan(&whose, received.asked).await?;
     Ok(([(header::CONTENT_TYPE, "application/json")], plan).into_response())
 }
 

@@ -154,8 +154,8 @@ pub(super) async fn create_model(
             let detail = "beside parameters of the generator name, tags and notes are fields of the body";
             return Err(Problem::new(Kind::InvalidParameter, detail));
         }
-        let asking = ReceivedRequest::read(&state, &MODEL_GENERATION, request).await?;
-        return kinds::accept(&state, &whose, key, asking).await;
+        let received = ReceivedRequest::read(&state, &MODEL_GENERATION, request).await?;
+        return kinds::accept(&state, &whose, key, received).await;
     }
     if declared_bytes(request.headers()) > Some(state.upload_bytes) {
         return Err(too_large(state.upload_bytes));
