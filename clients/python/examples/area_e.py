@@ -10,7 +10,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import rubmap
-from rubmap.contract import SweepRequest, Speeds, SteadyChoice
+from rubmap.contract import Speeds, SteadyChoice, SweepRequest
 
 GENERATED: Speeds = [
     {"from": 22700, "to": 22900, "count": 9, "unit": "rpm"},

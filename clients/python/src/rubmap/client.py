@@ -138,8 +138,7 @@ class Client:
         return [self._job(found) for found in islice(self._all("jobs", query), limit)]
 
     def _job(self, found: Mapping[str, Any]) -> Job:
-        # A later service may have kinds that this client does not know.
-        kind = _KINDS.get(found["kind"]) or type("Job", (Job,), {"kind": found["kind"], "path": found.get("posted_to", "")})
+        kind = _KINDS.get(found["kind"]) or _later_kind(found)
         return kind(self.service, asked_of(found, kind.path), found["id"])
 
     def _all(self, what: str, query: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
@@ -149,6 +148,16 @@ class Client:
             if not page.get("next"):
                 return
             page = self.service.get(page["next"])
+
+
+def _later_kind(found: Mapping[str, Any]) -> type[Job]:
+    """A kind of job that a later service has and this client does not know."""
+
+    class Later(Job):
+        kind = found["kind"]
+        path = found.get("posted_to", "")
+
+    return Later
 
 
 def _pieces(path: Path) -> Iterator[bytes]:

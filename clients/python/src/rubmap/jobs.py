@@ -51,7 +51,9 @@ class Job:
         if self._request is None:
             self._request = asked_of(self.state, self.path)
         if self._request is None:
-            raise ValueError(f"{self!r} has no request of its own: it records another job, or an earlier service did not keep it")
+            raise ValueError(
+                f"{self!r} has no request of its own: it records another job, or an earlier service did not keep it"
+            )
         return self._request
 
     def __repr__(self) -> str:
