@@ -48,7 +48,7 @@ pub(super) fn rows(campaign: &Campaign, parameter: usize) -> Vec<Row> {
 
 /// Draws the severity of designs over speed and a parameter (by its index), with the value at which the limit is met if that is the
 /// parameter asked about, and below it, if there are any, the differences of the model that is compared, and the sensitivities.
-pub fn campaign(campaign: &Campaign, parameter: usize) -> String {
+pub(super) fn campaign(campaign: &Campaign, parameter: usize) -> String {
     let title = title(campaign, parameter);
     let (heading, bottom) = heading::heading(LEFT, &title, &words(campaign, parameter));
     let rows = rows(campaign, parameter);

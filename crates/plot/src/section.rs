@@ -61,7 +61,7 @@ const LOOKS: [Look; 5] = [
 ];
 
 /// Draws the nodes of the sector as dots, at the same scale in both directions.
-pub fn section(geometry: &SectorGeometry, view: SectionView) -> String {
+pub(super) fn section(geometry: &SectorGeometry, view: SectionView) -> String {
     let title = title(geometry, view);
     let (heading, bottom) = heading(LEFT, &title, &[words(geometry, view)]);
     let axes = axes(geometry, view);

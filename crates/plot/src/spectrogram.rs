@@ -29,7 +29,7 @@ const MOST: (usize, usize) = (900, 400);
 ///
 /// Colour is the amplitude on a logarithmic scale of three decades below the loudest; the mean is left out. Where frames or lines share a
 /// cell, the loudest is seen.
-pub fn spectrogram(run_ups: &RunUps, run: usize, sensor: usize, unit: SpectrogramUnit) -> String {
+pub(super) fn spectrogram(run_ups: &RunUps, run: usize, sensor: usize, unit: SpectrogramUnit) -> String {
     let title = title(run_ups, run, sensor);
     let view = match View::of(run_ups, run, sensor, unit) {
         Ok(view) => view,

@@ -33,7 +33,13 @@ pub enum Frame {
 
 /// Draws the spectra of the sensor of index `sensor` at one speed: in the rotating frame its amplitude above those of the wheel's nodal
 /// diameters, in the fixed frame the latter where they may be seen. Amplitudes are logarithmic over four decades.
-pub fn spectrum(spectra: &SpeedSpectra, point: &Point, units: &Units, sensor: usize, frame: Frame) -> String {
+pub(super) fn spectrum(
+    spectra: &SpeedSpectra,
+    point: &Point,
+    units: &Units,
+    sensor: usize,
+    frame: Frame,
+) -> String {
     let speed = label(rpm(point.speed_rad_s), 0);
     let Some(found) = spectra.sensors.get(sensor) else {
         let title = format!("Spectrum, {speed} rpm");

@@ -14,7 +14,7 @@ use rubmap_analysis::result::Campaign;
 
 /// Severity of designs over speed and a parameter (by its index), with the value at which the limit is met if that is the parameter asked
 /// about, and below it, if there are any, the differences of the compared model, and the sensitivities. Missing results are gaps.
-pub fn campaign(campaign: &Campaign, parameter: usize) -> Figure {
+pub(crate) fn campaign(campaign: &Campaign, parameter: usize) -> Figure {
     let (rows, cells) = (drawing::rows(campaign, parameter), cells(&campaign.speeds_rad_s));
     let (wide, high) = (together(cells.len(), MOST.0), together(rows.len(), MOST.1));
     let (columns, bands): (Vec<&[Cell]>, Vec<&[Row]>) =

@@ -15,7 +15,7 @@ const LINE: &str = "contact line";
 
 /// Nodes of the sector, one of those that cover each other, at the same scale in both directions; across the axis with the contact line and
 /// the casing at its clearance.
-pub fn section(geometry: &SectorGeometry, view: SectionView) -> Figure {
+pub(crate) fn section(geometry: &SectorGeometry, view: SectionView) -> Figure {
     let drawn = Drawing::new(geometry, view, 0.0);
     let [x, y] = drawing::axes(geometry, view);
     let mut paragraphs = vec![drawing::words(geometry, view)];

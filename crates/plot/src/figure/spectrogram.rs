@@ -27,7 +27,7 @@ const STRIP: usize = 140;
 /// The colours of the map are the logarithms of amplitudes to the base of 10; `customdata` holds for every cell the amplitude itself, its
 /// frequency in Hz (with frequencies on the vertical axis: its engine order), and the speed in rpm and the time in s of the frame it comes
 /// from. `layout.meta.amplitude` says how to show it linearly.
-pub fn spectrogram(run_ups: &RunUps, run: usize, sensor: usize, unit: SpectrogramUnit) -> Figure {
+pub(crate) fn spectrogram(run_ups: &RunUps, run: usize, sensor: usize, unit: SpectrogramUnit) -> Figure {
     let title = title(run_ups, run, sensor);
     let view = match View::of(run_ups, run, sensor, unit) {
         Ok(view) => view,

@@ -14,7 +14,13 @@ use rubmap_wheel::dynamics::sector::Units;
 
 /// Spectra of the sensor of index `sensor` at one speed: in the rotating frame its amplitude above those of the wheel's nodal diameters, in
 /// the fixed frame the latter where they may be seen, a name for each nodal diameter. Amplitudes are logarithmic over four decades.
-pub fn spectrum(spectra: &SpeedSpectra, point: &Point, units: &Units, sensor: usize, frame: Frame) -> Figure {
+pub(crate) fn spectrum(
+    spectra: &SpeedSpectra,
+    point: &Point,
+    units: &Units,
+    sensor: usize,
+    frame: Frame,
+) -> Figure {
     let Some(found) = spectra.sensors.get(sensor) else {
         let title = format!("Spectrum, {} rpm", label(rpm(point.speed_rad_s), 0));
         return Figure::new("spectrum", &title, &[]).empty(&format!("there is no sensor of index {sensor}"));

@@ -3,8 +3,9 @@
 use roxmltree::Document;
 use serde_json::{Value, json};
 
+use super::pens::figure;
+use super::pens::svg::campaign;
 use super::{of_class, units};
-use crate::{campaign, figure};
 use rubmap_analysis::result::Campaign;
 
 /// Campaign of twelve designs over clearance and damping, at four speeds; one has no result at the last.
