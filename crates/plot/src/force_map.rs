@@ -139,10 +139,11 @@ fn nodes(map: &ForceMap, cells: &[Cell], quantity: ForceQuantity, top: f64) -> P
         columns: cells.iter().map(|cell| Band { from: cell.from, to: cell.to, value: cell.rpm }).collect(),
         rows: node_bands(nodes),
         values: (0..nodes).map(|node| cells.iter().map(|cell| value(cell, node)).collect()).collect(),
-        told: format!(
-            "%{{x:,.1f}} rpm (%{{customdata[0]:,.1f}} rad/s)<br>contact node %{{y}}<br>{}: %{{z:.4~g}}",
-            quantity.short(map)
-        ),
+        told: vec![
+            "%{x:,.1f} rpm (%{customdata[0]:,.1f} rad/s)".to_owned(),
+            "contact node %{y}".to_owned(),
+            format!("{}: %{{z:.4~g}}", quantity.short(map)),
+        ],
         has_speeds: true,
         merged: "speeds are one cell with the largest",
     });

@@ -1,7 +1,8 @@
 //! Layers of a sketch: curves and marks, and what SVG alone has.
 
+use super::key::MARK_WIDTH;
 use super::style::{Colour, Dash, Look, Pen};
-use super::svg::Element;
+use super::svg::{Element, rectangle};
 
 /// Point in the units of the axes.
 pub(super) type Place = (f64, f64);
@@ -51,7 +52,7 @@ pub(super) enum Told {
     Each(Vec<String>),
 }
 
-/// How a curve goes from one point to the next, and what is left of it outside the frame.
+/// Course of a curve from one point to the next, and outside the frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Course {
     /// Straight; points outside the frame interrupt it.
@@ -214,6 +215,8 @@ pub(super) struct Marks {
     pub(super) bars: Option<Bars>,
     /// Whether every mark stands on a stem from the foot of the panel, and whether the stems are dashed.
     pub(super) stems: Option<Dash>,
+    /// Height in the drawing of bars from zero to the marks, which they replace there.
+    pub(super) beam: Option<f64>,
     /// Values that colour the marks of the figure on the panel's ramp.
     pub(super) values: Vec<f64>,
     /// Whether the figure writes the labels beside the marks.
@@ -235,6 +238,7 @@ impl Marks {
             across: None,
             bars: None,
             stems: None,
+            beam: None,
             values: Vec::new(),
             has_texts: false,
             class: "",
@@ -245,6 +249,14 @@ impl Marks {
     /// Sets the class in the drawing.
     pub(super) fn class(self, class: &'static str) -> Self {
         Self { class, ..self }
+    }
+
+    /// Sample of the marks in a key.
+    pub(super) fn sample(&self) -> Element {
+        match self.beam {
+            Some(_) => rectangle(0.0, -5.0, MARK_WIDTH, 10.0).set("fill", &self.look.colour.paper),
+            None => self.look.sample(),
+        }
     }
 
     /// Leaves the marks out of the legend of the figure.
@@ -268,8 +280,8 @@ pub(super) struct Cells {
     pub(super) rows: Vec<Band>,
     /// Values as `[row][column]`; none where there is no result.
     pub(super) values: Vec<Vec<Option<f64>>>,
-    /// Plotly's template for the words of a cell.
-    pub(super) told: String,
+    /// Plotly's templates for the words of a cell, line by line.
+    pub(super) told: Vec<String>,
     /// Whether columns are speeds in rpm, of which the figure has rad/s as well.
     pub(super) has_speeds: bool,
     /// Words of the figure where neighbours are merged, after their number.

@@ -10,10 +10,8 @@ use super::layer::{Bars, Cells, Course, Curve, Layer, Mark, Marks, Place, Stroke
 use super::pixels::Pixels;
 use super::sketch::{Panel, Ramp, Row, Sketch, Stand};
 use super::style::{Dash, Pen};
-use super::svg::{Element, document, group, line, polyline, text};
+use super::svg::{Element, document, group, line, polyline, rectangle, text};
 use super::trace::Trace;
-
-const WIDTH: f64 = 1180.0;
 
 /// Size of an empty frame with a message.
 const EMPTY: (f64, f64) = (800.0, 420.0);
@@ -23,6 +21,8 @@ pub(super) fn svg(sketch: &Sketch) -> String {
     let (heading, bottom) = heading::heading(sketch.left, &sketch.title, &sketch.paragraphs);
     let mut content = vec![heading];
     let foot = sketch.panels.iter().map(|panel| panel.diagram.bottom()).fold(bottom, f64::max);
+    let shared = sketch.panels.iter().filter(|panel| !panel.is_apart);
+    let lowest = shared.map(|panel| panel.diagram.bottom()).fold(0.0, f64::max);
     let mut height = foot + 66.0;
     if let Some(words) = &sketch.nothing {
         let frame = Diagram::new((sketch.left, bottom + 24.0), EMPTY, (0.0, 1.0), (0.0, 1.0));
@@ -30,8 +30,8 @@ pub(super) fn svg(sketch: &Sketch) -> String {
         content.extend([frame.frame(), frame.words(words)]);
     }
     for panel in &sketch.panels {
-        content.extend(draw(panel, panel.diagram.bottom() == foot));
-        let (key, end) = key(panel);
+        content.extend(draw(panel, panel.is_apart || panel.diagram.bottom() == lowest));
+        let (key, end) = key(panel, sketch.width);
         content.push(key);
         height = height.max(end + 26.0);
     }
@@ -40,7 +40,7 @@ pub(super) fn svg(sketch: &Sketch) -> String {
         let note = text(sketch.left, height - 16.0, "start", words).set("class", "left-out");
         content.push(note.set("font-size", "12").set("fill", "#555555"));
     }
-    document(&sketch.title, WIDTH, height, content)
+    document(&sketch.title, sketch.width, height, content)
 }
 
 /// Draws a panel; the lowest has the ticks and the title of the horizontal axis.
@@ -181,10 +181,23 @@ fn marks(panel: &Panel, marks: &Marks) -> Element {
     let drawn = marks.marks.iter().filter(|_| !standing).filter_map(|mark| {
         let place = panel.diagram.inside(mark.place.0, mark.place.1)?;
         let radius = mark.radius.unwrap_or(marks.look.radius);
-        let drawn = marks.look.draw(place, radius, mark.colour.as_deref());
+        let drawn = match marks.beam {
+            Some(height) => beam(panel, place, height).set("fill", &marks.look.colour.paper),
+            None => marks.look.draw(place, radius, mark.colour.as_deref()),
+        };
         Some(drawn.set("class", marks.class).title(&mark.words))
     });
-    group().children(ends(&marks.across, true)).children(ends(&marks.bars, false)).children(drawn)
+    let bars = ends(&marks.across, true).into_iter().chain(ends(&marks.bars, false));
+    match marks.beam {
+        Some(_) => group().children(drawn).children(bars),
+        None => group().children(bars).children(drawn),
+    }
+}
+
+/// Bar from zero to a place of the drawing.
+fn beam(panel: &Panel, (x, y): Place, height: f64) -> Element {
+    let zero = panel.diagram.x.place(0.0);
+    rectangle(zero.min(x), y - 0.5 * height, (x - zero).abs(), height)
 }
 
 /// Draws the marks of all layers that stand on stems, smaller ones in front of larger ones.
@@ -290,12 +303,12 @@ fn labels(panel: &Panel) -> Element {
 }
 
 /// Key of a panel, and where it ends.
-fn key(panel: &Panel) -> (Element, f64) {
+fn key(panel: &Panel, width: f64) -> (Element, f64) {
     let diagram = &panel.diagram;
     let beside = match panel.stand {
         Stand::Beside(distance) => distance,
         Stand::Below => {
-            let flow = Flow::new(diagram.left, WIDTH - 20.0, diagram.bottom() + 66.0);
+            let flow = Flow::new(diagram.left, width - 20.0, diagram.bottom() + 66.0);
             let flow = panel.key.iter().fold(flow, |flow, row| match row {
                 Row::Sample(sample, words) => flow.entry(group().child(sample.clone()), MARK_WIDTH, words),
                 Row::Heading(words) | Row::Note(words) => flow.entry(group(), 0.0, words),

@@ -27,6 +27,8 @@ pub(super) struct Sketch {
     pub(super) meta: Map<String, Value>,
     /// Left edge of the heading in the drawing.
     pub(super) left: f64,
+    /// Width of the drawing.
+    pub(super) width: f64,
     /// Height of the figure, pixels.
     pub(super) high: usize,
     /// Panels, the first with the axes `x` and `y` of the figure.
@@ -49,6 +51,7 @@ impl Sketch {
             more: Vec::new(),
             meta: Map::new(),
             left: 92.0,
+            width: 1180.0,
             high: 560,
             panels: Vec::new(),
             footnote: None,
@@ -92,6 +95,8 @@ pub(super) enum Zoom {
     Same,
     /// Range of the values.
     Free,
+    /// Range of the values, at the scale of the horizontal axis.
+    OneScale,
     /// Range from zero to the largest value.
     FromZero,
 }
@@ -158,6 +163,11 @@ impl Axis {
         Self { title: title.into(), range, kind: Kind::Names, zoom: Zoom::Same, ticks }
     }
 
+    /// Lets the figure show the range of its values at the scale of the horizontal axis.
+    pub(super) fn one_scale(self) -> Self {
+        Self { zoom: Zoom::OneScale, ..self }
+    }
+
     /// Lets the figure show its values from zero on.
     pub(super) fn with_zero(self) -> Self {
         Self { zoom: Zoom::FromZero, ..self }
@@ -215,6 +225,8 @@ pub(super) struct Panel {
     pub(super) y: Axis,
     /// Frame in the drawing.
     pub(super) diagram: Diagram,
+    /// Whether the panel has a horizontal axis of its own, which others do not share.
+    pub(super) is_apart: bool,
     /// Vertical extent in the figure, as shares of its height.
     pub(super) domain: Option<[f64; 2]>,
     /// Layers, later ones over earlier ones.
@@ -235,12 +247,18 @@ impl Panel {
             x,
             y,
             diagram,
+            is_apart: false,
             domain: None,
             layers: Vec::new(),
             key: Vec::new(),
             stand: Stand::Beside(30.0),
             ramp: None,
         }
+    }
+
+    /// Gives the panel a horizontal axis of its own.
+    pub(super) fn apart(self) -> Self {
+        Self { is_apart: true, ..self }
     }
 
     /// Lets the key stand below the panel.
@@ -274,7 +292,7 @@ impl Panel {
     /// Adds marks, and their row in the key under these words; neither if there are none.
     pub(super) fn marks(&mut self, words: &str, marks: Marks) {
         if !marks.marks.is_empty() {
-            self.sample(marks.look.sample(), words);
+            self.sample(marks.sample(), words);
             self.push(marks);
         }
     }

@@ -4,20 +4,9 @@ use super::drawing::Drawing;
 use super::figure;
 use super::level::LevelColour;
 use super::map_view::VerticalAxis;
-use super::section::SectionView;
 use super::spectrogram_view::SpectrogramUnit;
-use super::spectrum::Frame;
 use super::window::Window;
-use rubmap_analysis::result::{
-    Campaign, Campbell, CriticalSpeeds, InteractionMap, Point, RunUps, SectorGeometry, SpeedSpectra,
-};
-use rubmap_wheel::dynamics::sector::Units;
-
-/// Draws the severity of designs over speed and a parameter (by its index).
-pub fn campaign(campaign: &Campaign, parameter: usize) -> Drawing<'_> {
-    let svg = move || super::campaign::campaign(campaign, parameter);
-    Drawing::twice(svg, move || figure::campaign(campaign, parameter))
-}
+use rubmap_analysis::result::{Campbell, CriticalSpeeds, InteractionMap, RunUps};
 
 /// Draws an interaction map or a window of it, with its critical speeds and the linear prediction where they are given.
 pub fn interaction_map<'a>(
@@ -54,26 +43,8 @@ pub fn map_sheet(maps: &[InteractionMap], window: Window, colour: LevelColour) -
     Drawing::twice(svg, move || figure::map_sheet(maps, window, colour))
 }
 
-/// Draws the nodes of a sector.
-pub fn section(geometry: &SectorGeometry, view: SectionView) -> Drawing<'_> {
-    let svg = move || super::section::section(geometry, view);
-    Drawing::twice(svg, move || figure::section(geometry, view))
-}
-
 /// Draws the spectra of a sensor in the frames of the run of this number.
 pub fn spectrogram(run_ups: &RunUps, run: usize, sensor: usize, unit: SpectrogramUnit) -> Drawing<'_> {
     let svg = move || super::spectrogram::spectrogram(run_ups, run, sensor, unit);
     Drawing::twice(svg, move || figure::spectrogram(run_ups, run, sensor, unit))
-}
-
-/// Draws the spectra of the sensor of index `sensor` at one speed.
-pub fn spectrum<'a>(
-    spectra: &'a SpeedSpectra,
-    point: &'a Point,
-    units: &'a Units,
-    sensor: usize,
-    frame: Frame,
-) -> Drawing<'a> {
-    let svg = move || super::spectrum::spectrum(spectra, point, units, sensor, frame);
-    Drawing::twice(svg, move || figure::spectrum(spectra, point, units, sensor, frame))
 }

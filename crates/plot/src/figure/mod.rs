@@ -5,7 +5,6 @@
 
 mod amplitudes;
 mod attributes;
-mod campaign;
 mod cells;
 mod document;
 mod interaction_map;
@@ -13,17 +12,12 @@ mod level;
 mod map_sheet;
 mod marks;
 mod palette;
-mod section;
 pub(crate) mod sketched;
 mod spectrogram;
-mod spectrum;
 mod text;
 mod thinned;
 
-pub(super) use campaign::campaign;
 pub use document::Figure;
 pub(super) use interaction_map::{fixed_frame_map, interaction_map};
 pub(super) use map_sheet::map_sheet;
-pub(super) use section::section;
 pub(super) use spectrogram::spectrogram;
-pub(super) use spectrum::spectrum;

@@ -33,6 +33,7 @@ pub(crate) fn figure(sketch: &Sketch) -> Figure {
                 }
                 Layer::Drawn(_) => continue,
             };
+            let trace = if panel.is_apart { trace.xaxis(format!("x{}", index + 1)) } else { trace };
             traces.push(if index == 0 { trace } else { trace.yaxis(format!("y{}", index + 1)) });
         }
     }
@@ -179,7 +180,8 @@ fn grid(of: &Cells) -> (Heat, Option<String>) {
     };
     let y = of.rows.chunks(high).map(middle).collect();
     let words = (wide * high > 1).then(|| format!("{} {}", wide * high, of.merged));
-    (cells((x, y), (values, data), &of.told, ("x", "y", "coloraxis")), words)
+    let told: Vec<String> = of.told.iter().map(|line| escaped(line)).collect();
+    (cells((x, y), (values, data), &told.join("<br>"), ("x", "y", "coloraxis")), words)
 }
 
 /// Trace of marks.
@@ -258,7 +260,8 @@ fn axes(figure: Figure, panels: &[Panel]) -> Figure {
     let name = |index: usize| if index == 0 { String::new() } else { format!("{}", index + 1) };
     let x = upright(&first.x);
     let foot = |index: &usize| panels[*index].domain.map_or(0.0, |domain| domain[0]);
-    let lowest = (0..panels.len()).min_by(|a, b| foot(a).total_cmp(&foot(b))).unwrap_or(0);
+    let shared = (0..panels.len()).filter(|index| !panels[*index].is_apart);
+    let lowest = shared.min_by(|a, b| foot(a).total_cmp(&foot(b))).unwrap_or(0);
     let x = if panels.len() > 1 { x.anchor(format!("y{}", name(lowest))) } else { x };
     let has_cells = |panel: &&Panel| panel.layers.iter().any(|layer| matches!(layer, Layer::Cells(_)));
     let coloured = panels.iter().find(has_cells).and_then(|panel| Some((panel, panel.ramp.as_ref()?)));
@@ -271,12 +274,23 @@ fn axes(figure: Figure, panels: &[Panel]) -> Figure {
     };
     panels.iter().enumerate().fold(figure.axis("xaxis", x), |figure, (index, panel)| {
         let y = upright(&panel.y);
-        let y = if index == lowest { y } else { y.anchor("x") };
+        let y = match panel.is_apart {
+            true => y.anchor(format!("x{}", name(index))),
+            false if index == lowest => y,
+            false => y.anchor("x"),
+        };
         let y = match panel.domain {
             Some(domain) => y.domain(domain),
             None => y,
         };
-        figure.axis(&format!("yaxis{}", name(index)), y)
+        let figure = figure.axis(&format!("yaxis{}", name(index)), y);
+        match panel.is_apart {
+            true => figure.axis(
+                &format!("xaxis{}", name(index)),
+                upright(&panel.x).anchor(format!("y{}", name(index))),
+            ),
+            false => figure,
+        }
     })
 }
 
@@ -297,6 +311,7 @@ fn upright(of: &sketch::Axis) -> Axis {
     match of.zoom {
         Zoom::Same => axis.range([low, high]),
         Zoom::Free => axis,
+        Zoom::OneScale => axis.scaleanchor("x").scaleratio(1.0),
         Zoom::FromZero => axis.rangemode("tozero"),
     }
 }
