@@ -80,6 +80,7 @@ fn map(campaign: &Campaign, parameter: usize, top: f64) -> Panel {
         ],
         has_speeds: false,
         merged: "neighbours are one cell with the most severe",
+        data: Vec::new(),
     });
     threshold(campaign, parameter, &mut panel);
     if rows.iter().any(|row| row.by_speed.iter().any(Option::is_none)) {

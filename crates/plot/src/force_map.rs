@@ -146,6 +146,7 @@ fn nodes(map: &ForceMap, cells: &[Cell], quantity: ForceQuantity, top: f64) -> P
         ],
         has_speeds: true,
         merged: "speeds are one cell with the largest",
+        data: Vec::new(),
     });
     panel
 }

@@ -286,4 +286,7 @@ pub(super) struct Cells {
     pub(super) has_speeds: bool,
     /// Words of the figure where neighbours are merged, after their number.
     pub(super) merged: &'static str,
+    /// Numbers of every cell for the figure, as `[row][column]`; if there are any, neighbours are not merged, and the drawing has an image
+    /// of its own.
+    pub(super) data: Vec<Vec<Vec<f32>>>,
 }

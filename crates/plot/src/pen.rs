@@ -1,6 +1,6 @@
 //! Pen that draws a sketch as SVG.
 
-use super::axis::{Scale, ticks};
+use super::axis::{Scale, logarithmic_ticks, ticks};
 use super::colour_bar;
 use super::diagram::Diagram;
 use super::heading;
@@ -57,6 +57,7 @@ fn draw(panel: &Panel, is_lowest: bool) -> Vec<Element> {
                 curve(panel, found, clip)
             }
             Layer::Marks(found) => marks(panel, found),
+            Layer::Cells(found) if !found.data.is_empty() => continue,
             Layer::Cells(found) => cells(panel, found),
             Layer::Drawn(element) => element.clone(),
         });
@@ -261,8 +262,12 @@ fn cells(panel: &Panel, cells: &Cells) -> Element {
 fn bar_of(panel: &Panel, ramp: &Ramp) -> Element {
     let diagram = &panel.diagram;
     let stops = (0..=32).map(|i| f64::from(i) / 32.0).map(|share| (share, (ramp.colour)(share)));
-    let scale = Scale::linear(ramp.range, (diagram.bottom(), diagram.top));
-    colour_bar::draw_colours(stops, &scale, diagram.right() + 26.0, &ticks(ramp.range, 8.0), &ramp.title)
+    let places = (diagram.bottom(), diagram.top);
+    let (scale, ticks) = match ramp.is_logarithmic {
+        true => (Scale::logarithmic(ramp.range, places), logarithmic_ticks(ramp.range)),
+        false => (Scale::linear(ramp.range, places), ticks(ramp.range, 8.0)),
+    };
+    colour_bar::draw_colours(stops, &scale, diagram.right() + ramp.beside, &ticks, &ramp.title)
 }
 
 /// Labels beside the marks that have one, those of the upper marks first, off the lines where possible.

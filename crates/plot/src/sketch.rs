@@ -7,6 +7,7 @@ use serde::Serialize;
 use serde_json::{Map, Value, json};
 
 use super::axis::{Scale, decades, eighths, ticks};
+use super::colour;
 use super::diagram::Diagram;
 use super::heading;
 use super::layer::{Course, Curve, Layer, Marks};
@@ -214,6 +215,9 @@ pub(super) enum Stand {
 pub(super) struct Ramp {
     pub(super) title: String,
     pub(super) range: (f64, f64),
+    pub(super) is_logarithmic: bool,
+    /// Distance of the bar from the frame in the drawing.
+    pub(super) beside: f64,
     /// Colour of a share of the range.
     pub(super) colour: fn(f64) -> [u8; 3],
 }
@@ -273,7 +277,14 @@ impl Panel {
         range: (f64, f64),
         colour: fn(f64) -> [u8; 3],
     ) -> Self {
-        Self { ramp: Some(Ramp { title: title.into(), range, colour }), ..self }
+        let ramp = Ramp { title: title.into(), range, is_logarithmic: false, beside: 26.0, colour };
+        Self { ramp: Some(ramp), ..self }
+    }
+
+    /// Sets the colours of amplitudes, with room for words between the frame and their bar.
+    pub(super) fn amplitudes(self, title: impl Into<String>, range: (f64, f64)) -> Self {
+        let (title, colour) = (title.into(), colour::amplitude);
+        Self { ramp: Some(Ramp { title, range, is_logarithmic: true, beside: 58.0, colour }), ..self }
     }
 
     /// Sets the vertical extent in the figure.

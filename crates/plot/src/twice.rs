@@ -4,9 +4,8 @@ use super::drawing::Drawing;
 use super::figure;
 use super::level::LevelColour;
 use super::map_view::VerticalAxis;
-use super::spectrogram_view::SpectrogramUnit;
 use super::window::Window;
-use rubmap_analysis::result::{Campbell, CriticalSpeeds, InteractionMap, RunUps};
+use rubmap_analysis::result::{Campbell, CriticalSpeeds, InteractionMap};
 
 /// Draws an interaction map or a window of it, with its critical speeds and the linear prediction where they are given.
 pub fn interaction_map<'a>(
@@ -41,10 +40,4 @@ pub fn fixed_frame_map(
 pub fn map_sheet(maps: &[InteractionMap], window: Window, colour: LevelColour) -> Drawing<'_> {
     let svg = move || super::map_sheet::map_sheet(maps, window, colour);
     Drawing::twice(svg, move || figure::map_sheet(maps, window, colour))
-}
-
-/// Draws the spectra of a sensor in the frames of the run of this number.
-pub fn spectrogram(run_ups: &RunUps, run: usize, sensor: usize, unit: SpectrogramUnit) -> Drawing<'_> {
-    let svg = move || super::spectrogram::spectrogram(run_ups, run, sensor, unit);
-    Drawing::twice(svg, move || figure::spectrogram(run_ups, run, sensor, unit))
 }

@@ -48,6 +48,7 @@ pub fn wear_map(wear: &WearMap, point: &Point, units: &Units) -> Drawing<'static
         told: vec!["%{x:.1f}°, contact node %{y}".to_owned(), format!("%{{z:.4~g}} {}", units.length)],
         has_speeds: false,
         merged: "places around the casing are one cell with the deepest",
+        data: Vec::new(),
     });
     let y = Axis::linear(format!("deepest, {}", units.length), (0.0, 1.1 * most), 3.0).with_zero();
     let above = Panel::new((92.0, top), (938.0, 130.0), Axis::turn(angle), y);

@@ -13,11 +13,9 @@ mod map_sheet;
 mod marks;
 mod palette;
 pub(crate) mod sketched;
-mod spectrogram;
 mod text;
 mod thinned;
 
 pub use document::Figure;
 pub(super) use interaction_map::{fixed_frame_map, interaction_map};
 pub(super) use map_sheet::map_sheet;
-pub(super) use spectrogram::spectrogram;

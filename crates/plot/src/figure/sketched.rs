@@ -1,7 +1,7 @@
 //! Pen that writes a sketch as a figure for Plotly.
 
 use super::attributes::{Axis, Cells as Heat, ColorBar, ErrorBars, Line, Marker, Scatter, Title};
-use super::cells::{MOST, cells, linear, together};
+use super::cells::{MOST, cells, linear, logarithmic, together};
 use super::document::{Figure, axis};
 use super::marks::{bars, scatter, template};
 use super::text::escaped;
@@ -26,7 +26,7 @@ pub(crate) fn figure(sketch: &Sketch) -> Figure {
                 Layer::Curve(found) => curve(found, sampled, &mut together),
                 Layer::Marks(found) => marks(found, panel),
                 Layer::Cells(found) => {
-                    let (grid, words) = grid(found);
+                    let (grid, words) = grid(found, panel);
                     grids.push(grid);
                     merged.extend(words);
                     continue;
@@ -155,8 +155,11 @@ fn marker(look: &Look) -> Marker {
 }
 
 /// Cells of at most as many columns and rows as a screen shows, and words about those that are merged.
-fn grid(of: &Cells) -> (Heat, Option<String>) {
-    let (wide, high) = (together(of.columns.len(), MOST.0), together(of.rows.len(), MOST.1));
+fn grid(of: &Cells, panel: &Panel) -> (Heat, Option<String>) {
+    let (wide, high) = match of.data.is_empty() {
+        true => (together(of.columns.len(), MOST.0), together(of.rows.len(), MOST.1)),
+        false => (1, 1),
+    };
     let columns: Vec<&[Band]> = of.columns.chunks(wide).collect();
     let largest = |rows: &[Vec<Option<f64>>], column: usize| {
         let all = rows.iter().flat_map(|row| row[column * wide..].iter().take(wide).flatten());
@@ -165,13 +168,19 @@ fn grid(of: &Cells) -> (Heat, Option<String>) {
             .max_by(f64::total_cmp)
             .map_or(f32::NAN, |value| value as f32)
     };
-    let row = |rows: &[Vec<Option<f64>>]| (0..columns.len()).map(|column| largest(rows, column)).collect();
+    let least = panel.ramp.as_ref().filter(|ramp| ramp.is_logarithmic).map(|ramp| ramp.range.0 as f32);
+    let shown = |value: f32| match least {
+        Some(least) if !value.is_nan() => value.max(least).log10(),
+        _ => value,
+    };
+    let row =
+        |rows: &[Vec<Option<f64>>]| (0..columns.len()).map(|column| shown(largest(rows, column))).collect();
     let values: Vec<Vec<f32>> = of.values.chunks(high).map(row).collect();
     let middle = |bands: &[Band]| bands[bands.len() / 2].value;
     let rad_s = |bands: &&[Band]| vec![(middle(bands) * std::f64::consts::TAU / 60.0) as f32];
     let data = match of.has_speeds {
         true => values.iter().map(|_| columns.iter().map(rad_s).collect()).collect(),
-        false => Vec::new(),
+        false => of.data.clone(),
     };
     let x = match columns[..] {
         // A single column has its edges: nothing else says how wide it is.
@@ -268,7 +277,8 @@ fn axes(figure: Figure, panels: &[Panel]) -> Figure {
     let figure = match coloured {
         Some((panel, ramp)) => {
             let [low, high] = panel.domain.unwrap_or([0.0, 1.0]);
-            figure.attribute("coloraxis", linear(ramp.range, &ramp.title, (low, high)))
+            let scale = if ramp.is_logarithmic { logarithmic } else { linear };
+            figure.attribute("coloraxis", scale(ramp.range, &ramp.title, (low, high)))
         }
         None => figure,
     };

@@ -160,7 +160,8 @@ fn engine_orders_fan_out_over_hz() {
     assert!(ends(SpectrogramUnit::Order).iter().all(|(from, to)| from == to));
     let (slow, fast) = (4_500.0, of.runs[0].frames.iter().rfind(|frame| !frame.spectra.is_empty()).unwrap());
     let ratio = fast.speeds_rad_s[1] / rad_s(slow);
-    let rises = ends(SpectrogramUnit::Hz);
+    let mut rises = ends(SpectrogramUnit::Hz);
+    rises.sort_by(|a, b| b.0.total_cmp(&a.0));
     assert_eq!(rises.len(), 12);
     let foot = rises[0].0 + (rises[0].0 - rises[1].0);
     assert!(rises.iter().all(|(from, to)| ((foot - to) / (foot - from) - ratio).abs() < 1e-3), "{rises:?}");
