@@ -2,10 +2,10 @@
 
 use super::axis::{Scale, label, logarithmic_ticks, ticks};
 use super::cells::{cells, range};
+use super::frame::Frame;
 use super::key::Flow;
 use super::level::LevelColour;
 use super::map_view::{End, QUIETEST, VerticalAxis, View, is_missing};
-use super::spectrum::Frame;
 use super::svg::{Element, document, group, text};
 use super::window::Window;
 use super::{colour_bar, hatching, heading, heat, margin};

@@ -3,6 +3,7 @@
 use super::axis::{label, significant};
 use super::cells::rpm;
 use super::drawing::Drawing;
+use super::frame::Frame;
 use super::layer::{Mark, Marks};
 use super::marks;
 use super::sketch::{Axis, Panel, Sketch};
@@ -17,16 +18,6 @@ const QUIETEST: f64 = 1e-4;
 
 /// Largest number of lines drawn; more would be a black area.
 const MOST: usize = 4000;
-
-/// Frame from which the wheel is observed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Frame {
-    /// Rotating frame, which turns with the wheel.
-    Rotating,
-    /// Fixed frame beside the wheel: a wave of nodal diameter n at engine order k is seen at k + n or k − n, as it travels with the
-    /// rotation or against it.
-    Fixed,
-}
 
 /// Spectra of the sensor of index `sensor` at one speed: in the rotating frame its amplitude above those of the wheel's nodal diameters, in
 /// the fixed frame the latter where they may be seen, a name for each nodal diameter. Amplitudes are logarithmic over four decades.

@@ -10,11 +10,11 @@ use super::interaction_map::{engine_orders, upwards};
 use super::level;
 use super::text::escaped;
 use crate::cells::cells;
+use crate::frame::Frame;
 use crate::heat;
 use crate::level::LevelColour;
 use crate::map_sheet::{self as drawing, NO_MAP};
 use crate::map_view::{QUIETEST, VerticalAxis, View};
-use crate::spectrum::Frame;
 use crate::window::Window;
 use rubmap_analysis::result::InteractionMap;
 

@@ -13,16 +13,16 @@ use rubmap_wheel::dynamics::sector::Units;
 
 /// Defines for every drawing a function that draws it as SVG, and one that makes the figure.
 macro_rules! pens {
-    ($($name:ident($($of:ident: $type:ty),*);)*) => {
+    ($($drawn:path => $name:ident($($of:ident: $type:ty),*);)*) => {
         pub(crate) mod svg {
-            use super::*;
+            use crate::tests::pens::*;
             maps!(String, svg);
-            $(pub(crate) fn $name($($of: $type),*) -> String { crate::$name($($of),*).svg() })*
+            $(pub(crate) fn $name($($of: $type),*) -> String { $drawn($($of),*).svg() })*
         }
         pub(crate) mod figure {
-            use super::*;
+            use crate::tests::pens::*;
             maps!(crate::Figure, figure);
-            $(pub(crate) fn $name($($of: $type),*) -> crate::Figure { crate::$name($($of),*).figure() })*
+            $(pub(crate) fn $name($($of: $type),*) -> crate::Figure { $drawn($($of),*).figure() })*
         }
     };
 }
@@ -54,22 +54,22 @@ macro_rules! maps {
 }
 
 pens! {
-    branches(of: &Branches, sensor: usize, marched: &[Point]);
-    campaign(of: &Campaign, parameter: usize);
-    campbell(of: &Campbell);
-    campbell_fixed_frame(of: &Campbell);
-    critical_speeds(of: &CriticalSpeeds);
-    error_over_step(of: &WorkPrecision, speed: usize, quantity: Quantity);
-    force_map(of: &ForceMap, quantity: ForceQuantity);
-    haigh(of: &SweepStress, by: HaighColour);
-    histories(of: &Histories, sensor: usize);
-    map_sheet(of: &[InteractionMap], window: Window, colour: LevelColour);
-    run_ups(of: &RunUps, sensor: usize, swept: &[Point]);
-    section(of: &SectorGeometry, view: SectionView);
-    spectrogram(of: &RunUps, run: usize, sensor: usize, unit: SpectrogramUnit);
-    spectrum(of: &SpeedSpectra, point: &Point, units: &Units, sensor: usize, frame: Frame);
-    speed_histories(of: &SpeedHistories, what: HistoryQuantity, index: usize);
-    trajectories(of: &SpeedHistories);
-    wear_map(of: &WearMap, point: &Point, units: &Units);
-    work_precision(of: &WorkPrecision, speed: usize, quantity: Quantity);
+    crate::branches => branches(of: &Branches, sensor: usize, marched: &[Point]);
+    crate::campaign => campaign(of: &Campaign, parameter: usize);
+    crate::campbell => campbell(of: &Campbell);
+    crate::campbell_fixed_frame => campbell_fixed_frame(of: &Campbell);
+    crate::critical_speeds => critical_speeds(of: &CriticalSpeeds);
+    crate::error_over_step => error_over_step(of: &WorkPrecision, speed: usize, quantity: Quantity);
+    crate::force_map => force_map(of: &ForceMap, quantity: ForceQuantity);
+    crate::haigh => haigh(of: &SweepStress, by: HaighColour);
+    crate::histories => histories(of: &Histories, sensor: usize);
+    crate::map_sheet => map_sheet(of: &[InteractionMap], window: Window, colour: LevelColour);
+    crate::run_ups => run_ups(of: &RunUps, sensor: usize, swept: &[Point]);
+    crate::section => section(of: &SectorGeometry, view: SectionView);
+    crate::spectrogram => spectrogram(of: &RunUps, run: usize, sensor: usize, unit: SpectrogramUnit);
+    crate::spectrum => spectrum(of: &SpeedSpectra, point: &Point, units: &Units, sensor: usize, frame: Frame);
+    crate::speed_histories => speed_histories(of: &SpeedHistories, what: HistoryQuantity, index: usize);
+    crate::trajectories => trajectories(of: &SpeedHistories);
+    crate::wear_map => wear_map(of: &WearMap, point: &Point, units: &Units);
+    crate::work_precision => work_precision(of: &WorkPrecision, speed: usize, quantity: Quantity);
 }
