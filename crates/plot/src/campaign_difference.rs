@@ -49,7 +49,12 @@ pub(super) fn panel(
     let reach = known.iter().map(|(_, of)| ends(of));
     let (low, high) = reach.fold((0.0_f64, 0.0_f64), |(low, high), (from, to)| (low.min(from), high.max(to)));
     let margin = if high > low { 0.05 * (high - low) } else { 1.0 };
-    let y = Axis::linear(format!("difference of {severity}"), (low - margin, high + margin), 5.0).free();
+    let y = Axis::linear(
+        format!("difference, compared less own: {severity}"),
+        (low - margin, high + margin),
+        5.0,
+    )
+    .free();
     let panel = Panel::new(corner, (width, HEIGHT), Axis::speeds(x, 9.0), y);
     let mut panel = panel.apart().key_below();
     let zero = panel.diagram.y.place(0.0);
