@@ -112,7 +112,7 @@ impl App {
         let limit = descriptors::raise_limit();
         let connections = descriptors::connections(config.transport.connections, limit)
             .ok_or(StartError::OpenFiles { limit: limit.unwrap_or_default() })?;
-        if config.worker_threads() == 0 && !config.is_shared() {
+        if config.worker_threads() == 0 && !config.shared.is_shared() {
             return Err(StartError::NoWorkers);
         }
         let lock = lock(&config.data)?;
@@ -189,7 +189,7 @@ impl App {
 async fn open_store(config: &Config) -> Result<Store, StoreError> {
     let mut warned = false;
     loop {
-        match open_once(config).await {
+        match config.shared.open(&config.data).await {
             Err(error) if error.may_pass() && !error.is_denied() => {
                 if !warned {
                     tracing::error!(%error, "this process starts as soon as what it needs can be used");
@@ -200,22 +200,6 @@ async fn open_store(config: &Config) -> Result<Store, StoreError> {
             opened => return opened,
         }
     }
-}
-
-async fn open_once(config: &Config) -> Result<Store, StoreError> {
-    #[cfg(feature = "cluster")]
-    {
-        let store = match &config.database {
-            Some(database) => Store::connect(&config.data, database.expose()).await?,
-            None => Store::open(&config.data).await?,
-        };
-        match &config.objects {
-            Some(address) => store.sharing(address).await,
-            None => Ok(store),
-        }
-    }
-    #[cfg(not(feature = "cluster"))]
-    Store::open(&config.data).await
 }
 
 /// Locks the data folder for this process; makes the folder if need be.

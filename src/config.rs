@@ -1,7 +1,8 @@
 //! Settings of the service, from the command line or the environment.
 
-#[cfg(feature = "cluster")]
-mod database;
+#[cfg_attr(feature = "cluster", path = "config/cluster/shared/mod.rs")]
+#[cfg_attr(not(feature = "cluster"), path = "config/cluster/alone.rs")]
+pub mod cluster;
 mod memory;
 mod transport;
 
@@ -11,12 +12,9 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use crate::package::Limits;
-#[cfg(feature = "cluster")]
-use crate::store::Address;
 use crate::store::limits as owner;
 
-#[cfg(feature = "cluster")]
-pub use database::DatabaseUrl;
+pub use cluster::SharedConfig;
 pub use transport::TransportConfig;
 
 /// Largest package accepted unless told otherwise, in bytes as sent.
@@ -33,22 +31,9 @@ pub struct Config {
     #[arg(long, env = "RUBMAP_DATA", default_value = "./data")]
     pub data: PathBuf,
 
-    /// PostgreSQL database for models, jobs, results and queue, which several processes share [default: a file in the data folder].
-    #[cfg(feature = "cluster")]
-    #[arg(
-        long,
-        env = "RUBMAP_DATABASE",
-        requires = "objects",
-        hide_env_values = true,
-        value_name = "postgres://USER@HOST/NAME"
-    )]
-    pub database: Option<DatabaseUrl>,
-
-    /// Object storage for files of the data folder, which several processes share: s3://bucket/prefix, or a folder that all see [default: the data
-    /// folder alone].
-    #[cfg(feature = "cluster")]
-    #[arg(long, env = "RUBMAP_OBJECTS", requires = "database", value_name = "s3://BUCKET/PREFIX")]
-    pub objects: Option<Address>,
+    /// Settings of what several processes share.
+    #[command(flatten)]
+    pub shared: SharedConfig,
 
     /// Threads that compute; 0 leaves that to others of the same --database [default: one per core].
     #[arg(long, env = "RUBMAP_WORKERS", value_parser = clap::value_parser!(u16).range(0..=1024))]
@@ -102,10 +87,7 @@ impl Config {
         Self {
             addr: ([127, 0, 0, 1], 0).into(),
             data: data.to_owned(),
-            #[cfg(feature = "cluster")]
-            database: None,
-            #[cfg(feature = "cluster")]
-            objects: None,
+            shared: SharedConfig::default(),
             workers: None,
             upload_bytes: UPLOAD_BYTES,
             expanded_bytes: None,
@@ -118,14 +100,6 @@ impl Config {
             memory_bytes: None,
             transport: TransportConfig::default(),
         }
-    }
-
-    /// Whether other processes may compute what clients ask of this one.
-    pub fn is_shared(&self) -> bool {
-        #[cfg(feature = "cluster")]
-        return self.database.is_some();
-        #[cfg(not(feature = "cluster"))]
-        false
     }
 
     /// Threads that compute.

@@ -19,6 +19,8 @@
 //! - [`analysis`] is the one door between physics and service: plain data and the verbs that prepare a reduced
 //!   sector, run one speed and summarise the speeds.
 //! - Only [`store`] contains SQL; only [`http`] contains status codes; `http` never computes.
+//! - Only the modules named `cluster` ask for the feature of that name: each has two implementations with the same items, `shared` with
+//!   the feature and `alone` without, where what is shared has types without values.
 //! - The step loop allocates nothing and contains no dense product over the whole wheel.
 
 pub mod app;

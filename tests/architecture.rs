@@ -42,6 +42,12 @@ fn rust_files(folder: &Path) -> Vec<PathBuf> {
 /// Path of a module from the root of its crate.
 type Module = Vec<String>;
 
+/// Folder of a module with two implementations, one of which a feature chooses.
+const SEAM: &str = "cluster";
+
+/// Names of the implementations of a [`SEAM`], which are not part of the paths of their modules.
+const SIDES: [&str; 2] = ["alone", "shared"];
+
 /// Module of a file under `folder`.
 fn module_of(folder: &Path, file: &Path) -> Module {
     let path = file.strip_prefix(folder).unwrap().with_extension("");
@@ -49,6 +55,12 @@ fn module_of(folder: &Path, file: &Path) -> Module {
     // The program is a file of its own beside the library.
     if module.last().is_some_and(|last| ["mod", "lib"].contains(&last.as_str())) {
         module.pop();
+    }
+    let side = module.iter().position(|part| part == SEAM).map(|seam| seam + 1);
+    if let Some(side) =
+        side.filter(|&side| module.get(side).is_some_and(|part| SIDES.contains(&part.as_str())))
+    {
+        module.remove(side);
     }
     module
 }
@@ -184,12 +196,13 @@ fn meant(path: &Module, files: &BTreeMap<Module, PathBuf>) -> Vec<Module> {
     folders.map(|(folder, _)| [folder, &path[place + 1..]].concat()).collect()
 }
 
-/// Files of a crate with the files that each needs.
+/// Modules of a crate that are files, with those that each needs.
 fn arrows(folder: &Path) -> BTreeMap<Module, BTreeSet<Module>> {
-    let files: BTreeMap<Module, PathBuf> =
+    let all: Vec<(Module, PathBuf)> =
         rust_files(folder).into_iter().map(|file| (module_of(folder, &file), file)).collect();
-    let mut arrows = BTreeMap::new();
-    for (module, file) in &files {
+    let files: BTreeMap<Module, PathBuf> = all.iter().cloned().collect();
+    let mut arrows: BTreeMap<Module, BTreeSet<Module>> = BTreeMap::new();
+    for (module, file) in &all {
         let syntax = syn::parse_file(&std::fs::read_to_string(file).unwrap()).unwrap();
         let (imported, found) = (BTreeMap::new(), BTreeSet::new());
         let mut named = Named { module: module.clone(), imported, found };
@@ -200,7 +213,8 @@ fn arrows(folder: &Path) -> BTreeMap<Module, BTreeSet<Module>> {
             let file = (0..=path.len()).rev().find(|&length| files.contains_key(&path[..length]));
             file.map(|length| path[..length].to_vec())
         });
-        arrows.insert(module.clone(), needed.filter(|needed| needed != module).collect());
+        // Both implementations of a seam are one module, which needs what either needs.
+        arrows.entry(module.clone()).or_default().extend(needed.filter(|needed| needed != module));
     }
     arrows
 }
@@ -265,6 +279,14 @@ fn a_circle_is_found_however_it_is_written() {
     write("all/one/mod.rs", "pub const ONE: u32 = 1;");
     assert_eq!(circular(), 0);
     write("all/one/mod.rs", "pub const ONE: u32 = crate::a::TWO;");
+    assert_eq!(circular(), 2);
+    // Either side of a seam is seen.
+    std::fs::create_dir_all(folder.path().join("cluster/shared")).unwrap();
+    write("a.rs", "use crate::cluster::queue::Queue;");
+    write("cluster/shared/queue.rs", "pub struct Queue;");
+    write("cluster/alone.rs", "pub mod queue { pub enum Queue {} }");
+    assert_eq!(circular(), 0);
+    write("cluster/shared/queue.rs", "pub struct Queue(crate::a::One);");
     assert_eq!(circular(), 2);
 }
 

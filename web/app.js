@@ -63,7 +63,7 @@ async function show() {
   const focused = main.contains(document.activeElement) && document.activeElement !== main ? nameOf(document.activeElement) : null;
   if (!found) {
     document.title = 'Not found · rubmap';
-    replace(main, h('h1', {}, 'There is no such page'), h('p', {}, h('a', { href: '#/models' }, 'To the models')));
+    replace(main, h('h1', {}, 'This page does not exist'), h('p', {}, h('a', { href: '#/models' }, 'To the models')));
     return;
   }
   main.setAttribute('aria-busy', 'true');
@@ -77,7 +77,7 @@ async function show() {
     focusAgain(place, focused);
   } catch (error) {
     if (signal.aborted || (error instanceof Refusal && error.status === 401)) return;
-    if (!place.querySelector('h1')) place.prepend(h('h1', {}, 'Something is in the way'));
+    if (!place.querySelector('h1')) place.prepend(h('h1', {}, 'This page cannot be shown'));
     place.append(unread(error, signal), h('p', {}, h('button', { type: 'button', on: { click: show } }, 'Try again')));
   } finally {
     if (!signal.aborted) {

@@ -18,7 +18,9 @@ pub(crate) async fn measure(url: &str) {
     let pool = PgPoolOptions::new()
         .max_connections(64)
         .after_connect(|connection, _| {
-            Box::pin(async move { connection.execute(rubmap::store::shared_queue::TAKE_ONE).await.map(drop) })
+            Box::pin(
+                async move { connection.execute(rubmap::store::cluster::queue::TAKE_ONE).await.map(drop) },
+            )
         })
         .connect(url)
         .await

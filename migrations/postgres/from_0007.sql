@@ -14,3 +14,4 @@ alter table documents drop constraint documents_name_check;
 alter table jobs add column posted_to text collate "C";
 alter table jobs add column posted text collate "C" check (posted is null or json_valid(posted));
 alter table jobs add check (facts is not null or speeds = 0);
+alter table jobs alter column compared_model type text collate "C";

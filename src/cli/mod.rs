@@ -2,8 +2,9 @@
 
 mod case;
 mod client;
-#[cfg(feature = "cluster")]
-mod copy;
+#[cfg_attr(feature = "cluster", path = "cluster/shared/mod.rs")]
+#[cfg_attr(not(feature = "cluster"), path = "cluster/alone.rs")]
+mod cluster;
 mod demo;
 mod ending;
 mod field_file;
@@ -13,8 +14,6 @@ mod groups;
 mod import;
 mod keeping;
 mod man;
-#[cfg(feature = "cluster")]
-mod migrate;
 mod modes;
 mod progress;
 mod repeat;
@@ -31,8 +30,6 @@ mod study;
 mod terminal;
 mod token;
 mod verb;
-#[cfg(feature = "cluster")]
-mod worker;
 
 use std::process::ExitCode;
 
@@ -108,17 +105,8 @@ enum Command {
     Report(report::ReportArgs),
     /// Run the HTTP service.
     Serve(serve::ServeArgs),
-    /// Compute what services on the same PostgreSQL database are asked for.
-    #[cfg(feature = "cluster")]
-    Worker(worker::WorkerArgs),
-    /// Bring the tables of a PostgreSQL database up to date, and end.
-    #[cfg(feature = "cluster")]
-    #[command(after_help = crate::store::ACCOUNTS)]
-    Migrate(migrate::MigrateArgs),
-    /// Copy a data folder into the database and the object storage of a cluster.
-    #[cfg(feature = "cluster")]
-    #[command(after_help = copy::EFFECTS)]
-    Copy(copy::CopyArgs),
+    #[command(flatten)]
+    Cluster(cluster::Command),
     /// Copy a data folder, while a service works on it or not.
     Backup(keeping::BackupArgs),
     /// Read everything in a data folder and say what is not as it was written.
@@ -144,9 +132,8 @@ impl Cli {
     /// Log level unless `RUST_LOG` says otherwise: beside a progress bar only errors and warnings.
     #[must_use]
     pub fn default_log(&self) -> &'static str {
-        match self.command {
-            #[cfg(feature = "cluster")]
-            Command::Worker(_) => SERVICE_LOG,
+        match &self.command {
+            Command::Cluster(command) if cluster::is_service(command) => SERVICE_LOG,
             Command::Serve(_) | Command::Generate(_) | Command::Import(_) => SERVICE_LOG,
             _ => "warn",
         }
@@ -179,12 +166,7 @@ impl Cli {
             Command::Repeat(args) => return repeat::run(&args),
             Command::Check(args) => return keeping::check(args),
             Command::Serve(args) => serve::run(args)?,
-            #[cfg(feature = "cluster")]
-            Command::Worker(args) => worker::run(args)?,
-            #[cfg(feature = "cluster")]
-            Command::Migrate(args) => migrate::run(args)?,
-            #[cfg(feature = "cluster")]
-            Command::Copy(args) => copy::run(args)?,
+            Command::Cluster(command) => cluster::run(command)?,
             Command::Token(command) => token::token(command)?,
             Command::Backup(args) => keeping::backup(args)?,
             Command::Generate(args) => generate::generate(args)?,

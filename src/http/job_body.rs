@@ -2,7 +2,8 @@
 
 use serde::Serialize;
 use serde_json::value::RawValue;
-use utoipa::openapi::{OneOfBuilder, Ref, RefOr, Schema};
+use utoipa::openapi::schema::AnyOfBuilder;
+use utoipa::openapi::{Ref, RefOr, Schema};
 use utoipa::{PartialSchema, ToSchema};
 
 use super::problem::Problem;
@@ -99,7 +100,8 @@ impl PartialSchema for PostedBody {
     fn schema() -> RefOr<Schema> {
         let kinds = kinds::all().map(|kind| Ref::from_schema_name((kind.request.name)()));
         let kinds = kinds.chain([Ref::from_schema_name(HistoriesRequest::name())]);
-        kinds.fold(OneOfBuilder::new(), OneOfBuilder::item).into()
+        // Not exactly one: an empty object is a request of more than one kind.
+        kinds.fold(AnyOfBuilder::new(), AnyOfBuilder::item).into()
     }
 }
 

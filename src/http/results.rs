@@ -179,10 +179,7 @@ pub(super) fn expect_successful(job: &Job, instead: &str) -> Result<(), Problem>
 }
 
 /// Resolved request of a job of this `kind`, and the facts of its model; refuses jobs of other kinds.
-pub(super) fn resolved<'a, R: ResolvedJob>(
-    job: &'a Job,
-    kind: JobKind,
-) -> Result<(&'a R, &'a ModelFacts), Problem> {
+pub(super) fn resolved<R: ResolvedJob>(job: &Job, kind: JobKind) -> Result<(&R, &ModelFacts), Problem> {
     job.request.get().zip(job.facts.as_ref()).ok_or_else(|| wrong_kind(job, kind))
 }
 

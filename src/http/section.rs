@@ -14,7 +14,7 @@ use super::results::{find, sweep};
 use super::state::AppState;
 use crate::analysis::result::{ContactPlace, NodeKind, SectorGeometry, SectorNode};
 use crate::analysis::run::{self, ModelFacts};
-use crate::package::{Face, Limits, Place, Places, read_places};
+use crate::package::{Face, Limits, PlacedNode, SectorNodes, read_places};
 use crate::plot::{self, SectionView};
 use crate::store::jobs::JobId;
 use crate::tokens::Principal;
@@ -92,7 +92,7 @@ pub(super) async fn get_section(
 
 fn geometry(
     facts: &ModelFacts,
-    places: &Places,
+    places: &SectorNodes,
     clearances: Option<&[f64]>,
     heights: Option<Vec<Vec<f64>>>,
 ) -> SectorGeometry {
@@ -106,13 +106,13 @@ fn geometry(
         clearance: clearances.and_then(|clearances| clearances.get(k).copied()),
         heights,
     });
-    let kind = |place: &Place| match place.face {
+    let kind = |place: &PlacedNode| match place.face {
         _ if place.held => NodeKind::Clamped,
         Some(Face::Low) => NodeKind::Low,
         Some(Face::High) => NodeKind::High,
         None => NodeKind::Internal,
     };
-    let node = |place: &Place| SectorNode { id: place.id, kind: kind(place), position: place.position };
+    let node = |place: &PlacedNode| SectorNode { id: place.id, kind: kind(place), position: place.position };
     let mut nodes: Vec<SectorNode> = places.nodes.iter().map(node).collect();
     for (number, _) in &places.contact {
         nodes[*number].kind = NodeKind::Contact;

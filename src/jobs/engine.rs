@@ -73,12 +73,7 @@ pub(super) struct Live {
 impl Live {
     /// Owner and id of the job, by which its tasks are queued.
     pub(super) fn whose(&self) -> Whose<'_> {
-        Whose {
-            owner: &self.owner,
-            job: self.id,
-            #[cfg(feature = "cluster")]
-            one_kind: self.request.is_of_one_kind(),
-        }
+        Whose { owner: &self.owner, job: self.id, one_kind: self.request.is_of_one_kind() }
     }
 
     /// Neighbours of `speed` in the chain: the speed before and the one after, where there are such.
@@ -284,25 +279,6 @@ impl Engine {
         }
     }
 
-    /// Jobs in memory.
-    #[cfg(feature = "cluster")]
-    pub(super) fn live_jobs(&self) -> Vec<JobId> {
-        self.lock_live().keys().copied().collect()
-    }
-
-    /// Ends the computations of a job in memory that has ended or was paused elsewhere.
-    #[cfg(feature = "cluster")]
-    pub(super) async fn look_at(&self, id: JobId) {
-        if !self.lock_live().contains_key(&id) {
-            return;
-        }
-        if let Ok(found) = self.store.job_head(id).await
-            && found.is_none_or(|job| !job.status.wants_work())
-        {
-            self.retire(id);
-        }
-    }
-
     /// Phase of a job: what it does or waits for now, if it has reported that.
     pub(super) fn phase(&self, id: JobId) -> Option<String> {
         let live = self.lock_live().get(&id).cloned()?;
@@ -330,7 +306,7 @@ impl Engine {
         Ok(())
     }
 
-    fn lock_live(&self) -> std::sync::MutexGuard<'_, HashMap<JobId, Arc<Live>>> {
+    pub(super) fn lock_live(&self) -> std::sync::MutexGuard<'_, HashMap<JobId, Arc<Live>>> {
         self.live.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

@@ -106,9 +106,12 @@ pub(super) async fn complete(
     made: Option<&str>,
 ) -> Result<(), Interruption> {
     let write = || engine.store.complete_job(job.id, documents, made);
-    if patiently(&job.watch, write).await? {
-        tracing::info!(job.id = %job.id, "successful");
-    }
+    let completed = patiently(&job.watch, write).await?;
     engine.forget(job.id);
+    if !completed {
+        // Set aside at this moment, perhaps: whoever ends this task looks at the job again.
+        return Err(Interruption::NotWanted);
+    }
+    tracing::info!(job.id = %job.id, "successful");
     Ok(())
 }

@@ -144,7 +144,9 @@ impl Jobs {
         answer: Option<&Answer>,
     ) -> Result<(), SubmitError> {
         let (engine, owner, answer) = (Arc::clone(&self.engine), whose.owner.clone(), answer.cloned());
-        let Checked { job, facts, .. } = checked;
+        // Reductions are not held while the job waits to be stored.
+        let Checked { job, facts, reduced, placed_sensors: _, _permit } = checked;
+        drop(reduced);
         let model = job.models().first().copied().unwrap_or_default().to_owned();
         let (kind, speeds) = (job.kind().name, job.speeds());
         tracing::info!(job.id = %id, kind, model.id = model, speeds, "submitted");

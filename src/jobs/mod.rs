@@ -23,6 +23,9 @@
 
 mod calibration;
 mod choice;
+#[cfg_attr(feature = "cluster", path = "cluster/shared/mod.rs")]
+#[cfg_attr(not(feature = "cluster"), path = "cluster/alone/mod.rs")]
+mod cluster;
 mod computing;
 mod control;
 mod counters;
@@ -45,12 +48,8 @@ mod plans;
 mod pool;
 mod prepare;
 mod progress;
-#[cfg(feature = "cluster")]
-mod queue_workers;
 mod recorded;
 mod reductions;
-#[cfg(feature = "cluster")]
-mod share;
 mod speed;
 mod static_wheel;
 mod stress;

@@ -11,7 +11,7 @@ use crate::store::StoreError;
 pub(super) const BETWEEN_ATTEMPTS: Duration = Duration::from_secs(1);
 
 /// Longest time that a write may take. A server that was cut off in the middle of one never answers, and nobody says so.
-const LONGEST_WRITE: Duration = Duration::from_secs(300);
+pub(super) const LONGEST_WRITE: Duration = Duration::from_secs(300);
 
 /// Writes a result, again and again while the store cannot take it, unless the job is not wanted any more: what was
 /// computed is not computed again. What costs nothing to repeat is repeated with its whole task.
@@ -49,21 +49,13 @@ where
     }
 }
 
-async fn in_time<T>(
+/// Writes within a time limit; a write that takes longer may be repeated.
+pub(super) async fn in_time<T>(
     limit: Duration,
     write: impl Future<Output = Result<T, StoreError>>,
 ) -> Result<T, StoreError> {
     let written = tokio::time::timeout(limit, write).await;
     written.unwrap_or_else(|_| Err(StoreError::File(ErrorKind::TimedOut.into())))
-}
-
-/// Pushes a task until the queue takes it, which it does at once unless memory is short.
-#[cfg(feature = "cluster")]
-pub(super) async fn until_taken<P: Future<Output = Result<(), StoreError>>>(push: impl Fn() -> P) {
-    while let Err(error) = in_time(LONGEST_WRITE, push()).await {
-        tracing::error!(%error, "the queue failed");
-        tokio::time::sleep(BETWEEN_ATTEMPTS).await;
-    }
 }
 
 #[cfg(test)]

@@ -13,8 +13,6 @@ use crate::analysis::kinds::plan::{Capacity, Grounds, Plan, PlannedModel};
 use crate::analysis::result::{Chosen, PlacedSensor};
 use crate::analysis::run::ReducedSector;
 use crate::store::StoreError;
-#[cfg(feature = "cluster")]
-use crate::store::machines::WorkerProcess;
 
 /// Plan of a job, which rests on its `models`, the positions of its sensors and a choice of its settings.
 pub(super) async fn of<E: From<StoreError> + From<Panicked>>(
@@ -34,13 +32,10 @@ pub(super) async fn of<E: From<StoreError> + From<Panicked>>(
 
 /// Capacity of all machines that share the work, each taken as fast as the one with most threads; of this machine where there is no other.
 async fn capacity<E: From<StoreError> + From<Panicked>>(engine: &Engine) -> Result<Capacity, E> {
-    #[cfg(feature = "cluster")]
-    if let Some(queue) = engine.store.shared_queue() {
-        let processes = queue.worker_processes().await?;
-        let threads = processes.iter().map(|process| process.threads as usize).sum();
-        if let Some(WorkerProcess { machine, costs, .. }) = processes.into_iter().next() {
-            return Ok(Capacity { machine, costs: Arc::new(costs), threads });
-        }
+    if let Some(queue) = engine.store.shared_queue()
+        && let Some(capacity) = queue.capacity().await?
+    {
+        return Ok(capacity);
     }
     let costs = engine.calibrated.get::<E>(engine.planner.pool()).await?;
     Ok(Capacity { machine: machine::here(), costs, threads: engine.computing.threads() })

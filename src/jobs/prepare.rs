@@ -16,7 +16,8 @@ pub(super) async fn prepare(engine: &Engine, id: JobId) -> Result<(), Interrupti
     let Some(job) = engine.live(id).await? else { return Err(Interruption::NotWanted) };
     match engine.store.begin_job(id, &run::vectors()).await? {
         Begun::Yes => {}
-        Begun::Unwanted => return Ok(()),
+        // It may have been set aside, and go on before this preparation has ended: then it is looked at again.
+        Begun::Unwanted => return Err(Interruption::NotWanted),
         Begun::Elsewhere(vectors) => {
             engine.tasks.prepare_elsewhere(id, &vectors);
             return Ok(());

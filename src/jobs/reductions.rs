@@ -7,9 +7,7 @@ use super::computing::Computing;
 use super::error::Interruption;
 use super::euler_load;
 use super::memory::Memory;
-#[cfg(feature = "cluster")]
-use super::patience::BETWEEN_ATTEMPTS;
-use super::patience::{patiently, until_written};
+use super::patience::{BETWEEN_ATTEMPTS, patiently, until_written};
 use super::progress::PhaseMonitor;
 use super::static_wheel::{self, StaticWheelError};
 use super::stress::Making;
@@ -23,9 +21,9 @@ use crate::dynamics::node_rows::NodeRows;
 use crate::dynamics::nodes::SectorNode;
 use crate::package::{self, Limits};
 use crate::store::checkpoints::CheckpointFolder;
+use crate::store::cluster::claims::Claim;
+use crate::store::cluster::queue::SharedQueue;
 use crate::store::{Store, StoreError};
-#[cfg(feature = "cluster")]
-use crate::store::{claims::Claim, shared_queue::SharedQueue};
 
 /// Reduced sectors kept in memory: tens of megabytes each at most, and jobs come in runs on the same model.
 const KEPT: usize = 4;
@@ -208,7 +206,6 @@ impl Reductions {
         beside: &Beside,
         monitor: PhaseMonitor,
     ) -> Result<Arc<ReducedSector>, Interruption> {
-        #[cfg(feature = "cluster")]
         let _claim = match self.store.shared_queue() {
             Some(queue) => self.claim(queue, key, &monitor).await?,
             None => None,
@@ -217,7 +214,6 @@ impl Reductions {
     }
 
     /// Claims the right to make a reduction, once no other process does; `None` where it has been made meanwhile.
-    #[cfg(feature = "cluster")]
     async fn claim(
         &self,
         queue: &SharedQueue,

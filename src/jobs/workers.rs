@@ -10,6 +10,7 @@ use tokio::time::MissedTickBehavior;
 use tokio_util::sync::CancellationToken;
 use tokio_util::task::TaskTracker;
 
+use super::cluster;
 use super::computing::{MOST_CRASHES, pause};
 use super::engine::Engine;
 use super::error;
@@ -19,8 +20,6 @@ use super::perform::{prepare_job, run_speed};
 use super::pool::CpuPool;
 use super::progress::PendingReports;
 use super::tasks::{Line, OwnTasks, Tasks};
-#[cfg(feature = "cluster")]
-use super::{queue_workers, share};
 use crate::store::jobs::{JobId, Unfinished};
 use crate::store::limits::Limits;
 use crate::store::{Store, StoreError};
@@ -84,13 +83,7 @@ impl Runner {
                 ];
                 (workers, Vec::new())
             }
-            #[cfg(feature = "cluster")]
-            Tasks::Shared(_) => {
-                let computes = settings.workers > 0;
-                let workers =
-                    if computes { queue_workers::start(&engine, threads, &stop) } else { Vec::new() };
-                (workers, share::start(&engine, computes))
-            }
+            Tasks::Shared(tasks) => cluster::workers::start(tasks, &engine, settings.workers, &stop),
         };
         helpers.extend(others);
         Ok(Self { engine, stop, workers, helpers })

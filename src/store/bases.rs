@@ -30,10 +30,10 @@ use crate::dynamics::nodes::SectorNode;
 use crate::dynamics::reduction::{BasisRows, ReducedHarmonic, ReducedWheel};
 
 /// Name of the folder of all bases, in the data folder.
-const FOLDER: &str = "bases";
+pub(super) const FOLDER: &str = "bases";
 
 /// Layout of the files: raise it when it changes, so that old files are computed again instead of misread.
-const LAYOUT: i64 = 1;
+pub(super) const LAYOUT: i64 = 1;
 
 const MAGIC: &[u8; 8] = b"rubbasis";
 pub(super) const HEADER: usize = 8 + 8 + 8 + 32 + 32;
@@ -50,12 +50,6 @@ pub struct BasisFolder {
     folder: PathBuf,
     reserve: Reserve,
     pub(super) objects: Objects,
-}
-
-/// Name of the folder of all bases in the data folder, and prefix of the file names in its folders that this program can read.
-#[cfg(feature = "cluster")]
-pub(super) fn place() -> (&'static str, String) {
-    (FOLDER, prefix(LAYOUT))
 }
 
 impl Store {

@@ -22,7 +22,7 @@ use super::unfinished::{UNFINISHED, unfinished_file};
 use crate::dynamics::reduction::{BasisRows, Checkpoints};
 
 /// Name of the folder of all checkpoints, in the data folder.
-const FOLDER: &str = "checkpoints";
+pub(super) const FOLDER: &str = "checkpoints";
 
 /// Size in bytes of the header of a part: the number of bytes that follow (little-endian) and their SHA-256.
 const HEADER: usize = 8 + 32;
@@ -37,12 +37,6 @@ pub struct CheckpointFolder {
     lost: Arc<Mutex<Option<std::io::Error>>>,
     reserve: Reserve,
     objects: Objects,
-}
-
-/// Name of the folder of all checkpoints in the data folder, and prefix of the file names in its folders that this program can read.
-#[cfg(feature = "cluster")]
-pub(super) fn place() -> (&'static str, String) {
-    (FOLDER, prefix())
 }
 
 impl Store {
@@ -186,7 +180,7 @@ impl Checkpoints for CheckpointFolder {
 }
 
 /// Prefix of the names of parts that this program can read.
-fn prefix() -> String {
+pub(super) fn prefix() -> String {
     folders::prefix(reductions::LAYOUT)
 }
 

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use sqlx::migrate::MigrateError;
 
+use super::cluster::error::QueueError;
 use super::refusal::{Refusal, is_no_text, refusal};
 
 /// Failure of the database, the disk or stored data.
@@ -51,9 +52,8 @@ pub enum StoreError {
         least: i64,
     },
     /// The tables of the queue that machines share refused.
-    #[cfg(feature = "cluster")]
     #[error("queue: {0}")]
-    SharedQueue(#[from] apalis_postgres::Error),
+    SharedQueue(#[from] QueueError),
     /// Packages of models without a database that knows them.
     #[error(
         "{} is missing or holds nothing of this program, and beside it lie packages of models ({packages}), which it \
@@ -144,9 +144,8 @@ impl StoreError {
                 | sqlx::Error::PoolClosed
                 | sqlx::Error::WorkerCrashed,
             )
+            | Self::SharedQueue(_)
             | Self::Unseen => true,
-            #[cfg(feature = "cluster")]
-            Self::SharedQueue(_) => true,
             Self::Database(error)
             | Self::Migration(MigrateError::Execute(error) | MigrateError::ExecuteMigration(error, _)) => {
                 refusal(error).is_some()

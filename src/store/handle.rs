@@ -6,14 +6,14 @@ use std::sync::Arc;
 use sqlx::AnyPool;
 
 use super::changes::Changes;
+use super::cluster::address::Address;
+use super::cluster::queue::SharedQueue;
 use super::dialect::Dialect;
 use super::error::StoreError;
 use super::marks::Marks;
-use super::objects::{Address, Objects};
+use super::objects::Objects;
 use super::packages::packages_folder;
 use super::reserve::Reserve;
-#[cfg(feature = "cluster")]
-use super::shared_queue::SharedQueue;
 use super::{postgres, sqlite};
 
 /// Name of the file in a data folder that the process which uses the folder locks.
@@ -36,7 +36,6 @@ pub struct Store {
     /// Object store with the files that other processes share.
     pub(super) objects: Objects,
     /// Queue of tasks that other processes share.
-    #[cfg(feature = "cluster")]
     tasks: Option<SharedQueue>,
 }
 
@@ -60,13 +59,10 @@ impl Store {
         std::fs::create_dir_all(packages_folder(folder))?;
         let pool = postgres::open(url).await?;
         let store = Self::with(folder, Dialect::Postgres, pool.clone(), pool)?;
-        #[cfg(feature = "cluster")]
-        let store = Self { tasks: Some(SharedQueue::open(url).await?), ..store };
-        Ok(store)
+        Ok(Self { tasks: SharedQueue::open(url).await?, ..store })
     }
 
     /// Queue of the tasks that all processes with these tables share; none with a data folder.
-    #[cfg(feature = "cluster")]
     pub fn shared_queue(&self) -> Option<&SharedQueue> {
         self.tasks.as_ref()
     }
@@ -85,7 +81,6 @@ impl Store {
             reserve,
             changes,
             objects,
-            #[cfg(feature = "cluster")]
             tasks: None,
         })
     }
@@ -105,7 +100,6 @@ impl Store {
     pub async fn close(&self) {
         self.readers.close().await;
         self.writer.close().await;
-        #[cfg(feature = "cluster")]
         if let Some(tasks) = &self.tasks {
             tasks.close().await;
         }

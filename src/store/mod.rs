@@ -10,13 +10,12 @@ pub mod bases;
 mod calibrations;
 mod changes;
 pub mod checkpoints;
-#[cfg(feature = "cluster")]
-pub mod claims;
+#[cfg_attr(feature = "cluster", path = "cluster/shared/mod.rs")]
+#[cfg_attr(not(feature = "cluster"), path = "cluster/alone/mod.rs")]
+pub mod cluster;
 mod computing;
 #[cfg(test)]
 mod contract;
-#[cfg(feature = "cluster")]
-mod copy;
 mod dialect;
 mod end_states;
 mod error;
@@ -28,8 +27,6 @@ pub mod labels;
 mod leftovers;
 mod legs;
 pub mod limits;
-#[cfg(feature = "cluster")]
-pub mod machines;
 pub mod marks;
 mod migrations;
 pub mod models;
@@ -43,8 +40,6 @@ mod refusal;
 mod reserve;
 pub mod results;
 mod session;
-#[cfg(feature = "cluster")]
-pub mod shared_queue;
 mod sql;
 mod sqlite;
 pub mod states;
@@ -62,11 +57,8 @@ mod write;
 
 pub use backup::{Backup, Findings, backup, check};
 pub use changes::Changes;
-#[cfg(feature = "cluster")]
-pub use copy::{Copied, CopyError, CopyProgress, copy};
 pub use error::StoreError;
 pub use handle::{LOCK, Store};
-pub use objects::{Address, AddressError};
 pub use postgres::migrate;
 pub use readiness::Backlog;
 pub use upgrade::{ACCOUNTS, Upgrade};

@@ -2,14 +2,12 @@
 
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
-#[cfg(feature = "cluster")]
 use std::time::Duration;
 
 use sqlx::any::AnyRow;
 use sqlx::{AssertSqlSafe, Row};
 
-#[cfg(feature = "cluster")]
-use super::claims::Claim;
+use super::cluster::claims::Claim;
 use super::dialect::Guarded;
 use super::error::StoreError;
 use super::handle::Store;
@@ -25,13 +23,11 @@ use crate::package::{self as packaging, Limits as PackageLimits, PackageError};
 const UPLOAD_PREFIX: &str = "upload-";
 
 /// Time between two attempts to become the only process that stores or removes a package.
-#[cfg(feature = "cluster")]
 const BETWEEN_CLAIMS: Duration = Duration::from_millis(100);
 
 /// Exclusive right to store or remove a package, until it is dropped.
 struct PackageWriter<'a> {
     _here: tokio::sync::MutexGuard<'a, ()>,
-    #[cfg(feature = "cluster")]
     _everywhere: Option<Claim>,
 }
 
@@ -284,7 +280,6 @@ impl Store {
     /// Takes the exclusive right to store or remove the package of `model`, among all processes that share it.
     async fn only_package_writer(&self, model: &str) -> Result<PackageWriter<'_>, StoreError> {
         let here = self.packages.lock().await;
-        #[cfg(feature = "cluster")]
         let everywhere = match self.shared_queue() {
             Some(queue) => loop {
                 if let Some(claim) = queue.claim(&format!("package {model}")).await? {
@@ -294,13 +289,7 @@ impl Store {
             },
             None => None,
         };
-        #[cfg(not(feature = "cluster"))]
-        let _ = model;
-        Ok(PackageWriter {
-            _here: here,
-            #[cfg(feature = "cluster")]
-            _everywhere: everywhere,
-        })
+        Ok(PackageWriter { _here: here, _everywhere: everywhere })
     }
 
     /// Removes a model from an owner in the database. Returns also whether nobody has it any more.

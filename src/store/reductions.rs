@@ -53,7 +53,6 @@ impl Store {
     }
 
     /// Whether there is a reduction of `model` that this version of the program can read.
-    #[cfg(feature = "cluster")]
     pub async fn has_reduction(&self, model: &str, modes_per_speed: u32) -> Result<bool, StoreError> {
         let stored = "select 1 from reductions where model = $1 and modes_per_speed = $2 and layout = $3";
         let stored = sqlx::query(stored).bind(model).bind(i64::from(modes_per_speed)).bind(FORM);

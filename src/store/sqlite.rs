@@ -136,6 +136,12 @@ async fn join(connection: &mut SqliteConnection) -> Result<(), StoreError> {
     // References to tables that are made anew are checked again afterwards; the setting cannot be changed within a transaction.
     connection.execute("pragma foreign_keys = off").await?;
     let mut transaction = connection.begin_with("begin immediate").await?;
+    // Another process may have made the step meanwhile.
+    let now: Option<i64> =
+        sqlx::query_scalar("select max(version) from _sqlx_migrations").fetch_one(&mut *transaction).await?;
+    if now != found {
+        return Ok(());
+    }
     transaction.execute(AssertSqlSafe(sql.as_str())).await?;
     transaction.execute("delete from _sqlx_migrations").await?;
     sqlx::query(

@@ -23,8 +23,8 @@ pub(crate) fn of(data: &Path) -> Option<[(&'static str, String); 2]> {
 /// Sets the database and objects of a service to those of the servers.
 pub(crate) fn share(config: &mut Config) {
     if let Some([(_, database), (_, objects)]) = of(&config.data) {
-        config.database = Some(database.parse().unwrap());
-        config.objects = Some(objects.parse().unwrap());
+        config.shared.database = Some(database.parse().unwrap());
+        config.shared.objects = Some(objects.parse().unwrap());
     }
 }
 

@@ -51,7 +51,7 @@ fn two_is_the_command_line() {
     for (words, part) in [
         ("sweep", "<REQUEST>"),
         ("sweep request.json --set speeds", "/speeds/count=80"),
-        ("plan request.json --kind study", "modal-analysis"),
+        ("plan request.json --kind studies", "modal-analysis"),
         ("get job ../models", "interaction-map"),
         ("get job campbell frame", "sensor=1"),
         ("ls --models --kind sweep", "cannot be used with"),

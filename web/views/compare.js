@@ -72,7 +72,7 @@ async function comparable([first, ...others], signal) {
     if (sensor < 0) {
       warnings.push(`${other.name} is left out: it has no sensor like the first of ${first.name} (${sensorWords(first.map.sensor)}).`);
     } else if (factor === null) {
-      warnings.push(`${other.name} is left out: ${other.map.units.length} cannot be told in ${first.map.units.length}.`);
+      warnings.push(`${other.name} is left out: ${other.map.units.length} cannot be converted to ${first.map.units.length}.`);
     } else {
       jobs.push(scaled(sensor === other.sensor ? other : await read(other.id, sensor, signal), factor, first.map.units.length));
     }
@@ -118,7 +118,7 @@ async function compare(element, lost, { jobs, warnings }, signal) {
   const unit = unitOf(jobs[0].map.sensor, jobs[0].map.units);
   replace(element,
     lost, warnings.map((words) => h('p', { class: 'note warning', role: 'alert' }, words)),
-    h('p', { class: 'quiet' }, `Seen by ${sensorWords(jobs[0].map.sensor)}; amplitudes in ${unit}.`),
+    h('p', { class: 'quiet' }, `At the sensor ${sensorWords(jobs[0].map.sensor)}; amplitudes in ${unit}.`),
     h('h2', {}, 'Level over speed'), level, measuredForm(told, unit, show), told,
     jobs.length > 1 ? [h('h2', {}, 'Difference of the maps'), apartNote, apart] : null,
     h('h2', {}, 'Critical speeds'), criticalTable(jobs),
@@ -163,7 +163,7 @@ function criticalTable(jobs) {
     return others.length > 0 ? others.reduce((a, b) => (Math.abs(b) < Math.abs(a) ? b : a)) : null;
   };
   return table({
-    caption: 'Critical speeds of all',
+    caption: 'Critical speeds of all sweeps',
     rows: rows.sort((a, b) => a.each.speed_rad_s - b.each.speed_rad_s),
     columns: [
       { name: 'Sweep', cell: ({ of }) => h('a', { href: `#/jobs/${of.id}?view=critical` }, of.name), sort: ({ of }) => of.name },

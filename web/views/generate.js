@@ -9,8 +9,8 @@ import { bytes, nameOf, number } from '../lib/format.js';
 import { problem } from '../lib/problem.js';
 
 const PRESETS = {
-  small: 'small: seconds; for trying things out',
-  medium: 'medium: a minute; mesh for real questions',
+  small: 'small: seconds; for trying out the program',
+  medium: 'medium: a minute; a mesh for real studies',
   paper: 'paper: the size of the published example',
 };
 
@@ -27,7 +27,7 @@ export async function show(main, { query }, signal) {
   const preset = query.get('preset') in PRESETS ? query.get('preset') : 'small';
   // What an earlier request does not have is not to come from a preset.
   const base = earlier ? { splitter: null } : { preset };
-  const aside = h('aside', { 'aria-label': 'What it will be', 'aria-live': 'polite' });
+  const aside = h('aside', { 'aria-label': 'Resulting model', 'aria-live': 'polite' });
   const told = h('div');
   const bar = h('progress', { max: 100, hidden: true, 'aria-label': 'Progress' });
   const phase = h('p', { role: 'status' });
@@ -40,7 +40,7 @@ export async function show(main, { query }, signal) {
   replace(main,
     h('h1', {}, earlier ? `As ${nameOf(earlier)}, but …` : 'Generate an impeller'),
     h('p', {}, 'A centrifugal impeller on a solid hub, meshed, with stiffness at three speeds: a complete model package, whose size and mesh you choose.'),
-    h('div', { class: 'field' }, h('label', { for: id }, 'Begin with'), choice),
+    h('div', { class: 'field' }, h('label', { for: id }, 'Start from'), choice),
     h('div', { class: 'columns' },
       h('form', { novalidate: true, on: { submit: start } }, fields, told, phase, bar, h('div', { class: 'row' }, button)),
       aside));
@@ -82,7 +82,7 @@ export async function show(main, { query }, signal) {
     const homeless = error instanceof Refusal ? made.complain(error.errors, focus) : [error];
     showPlan(aside, null);
     const marked = error instanceof Refusal && error.errors.length > 0 && homeless.length === 0;
-    replace(told, marked ? h('p', { class: 'note bad', role: 'alert' }, 'See the fields that are marked.') : problem(error));
+    replace(told, marked ? h('p', { class: 'note bad', role: 'alert' }, 'Correct the marked fields.') : problem(error));
   }
   async function start(event) {
     event.preventDefault();
@@ -109,9 +109,9 @@ export async function show(main, { query }, signal) {
 }
 
 function showPlan(element, plan) {
-  replace(element, h('h2', {}, 'What it will be'), plan === null ? h('p', { class: 'note' }, 'Nothing yet: see the fields that are marked.') : facts([
+  replace(element, h('h2', {}, 'Resulting model'), plan === null ? h('p', { class: 'note' }, 'Not available yet: correct the marked fields.') : facts([
     ['Nodes of a sector', number(plan.nodes, 7)],
     ['Rows of its matrices', number(plan.dofs, 7)],
-    ['Memory to make it', bytes(plan.memory_bytes)],
+    ['Memory for generating it', bytes(plan.memory_bytes)],
   ]));
 }

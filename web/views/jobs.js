@@ -30,7 +30,7 @@ export async function show(main, { query }, signal) {
   replace(main,
     h('h1', {}, 'Jobs'),
     filters(query, narrowing('jobs', query, { read: refresh, told }, signal), signal),
-    h('div', { class: 'row' }, compare, h('span', { class: 'quiet small' }, 'Choose two or more finished sweeps to lay them over each other.')),
+    h('div', { class: 'row' }, compare, h('span', { class: 'quiet small' }, 'Choose two or more finished sweeps to overlay them.')),
     told, rows, pages);
 
   const shown = new Map();
@@ -55,7 +55,7 @@ export async function show(main, { query }, signal) {
     update(rows, shown, list.jobs, context);
     if (list.jobs.length === 0) {
       const filtered = FILTERS.some((name) => query.get(name));
-      replace(rows, h('li', { class: 'quiet' }, filtered ? 'No job is like that.' : ['There is no job yet. ', h('a', { href: '#/sweep' }, 'Ask for a sweep'), '.']));
+      replace(rows, h('li', { class: 'quiet' }, filtered ? 'No job matches.' : ['There is no job yet. ', h('a', { href: '#/sweep' }, 'Start a sweep'), '.']));
     }
     const cursor = cursorOf(list);
     replace(pages,

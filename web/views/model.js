@@ -32,7 +32,7 @@ export async function show(main, { id, query }, signal) {
   const address = (changes) => placeWith(`models/${id}`, query, { known: null, ...changes });
   replace(main,
     h('h1', {}, model.name),
-    query.get('known') ? h('p', { class: 'note', role: 'status' }, 'The service had a model with this content already: this is it, with the name that it has.') : null,
+    query.get('known') ? h('p', { class: 'note', role: 'status' }, 'The service already has a model with this content; this is that model, under its existing name.') : null,
     facts([
       ['Sectors', model.sectors],
       ['Unknowns of a sector', number(model.own_dofs, 7)],
@@ -40,8 +40,8 @@ export async function show(main, { id, query }, signal) {
       ['Stiffness at', `${model.speeds_rad_s.map((speed) => number(Math.round(rpm(speed)), 6)).join(', ')} rpm`],
       ['Units', [model.units.length, model.units.mass, model.units.time, model.units.force].join(', ')],
       ['In SI units', model.in_si ? sizes(model.in_si) : null],
-      ['Coriolis forces', model.gyroscopic ? 'can be taken into account' : 'cannot: the package has no gyroscopic matrix'],
-      ['Elements', model.mesh ? number(model.mesh.elements, 7) : 'none: nothing is known of stress'],
+      ['Coriolis forces', model.gyroscopic ? 'available' : 'not available: the package has no gyroscopic matrix'],
+      ['Elements', model.mesh ? number(model.mesh.elements, 7) : 'none: stress cannot be computed'],
       ['Package', `${bytes(model.size_bytes)}, ${moment(model.created_at)}, digest ${short(model.id)}…`],
       ['Notes', model.notes],
       ['Tags', model.tags.join(', ')],

@@ -28,7 +28,7 @@ export async function show(main, { query }, signal) {
     const filtered = query.get('name') || query.get('tag');
     replace(shown,
       models.length > 0 ? h('ul', { class: 'plain cards' }, models.map((model) => card(model, { told, read }, signal)))
-        : filtered ? h('p', { class: 'quiet' }, 'No model is like that.') : introduction(),
+        : filtered ? h('p', { class: 'quiet' }, 'No model matches.') : introduction(),
       h('div', { class: 'row' },
         query.get('cursor') ? h('a', { class: 'button', href: placeWith('models', query, { cursor: null }) }, 'Newest') : null,
         cursor ? h('a', { class: 'button', href: placeWith('models', query, { cursor }) }, 'Older') : null));
@@ -42,8 +42,8 @@ function filter(query, go, signal) {
 
 function introduction() {
   return h('div', { class: 'note' },
-    h('p', {}, 'There is no model yet. A model is one sector of a wheel from your finite-element program: a zip with the mass matrix, the stiffness at one or three speeds, nodes, and the nodes at which the blade may touch.'),
-    h('p', {}, 'To look around without one, ', h('a', { href: '#/generate' }, 'generate an impeller'), ' in a few seconds.'));
+    h('p', {}, 'There is no model yet. A model is one sector of a wheel from your finite-element program: a zip with the mass matrix, the stiffness at one or three speeds, nodes, and the nodes at which the blade may touch the casing.'),
+    h('p', {}, 'To try the program without your own model, ', h('a', { href: '#/generate' }, 'generate an impeller'), ' in a few seconds.'));
 }
 
 function card(model, { told, read }, signal) {
@@ -68,7 +68,7 @@ function card(model, { told, read }, signal) {
 export function deleteButton(model, { told, deleted }, signal) {
   const button = h('button', { type: 'button', class: 'bad', 'aria-label': `Delete ${model.name}` }, 'Delete');
   button.addEventListener('click', async () => {
-    if (!await confirmed(`Delete ${model.name}? Jobs keep what they found, but its fields can no longer be made.`, 'Delete it', signal)) return;
+    if (!await confirmed(`Delete ${model.name}? Jobs keep their results, but fields of this model can no longer be computed.`, 'Delete it', signal)) return;
     replace(told);
     try {
       await api.send('DELETE', `/v1/models/${model.id}`, undefined, { signal });

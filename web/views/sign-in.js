@@ -12,7 +12,7 @@ export async function show(main, { query }, signal) {
   const form = h('form', { on: { submit: enter } },
     h('div', { class: 'field' },
       h('label', { for: 'token' }, 'Token'),
-      h('p', { class: 'help', id: 'token-help' }, 'Whoever runs the service makes tokens with `rubmap token new`. It is kept for this tab only.'),
+      h('p', { class: 'help', id: 'token-help' }, 'The operator of the service creates tokens with `rubmap token new`. The token is stored for this tab only.'),
       field),
     h('button', { class: 'main', type: 'submit' }, 'Sign in'), told);
   field.setAttribute('aria-describedby', 'token-help');
@@ -25,7 +25,7 @@ export async function show(main, { query }, signal) {
     const text = field.value.trim();
     // A header can carry nothing else.
     if (!/^[\x21-\x7e]+$/.test(text)) {
-      replace(told, h('p', { class: 'note bad', role: 'alert' }, 'A token has letters, digits and signs, and no spaces.'));
+      replace(told, h('p', { class: 'note bad', role: 'alert' }, 'A token consists of letters, digits and symbols, without spaces.'));
       return;
     }
     signIn(text);

@@ -71,6 +71,6 @@ export async function show(main, { query }, signal, first = 'sweep') {
     return;
   }
   const model = await api.get(`/v1/models/${query.get('model')}`, { signal });
-  const words = `Model: ${model.name}. Speeds and casing are in proportion to it (clearance ${percent(CLEARANCE)} of the tips’ radius), to be changed; lengths are in ${model.units.length}.`;
+  const words = `Model: ${model.name}. Speeds and casing are scaled to it (clearance ${percent(CLEARANCE)} of the tips’ radius); change them as needed. Lengths are in ${model.units.length}.`;
   await requestForm(place, { model, kind, value: kind.begin(model), words }, signal);
 }

@@ -23,7 +23,7 @@ const calm = () => matchMedia('(prefers-reduced-motion: reduce)').matches;
  * @param {AbortSignal} signal
  */
 export async function showWheel(element, { path, query, animated, scalar, label, words }, signal) {
-  replace(element, h('p', { class: 'quiet', role: 'status' }, 'The field is made …'));
+  replace(element, h('p', { class: 'quiet', role: 'status' }, 'Computing the field …'));
   const surface = readSurface(await api.text(path, { query: { ...query, format: 'vtp' }, signal }));
   if (signal.aborted) return;
   const body = aboutAxis(surface);
@@ -55,7 +55,7 @@ export async function showWheel(element, { path, query, animated, scalar, label,
       moves ? playButton(shown) : null,
       slider, caption,
       toggle('Edges of elements', false, (on) => shown.hide('edges', !on)),
-      h('button', { type: 'button', on: { click: shown.reset } }, 'First view')),
+      h('button', { type: 'button', on: { click: shown.reset } }, 'Reset view')),
     hint());
   scaled();
 }
@@ -68,7 +68,7 @@ export async function showWheel(element, { path, query, animated, scalar, label,
  * @param {AbortSignal} signal
  */
 export async function showMesh(element, model, contact, signal) {
-  replace(element, h('p', { class: 'quiet', role: 'status' }, 'The mesh is read …'));
+  replace(element, h('p', { class: 'quiet', role: 'status' }, 'Reading the mesh …'));
   const path = `/v1/models/${model.id}/mesh`;
   const surface = readSurface(await api.text(path, { query: { format: 'vtp' }, signal }));
   if (signal.aborted) return;
@@ -100,7 +100,7 @@ export async function showMesh(element, model, contact, signal) {
         shown.hide('casing', !on);
         shown.hide('rims', !on);
       }), slider, caption] : null,
-      h('button', { type: 'button', on: { click: shown.reset } }, 'First view')),
+      h('button', { type: 'button', on: { click: shown.reset } }, 'Reset view')),
     hint());
 }
 
@@ -182,7 +182,7 @@ function toggle(words, on, change) {
 }
 
 function hint() {
-  return h('p', { class: 'quiet small' }, 'Drag to turn, with shift to move; arrow keys turn, + and − zoom, 0 begins anew.');
+  return h('p', { class: 'quiet small' }, 'Drag to turn, with shift to move; arrow keys turn, + and − zoom, 0 resets the view.');
 }
 
 /** The service's drawing, where the browser draws nothing in 3D. */
@@ -191,6 +191,6 @@ async function drawing(element, path, query, signal) {
   const address = URL.createObjectURL(blob);
   signal.addEventListener('abort', () => URL.revokeObjectURL(address));
   replace(element,
-    h('p', { class: 'note' }, 'This browser has no WebGL 2, which the view in 3D needs: this is the drawing of the service.'),
+    h('p', { class: 'note' }, 'This browser does not support WebGL 2, which the 3D view needs; the service has drawn this picture instead.'),
     h('img', { class: 'drawing', src: address, alt: 'Drawing of the wheel' }));
 }

@@ -28,7 +28,7 @@ export function rgb(name) {
  * @param {AbortSignal} signal
  */
 export function stage({ label, middle, radius, front }, signal) {
-  const canvas = h('canvas', { class: 'stage', tabindex: '0', role: 'application', 'aria-label': `${label}. Arrow keys turn it, plus and minus zoom, 0 begins anew.` });
+  const canvas = h('canvas', { class: 'stage', tabindex: '0', role: 'application', 'aria-label': `${label}. Arrow keys turn it, plus and minus zoom, 0 resets the view.` });
   const drawn = renderer(canvas);
   if (!drawn) return null;
   const eye = camera(middle, radius, front);

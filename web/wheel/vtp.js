@@ -24,7 +24,7 @@ function bytesOf(text) {
  */
 export function readSurface(text) {
   const xml = new DOMParser().parseFromString(text, 'application/xml');
-  if (xml.querySelector('parsererror')) throw new Error('the file of the wheel is no XML');
+  if (xml.querySelector('parsererror')) throw new Error('the file of the wheel is not valid XML');
   const array = (element) => {
     const bytes = bytesOf(element.textContent);
     return new TYPES[element.getAttribute('type')](bytes.buffer.slice(HEADER));

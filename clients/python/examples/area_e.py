@@ -10,7 +10,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import rubmap
-from rubmap.contract import LabelledSweepRequest, Speeds, SteadyChoice
+from rubmap.contract import SweepRequest, Speeds, SteadyChoice
 
 GENERATED: Speeds = [
     {"from": 22700, "to": 22900, "count": 9, "unit": "rpm"},
@@ -18,7 +18,7 @@ GENERATED: Speeds = [
 ]
 
 
-def sweep_of(model: str, speeds: Speeds, steady: SteadyChoice) -> LabelledSweepRequest:
+def sweep_of(model: str, speeds: Speeds, steady: SteadyChoice) -> SweepRequest:
     """The sweep of area E, solved for or marched."""
     return {
         "model": model,

@@ -7,10 +7,10 @@ import sys
 from collections import Counter
 
 import rubmap
-from rubmap.contract import LabelledSweepRequest
+from rubmap.contract import SweepRequest
 
 
-def sweep_of(model: str, damping: float) -> LabelledSweepRequest:
+def sweep_of(model: str, damping: float) -> SweepRequest:
     """The demo's sweep with this damping, solved for."""
     return {
         "model": model,

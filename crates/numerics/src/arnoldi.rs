@@ -21,7 +21,8 @@ pub struct Pair {
 pub fn largest(
     mut product: impl FnMut(&[f64]) -> Vec<f64>,
     start: &[f64],
-    (count, most): (usize, usize),
+    count: usize,
+    most: usize,
     enough: impl Fn(usize, c64, f64) -> bool,
 ) -> Vec<Pair> {
     let scale = dot(start, start).sqrt();
@@ -139,7 +140,7 @@ mod tests {
     #[test]
     fn the_largest_of_many_that_lie_close_are_found() {
         let size = 120;
-        let found = largest(product, &vec![1.0; size], (3, size), |_, _, residual| residual < 1e-8);
+        let found = largest(product, &vec![1.0; size], 3, size, |_, _, residual| residual < 1e-8);
         // The third has its conjugate beside it.
         assert_eq!(found.len(), 4);
         for (j, Pair { value, vector, residual }) in found.iter().enumerate() {
@@ -155,10 +156,10 @@ mod tests {
     #[test]
     fn a_space_that_is_mapped_to_itself_says_all_it_knows() {
         let product = |x: &[f64]| vec![2.0 * x[0], -3.0 * x[1], x[2]];
-        let found = largest(product, &[1.0, 1.0, 0.0], (3, 10), |_, _, residual| residual < 1e-12);
+        let found = largest(product, &[1.0, 1.0, 0.0], 3, 10, |_, _, residual| residual < 1e-12);
         let values: Vec<f64> = found.iter().map(|pair| pair.value.re).collect();
         assert!(values.len() == 2 && found.iter().all(|pair| pair.residual < 1e-12));
         assert!((values[0] + 3.0).abs() < 1e-12 && (values[1] - 2.0).abs() < 1e-12);
-        assert!(largest(<[f64]>::to_vec, &[0.0; 2], (1, 3), |_, _, _| true).is_empty());
+        assert!(largest(<[f64]>::to_vec, &[0.0; 2], 1, 3, |_, _, _| true).is_empty());
     }
 }

@@ -200,7 +200,7 @@ mod tests {
     use super::*;
     use crate::sampling::quantile;
 
-    fn cases(n: usize, seed: u64, (mean, deviation): (f64, f64), sign: f64) -> Vec<(f64, bool)> {
+    fn cases(n: usize, seed: u64, mean: f64, deviation: f64, sign: f64) -> Vec<(f64, bool)> {
         let mut generator = SplitMix64::seed_from_u64(seed);
         let mut unit = || ((generator.next_u64() >> 12) as f64 + 0.5) / (1u64 << 52) as f64;
         let case = |_| {
@@ -224,7 +224,7 @@ mod tests {
                 let trials = 300;
                 let (mut within, mut width) = (0, 0.0);
                 for seed in 0..trials {
-                    let found = curve(&cases(n, seed, (mean, deviation), sign));
+                    let found = curve(&cases(n, seed, mean, deviation, sign));
                     assert_eq!(found.is_rising(), sign > 0.0);
                     let Crossing { x, interval } = found.crossing(p, 0.95);
                     assert!(interval.0 <= x && x <= interval.1, "{x} {interval:?}");
@@ -237,7 +237,7 @@ mod tests {
                 assert!(width < 0.25, "{width}");
             }
         }
-        let many = curve(&cases(20_000, 1, (mean, deviation), 1.0)).thresholds();
+        let many = curve(&cases(20_000, 1, mean, deviation, 1.0)).thresholds();
         assert!((many.0 - mean).abs() < 0.01 && (many.1 - deviation).abs() < 0.01, "{many:?}");
     }
 

@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, SMatrix, Vector3};
 
 use crate::element::ElementKind;
-use crate::material::lame_constants;
+use crate::material::{Lame, lame_constants};
 use crate::natural::Natural;
 use crate::rule::points;
 use crate::shape::derivatives;
@@ -56,7 +56,7 @@ impl Gradients {
 
     /// Recovery of the amplitudes of incompatible modes, which follow the corners statically: `α = −K_αα⁻¹ K_αu u`.
     pub(crate) fn recovery(&self, youngs_modulus: f64, poissons_ratio: f64) -> Recovery {
-        let (lambda, mu) = lame_constants(youngs_modulus, poissons_ratio);
+        let Lame { lambda, mu } = lame_constants(youngs_modulus, poissons_ratio);
         let block = |a: usize, b: usize| -> Matrix3<f64> {
             let products = self.at_points.iter().zip(&self.volumes);
             let s: Matrix3<f64> = products.map(|(g, volume)| g[a] * g[b].transpose() * *volume).sum();

@@ -29,18 +29,28 @@ pub struct Material {
 
 impl Material {
     /// Lamé's constants λ and μ, `σ = λ tr(ε) 1 + 2μ ε`.
-    pub fn lame_constants(&self) -> (f64, f64) {
+    pub fn lame_constants(&self) -> Lame {
         lame_constants(self.youngs_modulus, self.poissons_ratio)
     }
 }
 
-/// Lamé's constants λ and μ from Young's modulus and Poisson's ratio.
-pub fn lame_constants(e: f64, nu: f64) -> (f64, f64) {
-    (e * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)), e / (2.0 * (1.0 + nu)))
+/// Lamé's constants of an isotropic material.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Lame {
+    /// First constant λ.
+    pub lambda: f64,
+    /// Shear modulus μ.
+    pub mu: f64,
+}
+
+/// Lamé's constants from Young's modulus and Poisson's ratio.
+pub fn lame_constants(e: f64, nu: f64) -> Lame {
+    Lame { lambda: e * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)), mu: e / (2.0 * (1.0 + nu)) }
 }
 
 /// Stress under the displacement gradient `h_ij = ∂u_i/∂x_j`.
-pub fn stress((lambda, mu): (f64, f64), h: &Matrix3<f64>) -> Stress {
+pub fn stress(constants: Lame, h: &Matrix3<f64>) -> Stress {
+    let Lame { lambda, mu } = constants;
     let normal = |i: usize| lambda * h.trace() + 2.0 * mu * h[(i, i)];
     let shear = |i: usize, j: usize| mu * (h[(i, j)] + h[(j, i)]);
     Stress::new(normal(0), normal(1), normal(2), shear(0, 1), shear(1, 2), shear(2, 0))

@@ -75,7 +75,7 @@ async fn repeat(archived: &Archive, client: &Client, folder: &Path, to: &Path) -
         );
     }
     for (name, field) in [(PACKAGE, "model"), (COMPARED_PACKAGE, "compared_model")] {
-        if request.get(field).is_none() {
+        if request[field].is_null() {
             continue;
         }
         let package = folder.join(name);

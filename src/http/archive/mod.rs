@@ -109,7 +109,9 @@ impl Contents {
     /// Writes the archive, reading the results one by one.
     fn write(mut self, out: &mut impl Write) -> io::Result<()> {
         let mut zip = Writer::new(BufWriter::new(out));
-        zip.json(REQUEST, 0, &RawValue::from_string(self.posted.body.clone())?)?;
+        // With defaults and chosen settings filled in, where that can be posted: the same job whatever a later program would choose.
+        let request = self.job.request.as_posted()?.unwrap_or_else(|| self.posted.body.clone());
+        zip.json(REQUEST, 0, &RawValue::from_string(request)?)?;
         zip.json(SETTINGS, 0, &RawValue::from_string(self.job.request.text()?)?)?;
         if let Some(choice) = &self.job.choice {
             zip.json(CHOICE, 0, choice)?;

@@ -8,6 +8,5 @@ pub(in crate::jobs) struct Whose<'a> {
     pub(in crate::jobs) owner: &'a str,
     pub(in crate::jobs) job: JobId,
     /// Whether only processors with the vectors of this one may take its speeds.
-    #[cfg(feature = "cluster")]
     pub(in crate::jobs) one_kind: bool,
 }

@@ -24,7 +24,7 @@ use crate::store::status::JobStatus;
 use crate::store::testing::stores;
 use crate::store::{Backlog, Store};
 
-pub(super) fn answer(owner: &str, key: &str) -> Answer {
+pub(in crate::store) fn answer(owner: &str, key: &str) -> Answer {
     let (owner, key) = (owner.to_owned(), key.to_owned());
     let (fingerprint, location) = ("f".to_owned(), format!("/v1/models/{}", model_id('a')));
     Answer { owner, key, fingerprint, status: 202, location, body: "{}".to_owned() }
@@ -375,7 +375,7 @@ async fn limits_and_keys_refuse_what_is_too_much() {
 }
 
 /// Calibration in which all costs are `cost`.
-pub(super) fn calibration(cost: f64) -> Calibration {
+pub(in crate::store) fn calibration(cost: f64) -> Calibration {
     let step = json!({"fixed": cost, "per_product": cost, "per_transform": cost});
     let mut effects = json!({});
     loop {
@@ -393,7 +393,7 @@ pub(super) fn calibration(cost: f64) -> Calibration {
     }
 }
 
-pub(super) fn reduced(modes_per_speed: u32) -> ReducedSector {
+pub(in crate::store) fn reduced(modes_per_speed: u32) -> ReducedSector {
     let stiffening = json!({"verdict": "absent", "linear_ratio": 0.0, "quadratic_ratio": 0.0,
         "frequency_error": 0.0, "message": "none"});
     let report = json!({

@@ -1,8 +1,6 @@
 //! Contract of the store, tested on every database that the program was built for.
 
-mod alone;
-#[cfg(feature = "cluster")]
-mod copied;
+pub(super) mod alone;
 mod together;
 
 use std::sync::Arc;
@@ -23,7 +21,7 @@ use crate::analysis::run::ModelFacts;
 use crate::kinds::JobKind;
 
 /// Id of a model, made of one letter.
-fn model_id(letter: char) -> String {
+pub(super) fn model_id(letter: char) -> String {
     letter.to_string().repeat(64)
 }
 
@@ -35,13 +33,13 @@ fn facts(name: &str) -> ModelFacts {
     serde_json::from_value(facts).unwrap()
 }
 
-fn labels(name: &str, tags: &[&str]) -> Labels {
+pub(super) fn labels(name: &str, tags: &[&str]) -> Labels {
     let tags = tags.iter().map(|&tag| tag.to_owned()).collect();
     Labels { name: Some(name.to_owned()), tags, notes: None }
 }
 
 /// Uploads a model for `owner`. Returns whether it is new to the owner.
-async fn upload(store: &Store, owner: &str, letter: char, labels: &Labels) -> bool {
+pub(super) async fn upload(store: &Store, owner: &str, letter: char, labels: &Labels) -> bool {
     let upload = store.new_upload().await.unwrap().into_temp_path();
     std::fs::write(&upload, "package").unwrap();
     let facts = facts(&format!("Package {letter}"));
@@ -54,7 +52,7 @@ fn sweep(letter: char, speeds: u32) -> Arc<dyn ResolvedJob> {
 }
 
 /// Sweep over the model of this letter, on one kind of processor or on any.
-fn sweep_on(letter: char, speeds: u32, one_kind: bool) -> Arc<dyn ResolvedJob> {
+pub(super) fn sweep_on(letter: char, speeds: u32, one_kind: bool) -> Arc<dyn ResolvedJob> {
     let values: Vec<u32> = (1..=speeds).collect();
     let request = json!({
         "model": model_id(letter), "modes_per_speed": 20, "scene": {},
@@ -65,11 +63,16 @@ fn sweep_on(letter: char, speeds: u32, one_kind: bool) -> Arc<dyn ResolvedJob> {
 }
 
 /// Queues a sweep over the model of this letter.
-async fn queue(store: &Store, owner: &str, letter: char, speeds: u32, labels: &Labels) -> JobId {
+pub(super) async fn queue(store: &Store, owner: &str, letter: char, speeds: u32, labels: &Labels) -> JobId {
     queue_request(store, owner, &*sweep(letter, speeds), labels).await
 }
 
-async fn queue_request(store: &Store, owner: &str, request: &dyn ResolvedJob, labels: &Labels) -> JobId {
+pub(super) async fn queue_request(
+    store: &Store,
+    owner: &str,
+    request: &dyn ResolvedJob,
+    labels: &Labels,
+) -> JobId {
     let id = JobId::new();
     let facts = facts("m");
     let new = NewJob { id, owner, request, posted: None, labels, facts: Some(&facts) };
@@ -88,7 +91,7 @@ fn point(index: u32, status: &str) -> Point {
 }
 
 /// Result of a finished speed with everything that a speed may have.
-fn result(index: u32) -> SpeedResult {
+pub(super) fn result(index: u32) -> SpeedResult {
     let spectrum = SensorSpectrum {
         sensor: Sensor::at_contact(0, 1, Component::Radial),
         amplitude: vec![0.1 + 0.2, -0.0],
@@ -104,11 +107,11 @@ fn result(index: u32) -> SpeedResult {
 }
 
 /// Starts a job on one kind of processor. Returns whether the job wants work.
-async fn begin(store: &Store, job: JobId) -> bool {
+pub(super) async fn begin(store: &Store, job: JobId) -> bool {
     store.begin_job(job, "V3").await.unwrap() == Begun::Yes
 }
 
 /// Stores a finished speed. Returns the number of finished speeds.
-async fn keep(store: &Store, job: JobId, result: &SpeedResult) -> Option<u32> {
+pub(super) async fn keep(store: &Store, job: JobId, result: &SpeedResult) -> Option<u32> {
     store.insert_speed(job, &PackedSpeed::of(result).unwrap()).await.unwrap()
 }

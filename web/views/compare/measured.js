@@ -63,7 +63,7 @@ export function measurement(text, unit, length) {
   const failed = (words) => ({ points: [], bad: [], words });
   if (lines.length === 0) return failed('The file is empty.');
   if (at.speed === undefined || (at.frequency === undefined && at.amplitude === undefined)) {
-    return failed(`Nothing is taken: the header “${header.join(', ').slice(0, 100)}” does not say which column is the speed and which the frequency or the amplitude. Name them so: speed_rpm, frequency_Hz, amplitude_${length}.`);
+    return failed(`Nothing is taken: the header “${header.join(', ').slice(0, 100)}” does not say which column is the speed and which the frequency or the amplitude. Name the columns like this: speed_rpm, frequency_Hz, amplitude_${length}.`);
   }
   const used = unit || (header && speedUnit(header[at.speed])) || 'rpm';
   const kilo = header && at.frequency !== undefined && /khz/i.test(header[at.frequency]) ? 1000 : 1;
@@ -78,7 +78,7 @@ export function measurement(text, unit, length) {
     if (omega === null || [omega, hz, amplitude].some((each) => each !== null && !Number.isFinite(each))) {
       bad.push(`line ${k + 1}: expected numbers for speed, frequency and amplitude, not “${line.slice(0, 60)}”`);
     } else if (omega < 0 || (hz ?? 0) < 0) {
-      bad.push(`line ${k + 1}: speed and frequency are not negative`);
+      bad.push(`line ${k + 1}: speed and frequency must not be negative`);
     } else {
       points.push({ rpm: omega * TO_RPM[used], hz: hz === null ? null : kilo * hz, amplitude: amplitude === null || factor === null ? null : factor * amplitude });
     }
@@ -92,7 +92,7 @@ function said({ points, bad, header, at, used, own, factor, length }) {
   const taken = [`speed from ${column('speed')} in ${NAMES[used]}`];
   if (at.frequency !== undefined) taken.push(`frequency from ${column('frequency')}`);
   if (at.amplitude !== undefined) {
-    taken.push(factor === null ? `no amplitude: ${own} cannot be told in ${length}` : `amplitude from ${column('amplitude')} ${own ? `in ${own}` : `taken for ${length}`}`);
+    taken.push(factor === null ? `no amplitude: ${own} cannot be converted to ${length}` : `amplitude from ${column('amplitude')} ${own ? `in ${own}` : `assumed to be in ${length}`}`);
     if (header && /rms/i.test(header[at.amplitude])) taken.push('an rms value, beside curves of half peak to peak');
   }
   const speeds = points.map((point) => point.rpm);

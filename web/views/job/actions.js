@@ -62,7 +62,7 @@ export function actions(job, { told, deleted }, signal) {
   }
 
   async function remove() {
-    if (!await confirmed(`Delete ${name} with all that it found?`, 'Delete it', signal)) return;
+    if (!await confirmed(`Delete ${name} with all its results?`, 'Delete it', signal)) return;
     await api.send('DELETE', `/v1/jobs/${job.id}`, undefined, { signal });
     await deleted();
   }

@@ -22,8 +22,8 @@ const KINDS = {
 
 const ENDS = {
   leaves_range: () => 'leaves the range',
-  joins: () => 'comes back to the branch that it doubles',
-  most_points: () => 'has as many points as were asked for',
+  joins: () => 'returns to the branch whose period it doubles',
+  most_points: () => 'reached the requested number of points',
   lost: ({ reason }) => `could not be followed further: ${reason}`,
 };
 
@@ -59,7 +59,7 @@ export async function show(place, context, signal) {
     } catch (error) {
       if (signal.aborted) return;
       const early = error instanceof Refusal && error.type.endsWith('result-not-ready');
-      replace(told, early ? h('p', { class: 'note' }, 'No point is found yet: the first periodic response is being sought.') : unread(error, signal));
+      replace(told, early ? h('p', { class: 'note' }, 'No point has been found yet: the search for the first periodic response is running.') : unread(error, signal));
     }
   }
   let phase = job.phase;
@@ -92,7 +92,7 @@ function tables(read, sensor) {
         { name: 'What happens', cell: (each) => KINDS[each.kind] ?? each.kind, sort: (each) => each.kind },
         value,
         { name: `Half peak to peak, ${unit}`, number: true, cell: (each) => number(each.half_peak_to_peak[sensor]), sort: (each) => each.half_peak_to_peak[sensor] },
-        { name: 'Lines aside, orders', number: true, cell: (each) => number(each.multiplier?.order_offset), sort: (each) => each.multiplier?.order_offset },
+        { name: 'Line offset, orders', number: true, cell: (each) => number(each.multiplier?.order_offset), sort: (each) => each.multiplier?.order_offset },
         { name: 'Nodal diameter', number: true, cell: (each) => each.multiplier?.nodal_diameter ?? '–', sort: (each) => each.multiplier?.nodal_diameter },
         { name: '|μ| on the stable side', number: true, cell: (each) => number(each.stable_modulus), sort: (each) => each.stable_modulus },
       ],

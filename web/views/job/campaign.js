@@ -84,7 +84,7 @@ function tables({ designs, sensitivities, threshold, comparison, settings, speed
   ].filter(Boolean);
 }
 
-const VERDICTS = { greater: 'the compared model is more severe', smaller: 'it is less severe', undecided: 'no larger than its errors' };
+const VERDICTS = { greater: 'the compared model is more severe', smaller: 'the compared model is less severe', undecided: 'no larger than its error' };
 
 /** How the model that is compared differs, at every speed. */
 function compared({ model, message, by_speed: differences, limit }, speeds, settings) {
@@ -92,7 +92,7 @@ function compared({ model, message, by_speed: differences, limit }, speeds, sett
   return h('section', {},
     h('h2', {}, 'Compared with ', h('a', { href: `#/models/${model}` }, 'another model')),
     h('p', {}, message),
-    limit ? h('p', {}, `Of the designs that are decided with both, ${limit.both} meet the limit of ${number(settings.limit)} with both, ${limit.only_model} only with the campaign’s model, ${limit.only_compared} only with the compared one, ${limit.neither} with neither.`) : null,
+    limit ? h('p', {}, `Of the designs with a known outcome for both models, ${limit.both} meet the limit of ${number(settings.limit)} with both, ${limit.only_model} only with the campaign’s model, ${limit.only_compared} only with the compared one, ${limit.neither} with neither.`) : null,
     table({
       caption: 'Differences of the severity by speed',
       rows,

@@ -18,9 +18,9 @@ export async function show(place, context, signal) {
   const frame = query.get('frame') ?? 'rotating';
   const figure = h('div', { class: 'figure tall' });
   replace(place,
-    h('div', { class: 'row' }, select('Frame', [['rotating', 'rotating, as the blades feel it'], ['fixed', 'fixed, as the casing feels it']], frame, (chosen) => context.go({ frame: chosen }))),
+    h('div', { class: 'row' }, select('Frame', [['rotating', 'rotating, as seen by the blades'], ['fixed', 'fixed, as seen by the casing']], frame, (chosen) => context.go({ frame: chosen }))),
     figure,
-    h('p', { class: 'quiet small' }, 'A family is the rank of a frequency at its speed: modes that cross swap their families.'),
+    h('p', { class: 'quiet small' }, 'A family is the rank of a frequency at its speed: modes that cross exchange their families.'),
     analysis === job ? null : h('p', { class: 'quiet small' }, 'Of the ', h('a', { href: `#/jobs/${analysis.id}` }, 'modal analysis'), ' of the same model with the same modes, lobes and Coriolis forces.'));
   const read = await api.figure(`/v1/jobs/${analysis.id}/campbell`, { frame }, { signal });
   await plot(figure, read, { signal, label: 'Campbell diagram' });
@@ -70,6 +70,6 @@ function offer(place, job, signal) {
     event.target.disabled = false;
   };
   replace(place,
-    h('p', {}, 'Natural frequencies over speed come from a modal analysis of the same model; there is none with these modes and lobes yet. The reduction is there, so that it takes seconds.'),
+    h('p', {}, 'Natural frequencies over speed come from a modal analysis of the same model; there is none with these modes and lobes yet. The reduction exists already, so this takes seconds.'),
     h('button', { type: 'button', class: 'main', on: { click: start } }, 'Compute the Campbell diagram'), told);
 }

@@ -25,16 +25,16 @@ export async function show(place, context, signal) {
       h('h2', {}, 'The reduction'),
       facts([
         ['Modes per speed', reduction.modes_per_speed],
-        ['Unknowns of the wheel, reduced', number(reduction.wheel_unknowns, 9)],
-        ['Of them by nodal diameter', reduction.unknowns.join(', ')],
+        ['Unknowns of the reduced wheel', number(reduction.wheel_unknowns, 9)],
+        ['Unknowns by nodal diameter', reduction.unknowns.join(', ')],
         ['Largest residual of a mode', reduction.largest_mode_residual?.toExponential(1)],
         ['Modes counted', reduction.counted_modes === null || reduction.counted_modes === undefined ? null : 'none was missed (Sylvester’s law)'],
         ['Stiffening', reduction.stiffening?.verdict],
-        ['Made in', duration(reduction.wall_time_s)],
+        ['Computed in', duration(reduction.wall_time_s)],
         ['Code', reduction.version],
       ]),
     ] : null,
-    choice ? [h('h2', {}, 'The setting that was chosen'), h('pre', { tabindex: '0', 'aria-label': 'Choice' }, JSON.stringify(choice, null, 2))] : null,
+    choice ? [h('h2', {}, 'Chosen setting'), h('pre', { tabindex: '0', 'aria-label': 'Choice' }, JSON.stringify(choice, null, 2))] : null,
     h('h2', {}, 'The request'),
     h('pre', { tabindex: '0', 'aria-label': 'Request' }, JSON.stringify(job.request, null, 2)));
   if (!ended(job)) context.onChange((now) => ended(now) && again());

@@ -18,7 +18,7 @@ export async function show(place, { job }, signal) {
   const indexed = job.links.some((link) => link.href.includes('{index}'));
   const items = job.links.filter((link) => link.rel !== 'self').map((link) => item(link, contract, job, { told, speeds }, signal));
   replace(place,
-    indexed ? h('p', {}, h('label', { for: 'download-speed' }, 'Index of the speed, where a result is of one: '), speeds) : null,
+    indexed ? h('p', {}, h('label', { for: 'download-speed' }, 'Index of the speed, for results of a single speed: '), speeds) : null,
     items.length > 0 ? h('ul', { class: 'cards' }, items) : h('p', { class: 'note' }, 'There is nothing to download yet.'),
     told);
 }

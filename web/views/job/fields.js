@@ -11,7 +11,7 @@ import { recorder } from './histories.js';
 const COLOURS = [
   ['', 'displacement', {}],
   ['stress', 'von Mises stress of the vibration', { stress: true }],
-  ['total', 'von Mises stress of the whole load', { stress: true, static: 'include' }],
+  ['total', 'von Mises stress with the static part', { stress: true, static: 'include' }],
 ];
 
 export async function show(place, context, signal) {
@@ -31,7 +31,7 @@ export async function show(place, context, signal) {
       Array.isArray(recorded) && recorded.length > 1 ? select('Speed', recorded.map((index) => [String(index), `index ${index}`]), speed, (chosen) => context.go({ speed: chosen })) : null,
       h('span', {}, h('label', { for: id }, 'Deflection shape of engine order '), field),
       select('Colour', colours.map(([one, text]) => [one, text]), name, (chosen) => context.go({ colour: chosen }))),
-    order === '' ? h('p', { class: 'quiet small' }, 'Without an engine order: the instant at which a tip had moved most.') : null,
+    order === '' ? h('p', { class: 'quiet small' }, 'Without an engine order: the instant of the largest tip motion.') : null,
     wheel);
   const { length, force } = model.units;
   try {

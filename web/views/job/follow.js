@@ -30,12 +30,12 @@ function ask(job, speed_rad_s, signal) {
   const start = h('button', { type: 'submit', class: 'main' }, 'Follow');
   const dialog = h('dialog', { 'aria-label': 'Follow branches' },
     h('form', { on: { submit: send } },
-      h('p', {}, `The periodic response at ${speed(speed_rad_s)} is sought and followed both ways, around folds, stable or not.`),
+      h('p', {}, `The periodic response at ${speed(speed_rad_s)} is found and followed in both directions, around folds, stable or not.`),
       h('label', { for: ids.parameter }, 'What changes'), parameter,
       h('label', { for: ids.from }, 'From'), ends.from,
       h('label', { for: ids.to }, 'To'), ends.to,
       unit, told,
-      h('div', { class: 'row' }, h('button', { type: 'button', on: { click: () => dialog.close() } }, 'Leave it'), start)));
+      h('div', { class: 'row' }, h('button', { type: 'button', on: { click: () => dialog.close() } }, 'Close'), start)));
   const left = () => dialog.close();
   signal.addEventListener('abort', left);
   dialog.addEventListener('close', () => {
@@ -49,7 +49,7 @@ function ask(job, speed_rad_s, signal) {
   function begin() {
     const range = rangeOf(parameter.value, speed_rad_s);
     for (const name of ['from', 'to']) ends[name].value = range[name];
-    replace(unit, parameter.value === 'speed' ? `In rpm, with ${speed(speed_rad_s)} between them.` : 'Multiples of what the scene says, with 1 between them.');
+    replace(unit, parameter.value === 'speed' ? `In rpm; the range must contain ${speed(speed_rad_s)}.` : 'Multiples of the scene’s value; the range must contain 1.');
   }
   async function send(event) {
     event.preventDefault();

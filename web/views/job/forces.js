@@ -9,7 +9,7 @@ const QUANTITIES = [
   ['peak', 'largest force on a node'],
   ['impulse', 'impulse'],
   ['share', 'share of time in contact'],
-  ['consumption', 'consumption of the clearance'],
+  ['consumption', 'clearance consumption'],
 ];
 
 export async function show(place, context, signal) {

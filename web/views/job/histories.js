@@ -39,7 +39,7 @@ export function recorder(job, index, view, signal) {
     }
   }
   return h('div', { class: 'note' },
-    h('p', {}, 'Nothing was recorded of this speed. It can be simulated once more, to the bit, with histories and states: a job of its own, whose page opens then.'),
+    h('p', {}, 'No histories were recorded at this speed. A new job can simulate it again, bit for bit, and record histories and states; its page then opens.'),
     button, told);
 }
 

@@ -26,7 +26,7 @@ export async function show(place, context, signal) {
       select('Nodal diameter', [['', 'all'], ...await diameters(job, signal)], query.get('nodal_diameter') ?? '', (nodal_diameter) => context.go({ nodal_diameter })),
       select('Level coloured by', [['', 'nothing'], ['utilisation', 'utilisation']], query.get('colour') ?? '', (colour) => context.go({ colour }))),
     told, figure,
-    h('p', { class: 'quiet small' }, 'A click on the map opens that speed; arrow keys of “One speed” go through all.'),
+    h('p', { class: 'quiet small' }, 'Click the map to open a speed; the arrow keys of “One speed” step through all speeds.'),
     summary);
 
   async function read() {

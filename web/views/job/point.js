@@ -16,7 +16,7 @@ export async function show(place, context, signal) {
   // By speed: in a request a finer range may come after a coarse one, and refinement adds speeds at the end.
   const list = map.points.toSorted((a, b) => a.speed_rad_s - b.speed_rad_s);
   if (list.length === 0) {
-    replace(place, h('p', { class: 'note' }, 'No speed has a result yet.'));
+    replace(place, h('p', { class: 'note' }, 'No speed has finished yet.'));
     return;
   }
   const asked = Number(query.get('speed') ?? list[0].index);
@@ -97,19 +97,19 @@ function credentials(point, map) {
   const { length, force } = map.units;
   const settling = point.settling;
   return facts([
-    ['Ended as', point.status],
+    ['Status', point.status],
     ['Steady state', settling ? `${SETTLING[settling.verdict]}${settling.after_revolutions ? `, after ${settling.after_revolutions} revolutions` : ''}` : null],
     ['Marched', marchWords(point.march)],
     ['Periodic response', steadyWords(point.steady)],
     ['Largest change between periods', settling?.largest_change === undefined ? null : percent(settling.largest_change)],
     ['Linear theory', VALIDITY[point.validity?.verdict]],
-    ['Estimated error', error ? `${percent(error.estimated_error)}${error.controlled ? ', simulated again' : ', from its neighbours'}` : 'not estimated'],
+    ['Estimated error', error ? `${percent(error.estimated_error)}${error.controlled ? ', simulated again' : ', interpolated from its neighbours'}` : 'not estimated'],
     ['Energy residual', point.energy_residual?.toExponential(1)],
-    ['Penetration left', point.largest_penetration === null || point.largest_penetration === undefined ? null : `${number(point.largest_penetration, 2)} ${length}`],
+    ['Remaining penetration', point.largest_penetration === null || point.largest_penetration === undefined ? null : `${number(point.largest_penetration, 2)} ${length}`],
     ['Contact', `${percent(point.contact_share)} of the steps`],
     ['Largest force on a node', point.contact ? `${number(point.contact.peak_node_force)} ${force}` : null],
     ['Clearance consumed', point.contact ? percent(point.contact.clearance_consumption) : null],
-    ['Tip that moves most', point.tip ? `blade ${point.tip.sector}, ${point.tip.component}, half peak to peak ${number(point.tip.half_peak_to_peak)} ${length}` : null],
+    ['Largest tip motion', point.tip ? `blade ${point.tip.sector}, ${point.tip.component}, half peak to peak ${number(point.tip.half_peak_to_peak)} ${length}` : null],
     ['Largest von Mises stress', point.stress ? `${number(point.stress.largest.von_mises)} ${force}/${length}²` : null],
     ['Scheme', point.scheme ? `${point.scheme.name}: ${point.scheme.reason}` : null],
     ['Steps', `${number(point.steps, 9)}, ${point.steps_per_revolution} a revolution`],

@@ -14,7 +14,7 @@ import { besideWords, sweepBeside } from './beside.js';
 import { sensors } from './choices.js';
 
 const STATUSES = {
-  completed: 'came to its end',
+  completed: 'completed',
   diverged: 'diverged',
   failed: 'could not be integrated',
 };
@@ -44,7 +44,7 @@ export async function show(place, context, signal) {
     } catch (error) {
       if (signal.aborted) return false;
       const early = error instanceof Refusal && error.type.endsWith('result-not-ready');
-      replace(told, early ? h('p', { class: 'note' }, 'Nothing of a run is there yet: its first frames are being computed.') : unread(error, signal));
+      replace(told, early ? h('p', { class: 'note' }, 'No frame is available yet: the first ones are being computed.') : unread(error, signal));
       return early;
     }
     return false;
@@ -95,7 +95,7 @@ function tables(read, sensor, context) {
         { name: 'End', cell: (each) => STATUSES[each.end?.status] ?? each.end?.status ?? endless, sort: (each) => each.end?.status },
       ],
     }),
-    h('p', { class: 'quiet small' }, 'The largest displacement is that of the sensor at any sector; contact is the share of the steps in which something touches. A run opens its spectrogram.'),
+    h('p', { class: 'quiet small' }, 'The largest displacement is the maximum of the sensor over all sectors; contact is the share of steps with contact. Click a run to open its spectrogram.'),
     messages(done),
     done.length === 0 ? null : h('h2', {}, 'What these numbers are worth'),
     done.length === 0 ? null : table({
@@ -104,19 +104,19 @@ function tables(read, sensor, context) {
       columns: [
         { ...run, number: true },
         rates,
-        { name: 'Angle off, rad', number: true, cell: ({ end }) => number(end.largest_angle_error_rad, 2), sort: ({ end }) => end.largest_angle_error_rad },
+        { name: 'Angle error, rad', number: true, cell: ({ end }) => number(end.largest_angle_error_rad, 2), sort: ({ end }) => end.largest_angle_error_rad },
         { name: 'Energy residual', number: true, cell: ({ end }) => number(end.energy_residual, 2), sort: ({ end }) => end.energy_residual },
-        { name: 'Lost between pieces', number: true, cell: ({ end }) => number(end.transfer_loss, 2), sort: ({ end }) => end.transfer_loss },
+        { name: 'Lost between segments', number: true, cell: ({ end }) => number(end.transfer_loss, 2), sort: ({ end }) => end.transfer_loss },
         { name: 'Euler force', number: true, cell: ({ end }) => number(end.euler_share, 2), sort: ({ end }) => end.euler_share },
-        { name: `Penetration left, ${units.length}`, number: true, cell: ({ end }) => number(end.largest_penetration, 2), sort: ({ end }) => end.largest_penetration },
+        { name: `Remaining penetration, ${units.length}`, number: true, cell: ({ end }) => number(end.largest_penetration, 2), sort: ({ end }) => end.largest_penetration },
         { name: 'Scheme', cell: ({ end }) => end.scheme?.name ?? '–', sort: ({ end }) => end.scheme?.name },
         { name: 'Revolutions', number: true, cell: ({ end }) => number(end.revolutions, 9), sort: ({ end }) => end.revolutions },
-        { name: 'Pieces of one speed', number: true, cell: ({ end }) => number(end.segments, 9), sort: ({ end }) => end.segments },
+        { name: 'Segments', number: true, cell: ({ end }) => number(end.segments, 9), sort: ({ end }) => end.segments },
         { name: 'Steps', number: true, cell: ({ end }) => number(end.steps, 9), sort: ({ end }) => end.steps },
         { name: 'Wall time', number: true, cell: ({ end }) => duration(end.wall_time_s), sort: ({ end }) => end.wall_time_s },
       ],
     }),
-    done.length === 0 ? null : h('p', { class: 'quiet small' }, `Energies are shares of the largest energy; the Euler force, which ${read.settings.euler_force ? 'acts' : 'is left out'}, is a share of the centrifugal force.`),
+    done.length === 0 ? null : h('p', { class: 'quiet small' }, `Energies are shares of the largest energy; the Euler force, which ${read.settings.euler_force ? 'acts' : 'is not included'}, is a share of the centrifugal force.`),
   ];
 }
 

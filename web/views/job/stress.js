@@ -34,7 +34,7 @@ export async function show(place, context, signal) {
         { name: 'Node', number: true, cell: ({ cycle }) => cycle?.node ?? '–' },
         { name: 'Blade', number: true, cell: ({ cycle }) => cycle?.sector ?? '–' },
         { name: 'Linear theory', cell: ({ at }) => VALIDITY[at.validity?.verdict] ?? '–' },
-        { name: 'Lacking', cell: ({ at }) => at.stress.lacking ?? '' },
+        { name: 'Missing strengths', cell: ({ at }) => at.stress.lacking ?? '' },
       ],
     }));
   await plot(figure, await api.figure(path, { speed: query.get('speed'), colour }, { signal }), { signal, label: 'Haigh diagram' });

@@ -37,11 +37,11 @@ export async function show(place, context, signal) {
       { name: 'Scheme', cell: (run) => run.scheme ?? '–', sort: (run) => run.scheme },
       { name: 'Modes', number: true, cell: (run) => run.modes_per_speed ?? '–', sort: (run) => run.modes_per_speed },
       { name: 'Steps a revolution', number: true, cell: (run) => run.steps_per_revolution ?? '–', sort: (run) => run.steps_per_revolution },
-      { name: 'Run takes', number: true, cell: (run) => duration(run.time_s), sort: (run) => run.time_s },
+      { name: 'Time of a run', number: true, cell: (run) => duration(run.time_s), sort: (run) => run.time_s },
       { name: 'Error', number: true, cell: (run) => percent(run.errors?.[chosen.quantity]), sort: (run) => run.errors?.[chosen.quantity] },
       { name: 'Settling', cell: (run) => SETTLING[run.verdict] ?? '–' },
       ...(runs.some((run) => run.steady) ? [{ name: 'Periodic response', cell: (run) => steadyWords(run.steady) ?? '–' }] : []),
-      { name: 'What it is', cell: (run) => [run.status, run.pareto?.length ? 'none is faster and better' : null, run.message].filter(Boolean).join('; ') },
+      { name: 'Remarks', cell: (run) => [run.status, run.pareto?.length ? 'Pareto-optimal: none is both faster and more accurate' : null, run.message].filter(Boolean).join('; ') },
     ],
   }));
   await plot(figure, await api.figure(path, chosen, { signal }), { signal, label: 'Work and precision' });

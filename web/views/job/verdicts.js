@@ -7,7 +7,7 @@ import { count, number, percent } from '../../lib/format.js';
 export const SETTLING = {
   periodic: 'repeats every revolution',
   subharmonic: 'repeats after several revolutions',
-  aperiodic: 'does not repeat; its statistics mean something, single values do not',
+  aperiodic: 'does not repeat; only its statistics are meaningful',
   not_settled: 'had not settled when the run ended',
 };
 export const STABILITY = {
@@ -16,7 +16,7 @@ export const STABILITY = {
   flip: 'unstable: its period doubles',
   fold: 'unstable: another response of the same period takes over',
   neimark_sacker: 'unstable: a second frequency appears',
-  undecided: 'it could not be told whether it is stable',
+  undecided: 'stability could not be decided',
 };
 export const VALIDITY = {
   linear: 'within linear theory',
@@ -49,7 +49,7 @@ export async function verdicts(element, { job }, signal) {
   replace(element,
     h('h2', {}, 'What these numbers are worth'),
     facts([
-      ['Speeds', `${count(map.points.length, 'speed')} finished${lost.length > 0 ? `, of which ${lost.length} diverged or failed and have no amplitude` : ''}`],
+      ['Speeds', `${count(map.points.length, 'speed')} finished${lost.length > 0 ? `, ${lost.length} of them diverged or failed and have no amplitude` : ''}`],
       ['Settling', tally(map.points, (point) => point.settling?.verdict, SETTLING)],
       ['Linear theory', tally(map.points, (point) => point.validity?.verdict, VALIDITY)],
       ['Estimated error', errors ? `at most ${percent(errors.largest)}${errors.largest_of_stress ? `, of stress ${percent(errors.largest_of_stress)}` : ''}. ${errors.message}` : 'not estimated: the request asked for no control runs'],
@@ -65,9 +65,9 @@ export function steadyWords(steady) {
   const stability = STABILITY[steady.stability];
   const leading = steady.multipliers?.[0];
   return [
-    steady.taken ? 'taken' : `not taken: ${steady.reason}`,
+    steady.taken ? 'used' : `not used: ${steady.reason}`,
     stability,
-    leading ? `|μ| = ${number(leading.modulus)} a passage, nodal diameter ${leading.nodal_diameter}, lines ${number(leading.order_offset)} orders aside` : null,
+    leading ? `|μ| = ${number(leading.modulus)} per return map, nodal diameter ${leading.nodal_diameter}, lines offset by ${number(leading.order_offset)} orders` : null,
     `${number(steady.revolutions, 3)} revolutions`,
   ].filter(Boolean).join('; ');
 }

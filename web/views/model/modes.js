@@ -13,8 +13,8 @@ const SHOWN = 10;
 
 export async function show(place, { model, query, go }, signal) {
   if (model.reductions.length === 0) {
-    replace(place, h('p', { class: 'note' }, 'Modes are those of a reduction, which every sweep and modal analysis makes: there is none yet. ',
-      h('a', { href: `#/sweep?kind=modal_analysis&model=${model.id}` }, 'Ask for a modal analysis'), '.'));
+    replace(place, h('p', { class: 'note' }, 'Modes are computed from a reduction, which the first sweep or modal analysis makes: there is none yet. ',
+      h('a', { href: `#/sweep?kind=modal_analysis&model=${model.id}` }, 'Start a modal analysis'), '.'));
     return;
   }
   const path = `/v1/models/${model.id}/modes`;
@@ -58,7 +58,7 @@ export async function show(place, { model, query, go }, signal) {
       speedField,
       single ? null : select('Motion', [['travelling', 'travelling with the rotation'], ['standing', 'standing']], motion, (chosen) => go({ motion: chosen })),
       model.mesh ? select('Colour', [['', 'displacement'], ['true', 'von Mises stress']], stress ? 'true' : '', (chosen) => go({ stress: chosen })) : null),
-    h('p', { class: 'quiet small' }, `In the rotating frame, of the reduction with ${list.modes_per_speed} modes per speed. Choose a frequency to see its shape.`),
+    h('p', { class: 'quiet small' }, `In the rotating frame, from the reduction with ${list.modes_per_speed} modes per speed. Choose a frequency to see its shape.`),
     table({ caption: 'Natural frequencies', columns, rows }),
     h('h2', {}, `Nodal diameter ${diameter}, mode ${mode}${frequency ? `: ${number(frequency, 5)} Hz` : ''}`),
     wheel);

@@ -6,7 +6,7 @@ import { table } from '../../lib/table.js';
 
 export function show(place, { model }) {
   if (model.reductions.length === 0) {
-    replace(place, h('p', { class: 'note' }, 'None yet: the first sweep or modal analysis makes one.'));
+    replace(place, h('p', { class: 'note' }, 'There is no reduction yet: the first sweep or modal analysis computes one.'));
     return;
   }
   replace(place, model.reductions.map((reduction) => {
@@ -14,7 +14,7 @@ export function show(place, { model }) {
     return h('article', { class: 'card' },
       h('h2', {}, `${reduction.modes_per_speed} modes per speed`),
       h('p', {}, `${reduction.wheel_unknowns} unknowns of the wheel; ${reduction.counted_modes} of ${reduction.modes} fixed-interface modes proven to be the lowest by a count of eigenvalues; `
-        + `largest residual ${number(reduction.largest_mode_residual, 2)}. Made in ${duration(reduction.wall_time_s)} by version ${reduction.version}.`),
+        + `largest residual ${number(reduction.largest_mode_residual, 2)}. Computed in ${duration(reduction.wall_time_s)} by version ${reduction.version}.`),
       h('p', { class: `note ${reduction.stiffening.verdict === 'sound' && indefinite.length === 0 ? '' : 'warning'}` }, reduction.stiffening.message),
       table({
         caption: 'Reduced and full model',

@@ -26,7 +26,7 @@ export function accuracyDial(path, choose, signal) {
   };
   const list = h('ul', { class: 'plain' }, [null, ...TARGETS].map(option));
   const element = h('fieldset', {}, h('legend', {}, 'Accuracy'),
-    h('p', { class: 'help quiet small' }, 'The program chooses modes and steps for the error asked for. Its time is known once pilot runs of a job with this scene were made.'), list);
+    h('p', { class: 'help quiet small' }, 'The program chooses modes and steps for the requested error. The computing time is known after the pilot runs of a job with this scene.'), list);
 
   const refresh = debounced(async (request) => {
     asking.abort();

@@ -24,7 +24,7 @@ export function casingTable(onRead, signal) {
     file.addEventListener('change', async () => {
       const [table] = file.files;
       if (!table) return;
-      replace(told, `${table.name} is read …`);
+      replace(told, `Reading ${table.name} …`);
       try {
         const found = await api.sendText('/v1/casing-tables', 'text/csv', await table.text(), { signal });
         onRead(found.measured);
@@ -43,10 +43,10 @@ function words(name, { measured, survey, filled_count: filled }) {
   const degrees = (angle) => `${number(angle * 180 / Math.PI, 4)}°`;
   const place = (line) => (measured.chord ? `${number(measured.chord[line], 3)} of the chord` : `contact node ${line}`);
   const lines = [`${name}: ${measured.angles_rad.length} angles, ${measured.heights.length} lines; ${survey.interpolation}`];
-  for (const one of survey.outliers.slice(0, SAID)) lines.push(`stands alone: ${one.height} at ${degrees(one.angle_rad)}, ${place(one.line)}; its neighbours expect ${number(one.expected, 3)}`);
-  if (survey.outlier_count > SAID) lines.push(`${survey.outlier_count} stand alone in all`);
+  for (const one of survey.outliers.slice(0, SAID)) lines.push(`stands alone: ${one.height} at ${degrees(one.angle_rad)}, ${place(one.line)}; its neighbours give ${number(one.expected, 3)}`);
+  if (survey.outlier_count > SAID) lines.push(`${survey.outlier_count} such outliers in total`);
   for (const gap of survey.gaps.slice(0, SAID)) lines.push(`no points from ${degrees(gap.from_rad)} to ${degrees(gap.to_rad)}`);
-  if (filled > 0) lines.push(`${filled} missing, taken from the curve through the others`);
-  if (survey.overshoot) lines.push(`the curve goes ${number(survey.overshoot.by, 3)} beyond all points at ${degrees(survey.overshoot.angle_rad)}`);
+  if (filled > 0) lines.push(`${filled} missing heights, interpolated from the curve through the others`);
+  if (survey.overshoot) lines.push(`the curve overshoots all points by ${number(survey.overshoot.by, 3)} at ${degrees(survey.overshoot.angle_rad)}`);
   return lines;
 }

@@ -38,13 +38,13 @@ export function planAside(path, tell, signal) {
       tell({ plan });
     } catch (error) {
       if (own.aborted || signal.aborted) return;
-      replace(body, error instanceof Refusal ? h('p', { class: 'note' }, `Not complete yet: ${count(Math.max(1, error.errors.length), 'field')} to mend.`) : unread(error, signal, () => refresh(request)));
+      replace(body, error instanceof Refusal ? h('p', { class: 'note' }, `Not complete yet: ${count(Math.max(1, error.errors.length), 'field')} to correct.`) : unread(error, signal, () => refresh(request)));
       tell(error instanceof Refusal ? { refusal: error } : {});
     } finally {
       if (!own.aborted) body.removeAttribute('aria-busy');
     }
   }, PAUSE_MS, signal);
-  return { element: h('aside', { class: 'card sticky' }, h('h2', {}, 'What it takes'), body), refresh };
+  return { element: h('aside', { class: 'card sticky' }, h('h2', {}, 'Cost'), body), refresh };
 }
 
 /** Whether every speed takes as many revolutions as the request says. */
@@ -90,21 +90,21 @@ function shown(whole) {
       ['Speeds', plan.speeds],
       ['Runs', runs(plan.runs)],
       ['Simulations', plan.simulations],
-      ['Points', plan.points_at_least ? `at least ${plan.points_at_least}, for which the times are; at most ${plan.points_at_most}, and those of doubled branches` : null],
+      ['Points', plan.points_at_least ? `at least ${plan.points_at_least} (the basis of the times); at most ${plan.points_at_most}, plus those of doubled branches` : null],
       ['Steps', estimate && !plan.points_at_least ? `${takesAll(plan.settings?.integration) ? '' : 'at most '}${number(estimate.steps, 3)}` : null],
       ['Steps', plan.steps ? number(plan.steps, 3) : null],
       ['Memory', estimate ? bytes(estimate.memory_bytes) : null],
       ['Disk', plan.basis_bytes_at_most ? `at most ${bytes(plan.basis_bytes_at_most)}` : null],
-      ['Disk of stress', plan.stress_bytes ? bytes(plan.stress_bytes) : null],
+      ['Disk for stress', plan.stress_bytes ? bytes(plan.stress_bytes) : null],
       ['Reductions', plan.reductions ? `with ${plan.reductions.join(', ')} modes per speed` : null],
-      ['Reduction', plan.reduction === 'to be computed' ? 'has to be computed first; then its time can be said' : plan.reduction],
+      ['Reduction', plan.reduction === 'to be computed' ? 'has to be computed first; times are known after that' : plan.reduction],
       ['Unknowns', plan.reduced_unknowns_at_most ? `at most ${number(plan.reduced_unknowns_at_most, 9)}` : null],
       ['Contact pairs', plan.contact_pairs],
       ['Workers', plan.workers],
-      ['Times are of', plan.machine ? `${plan.machine.name}: ${plan.machine.processors} × ${plan.machine.processor}` : null],
+      ['Times apply to', plan.machine ? `${plan.machine.name}: ${plan.machine.processors} × ${plan.machine.processor}` : null],
       ['Scheme', scheme ? `${scheme.name}: ${scheme.reason}` : null],
       ['Chosen setting', plan.choice?.reason],
-      ['Pilot runs', plan.pilot_speeds_rad_s ? `${count(plan.pilot_speeds_rad_s.length, 'speed')} first, which choose the setting${atMost(plan.settings)}` : null],
+      ['Pilot runs', plan.pilot_speeds_rad_s ? `${count(plan.pilot_speeds_rad_s.length, 'speed')} first, to choose the setting${atMost(plan.settings)}` : null],
       ['Left out', off.length > 0 ? off.join(', ') : null],
     ]),
   ];

@@ -15,7 +15,7 @@ import { beginning } from './sensible.js';
 /** In which order requests are asked for: what every one needs, and then what has defaults. */
 const GROUPS = [
   { title: null, names: ['speeds', 'speed', 'along', 'scene', 'parameters', 'design', 'severity', 'limit', 'threshold', 'compared_model', 'lobes', 'superharmonics', 'grid'] },
-  { title: 'What is recorded', names: ['sensors', 'record', 'stress', 'fields'] },
+  { title: 'Recording', names: ['sensors', 'record', 'stress', 'fields'] },
   { title: 'Name, tags, notes', names: ['name', 'tags', 'notes'] },
   { title: 'Settings', names: ['budget', 'modes_per_speed', 'integration', 'sweep', 'refine', 'reproducible', 'control_speeds', 'max_engine_order', 'peak_prominence', 'doubled', 'most_points', 'frame_revolutions', 'angle_tolerance_rad'] },
 ];
@@ -91,7 +91,7 @@ export async function requestForm(place, { model, kind, value, words }, signal) 
     event.preventDefault();
     if (button.disabled) return;
     const broken = json.isBroken();
-    replace(unsent, broken ? h('p', { class: 'note bad', role: 'alert' }, 'The JSON of the request is not complete: mend it, or undo what was written there.') : null);
+    replace(unsent, broken ? h('p', { class: 'note bad', role: 'alert' }, 'The JSON of the request is not complete: correct it, or undo your changes.') : null);
     if (broken) return;
     button.disabled = true;
     replace(told);
@@ -103,7 +103,7 @@ export async function requestForm(place, { model, kind, value, words }, signal) 
       if (signal.aborted) return;
       const homeless = error instanceof Refusal ? fields.complain(error.errors, true) : null;
       replace(told, homeless && homeless.length < error.errors.length && homeless.length === 0
-        ? h('p', { class: 'note bad', role: 'alert' }, 'The service refused this: see the fields that are marked.')
+        ? h('p', { class: 'note bad', role: 'alert' }, 'The service refused the request: correct the marked fields.')
         : problem(error));
       button.disabled = false;
     }
@@ -142,5 +142,5 @@ export async function chooseModel(place, go, signal) {
   }
   const id = newId('model');
   const list = h('select', { id, value: models[0].id }, models.map((model) => h('option', { value: model.id }, `${model.name} (${model.id.slice(0, 8)})`)));
-  replace(place, h('div', { class: 'field' }, h('label', { for: id }, 'Model'), list), h('button', { type: 'button', class: 'main', on: { click: () => go(list.value) } }, 'Go on'));
+  replace(place, h('div', { class: 'field' }, h('label', { for: id }, 'Model'), list), h('button', { type: 'button', class: 'main', on: { click: () => go(list.value) } }, 'Continue'));
 }

@@ -54,7 +54,7 @@ def _with_response(point: dict[str, Any], sensor: int) -> dict[str, Any]:
     return point | {"response": responses[sensor]} if responses else point
 
 
-class Sweep(Planned, _Recorded):
+class Sweep(_Recorded):
     """Contact over a range of speeds."""
 
     kind = "sweep"

@@ -2,7 +2,7 @@
 //!
 //! - [`trial`]: one run at one setting, with the compared quantities and the cost;
 //! - [`errors`]: differences of a run from a finer one;
-//! - [`study`], `grid`: a grid of settings against a reference (work and precision);
+//! - a grid of settings against a reference (work and precision) is a kind of job: `kinds/study`;
 //! - [`choice`]: the cheapest setting that meets a target (`target`), or the most accurate one that a budget pays for (`budget`), from
 //!   a [`climb`] over [`rung`]s and what lies `beside` them;
 //! - [`modes`]: the choice for a modal analysis, from its reductions;

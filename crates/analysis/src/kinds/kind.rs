@@ -17,6 +17,9 @@ use crate::request::Sensor;
 use crate::resolved::{ResolvedCaseStudy, ResolvedModalAnalysis, ResolvedStudy, ResolvedSweep};
 use crate::result::{Point, PointStatus};
 
+/// Reader of a stored job from its text and so many rounds of a refinement.
+pub type ReadStored = fn(&str, u32) -> Result<Arc<dyn ResolvedJob>, NotStored>;
+
 /// Kind of a job.
 pub struct Kind {
     /// Name in requests, in answers and in the database, such as `run_up`.
@@ -41,8 +44,8 @@ pub struct Kind {
     pub units: Units,
     /// Reads a request.
     pub read: fn(&str) -> serde_json::Result<Box<dyn Asked>>,
-    /// Reads a job that was resolved and stored before, with so many rounds of a refinement.
-    pub stored: fn(&str, u32) -> Result<Arc<dyn ResolvedJob>, NotStored>,
+    /// Reads a job that was resolved and stored before.
+    pub stored: ReadStored,
     /// Schema of its requests.
     #[cfg(feature = "schema")]
     pub request: Shape,

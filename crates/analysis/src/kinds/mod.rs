@@ -1,7 +1,7 @@
 //! Kinds of jobs: a folder and a row of the [`list`] for each.
 //!
-//! The folder has the request, the request as it is resolved, the check of one against the other, the plan and the computation; its
-//! `mod.rs` puts them together as a [`kind::Kind`]. Nothing outside knows a kind by name except the routes of its results.
+//! The folder has the request, the resolved request, the check that leads from one to the other, the plan, the computation and the results;
+//! its `kind.rs` puts them together as a [`kind::Kind`]. Adding one: CONTRIBUTING, A kind of job.
 
 pub mod branches;
 pub mod campaign;

@@ -1,7 +1,7 @@
 //! Isotropic, linear elastic material.
 
 use nalgebra::Matrix3;
-use rubmap_solid::material::{self, FatigueStrength};
+use rubmap_solid::material::{self, FatigueStrength, Lame};
 use serde::{Deserialize, Serialize};
 
 use super::error::ImpellerError;
@@ -92,7 +92,7 @@ impl Material {
     }
 
     /// Lamé constants λ and μ, `σ = λ tr(ε) 1 + 2μ ε`.
-    pub fn lame_constants(&self) -> (f64, f64) {
+    pub fn lame_constants(&self) -> Lame {
         material::lame_constants(self.youngs_modulus, self.poissons_ratio)
     }
 

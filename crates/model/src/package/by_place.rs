@@ -15,7 +15,7 @@ const MOST_NEAR: usize = 100;
 const CELL: f64 = 8.0;
 
 /// Nodes by the cell of a grid that they lie in.
-pub(super) struct Places {
+pub(super) struct NodeGrid {
     cells: HashMap<[i64; 3], Vec<usize>>,
     nodes: Vec<(u64, [f64; 3])>,
     pub(super) tolerance: f64,
@@ -27,7 +27,7 @@ pub(super) struct Nearest {
     pub(super) distance: f64,
 }
 
-impl Places {
+impl NodeGrid {
     pub(super) fn new(nodes: Vec<(u64, [f64; 3])>, tolerance: f64) -> Self {
         let mut cells: HashMap<_, Vec<usize>> = HashMap::new();
         for (k, (_, position)) in nodes.iter().enumerate() {

@@ -31,7 +31,7 @@ pub(super) fn read<S: Read>(
 }
 
 /// Line of an entry.
-pub(super) struct Place {
+pub(super) struct EntryLine {
     pub(super) line: u64,
     /// Whether it is the mirror image of the position asked for.
     pub(super) mirrored: bool,
@@ -44,7 +44,7 @@ pub(super) fn places_of<S: Read>(
     row: u64,
     column: u64,
     or_mirrored: bool,
-) -> Result<Vec<Place>, MatrixFault> {
+) -> Result<Vec<EntryLine>, MatrixFault> {
     let mut lines = Lines::new(source);
     read_header(&mut lines, mirror)?;
     let mut found = Vec::new();
@@ -54,7 +54,7 @@ pub(super) fn places_of<S: Read>(
         let Some((r, c, _)) = parse_entry(line) else { continue };
         let mirrored = (r, c) != (row, column);
         if !mirrored || (or_mirrored && (c, r) == (row, column)) {
-            found.push(Place { line: lines.number(), mirrored });
+            found.push(EntryLine { line: lines.number(), mirrored });
         }
     }
     Ok(found)

@@ -42,7 +42,7 @@ pub use limits::Limits;
 pub use mesh::read_mesh;
 pub use nodes::read_nodes;
 pub use npz::NpzWriter;
-pub use places::{Face, Place, Places, read_places};
+pub use places::{Face, PlacedNode, SectorNodes, read_places};
 pub use writer::write;
 
 use content::{Content, SourceLines};

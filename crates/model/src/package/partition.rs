@@ -136,7 +136,7 @@ impl Folding<'_> {
             let high = self.layout.high_of[node as usize];
             self.gather(&full, node, |row_node| !is_high(row_node), &mut blocks);
             for (row_node, block) in blocks.iter_mut() {
-                *block = self.rotated(*block, (row_node, node), row_node < node);
+                *block = self.rotated(*block, row_node, node, row_node < node);
                 if row_node == node {
                     make_exact(mirror, block);
                 }
@@ -145,7 +145,7 @@ impl Folding<'_> {
                 self.gather(&full, high, is_high, &mut of_high);
                 for (row_high, block) in of_high.iter_mut() {
                     let row_node = self.layout.low_of[row_high as usize];
-                    let mut block = self.rotated(*block, (row_high, high), row_node < node);
+                    let mut block = self.rotated(*block, row_high, high, row_node < node);
                     if row_node == node {
                         make_exact(mirror, &mut block);
                     }
@@ -157,7 +157,7 @@ impl Folding<'_> {
             if high != NONE {
                 self.gather(&full, high, |row_node| !is_high(row_node), &mut blocks);
                 for (row_node, block) in blocks.iter_mut() {
-                    *block = self.rotated(*block, (row_node, high), false);
+                    *block = self.rotated(*block, row_node, high, false);
                 }
                 self.emit(&mut blocks, node, &mut next);
             }
@@ -181,7 +181,7 @@ impl Folding<'_> {
 
     /// Product B_row · block · B_columnᵀ, computed from the transposed block if asked to: mirrored blocks then have mirrored bits, and Y0
     /// is exactly (skew-)symmetric.
-    fn rotated(&self, block: Block, (row_node, column_node): (u32, u32), by_transpose: bool) -> Block {
+    fn rotated(&self, block: Block, row_node: u32, column_node: u32, by_transpose: bool) -> Block {
         let Some(bases) = self.bases else { return block };
         let (row, column) = (&bases[row_node as usize], &bases[column_node as usize]);
         if by_transpose {

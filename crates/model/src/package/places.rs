@@ -13,18 +13,18 @@ use rubmap_solid::frame::AxisFrame;
 
 /// Nodes of a sector, with its axis.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Places {
+pub struct SectorNodes {
     /// Axis of rotation: a point on it, and its direction, of any length.
     pub axis: ([f64; 3], [f64; 3]),
     /// Nodes in the order of the node table.
-    pub nodes: Vec<Place>,
+    pub nodes: Vec<PlacedNode>,
     /// Contact nodes from the leading to the trailing edge: their position in `nodes`, and the outward unit normal, (r, θ, z) components.
     pub contact: Vec<(usize, [f64; 3])>,
 }
 
 /// Node of a sector.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Place {
+pub struct PlacedNode {
     /// Id in the user's model.
     pub id: u64,
     /// Position `[r, θ, z]` about the axis, θ in rad.
@@ -48,12 +48,12 @@ pub enum Face {
 ///
 /// # Errors
 /// The first problem found with the archive, `sector.json` or the tables.
-pub fn read_places(path: &Path, limits: &Limits) -> Result<Places, PackageError> {
+pub fn read_places(path: &Path, limits: &Limits) -> Result<SectorNodes, PackageError> {
     let Stated { manifest, nodes, dofs, .. } = zip_package::load_tables(path, limits)?;
     Ok(places(&manifest, &nodes, &dofs))
 }
 
-fn places(manifest: &Manifest, nodes: &[RawNode], dofs: &[RawDof]) -> Places {
+fn places(manifest: &Manifest, nodes: &[RawNode], dofs: &[RawDof]) -> SectorNodes {
     let free: HashSet<u64> = dofs.iter().map(|dof| dof.node).collect();
     let mut faces = HashMap::new();
     for [low, high] in &manifest.cyclic {
@@ -62,13 +62,13 @@ fn places(manifest: &Manifest, nodes: &[RawNode], dofs: &[RawDof]) -> Places {
     }
     // The axis has a direction, or the package would not have passed the checks.
     let frame = AxisFrame::new(manifest.axis.origin, manifest.axis.direction);
-    let place = |node: &RawNode| Place {
+    let place = |node: &RawNode| PlacedNode {
         id: node.id,
         position: frame.as_ref().map_or(node.position, |frame| frame.coordinates(node.position)),
         face: faces.get(&node.id).copied(),
         held: !free.contains(&node.id),
     };
-    let places: Vec<Place> = nodes.iter().map(place).collect();
+    let places: Vec<PlacedNode> = nodes.iter().map(place).collect();
     let numbers: HashMap<u64, usize> = places.iter().enumerate().map(|(k, place)| (place.id, k)).collect();
     let contact = manifest.contact.iter().filter_map(|contact| {
         let number = *numbers.get(&contact.node)?;
@@ -80,7 +80,7 @@ fn places(manifest: &Manifest, nodes: &[RawNode], dofs: &[RawDof]) -> Places {
         Some((number, normal.into()))
     });
     let axis = (manifest.axis.origin, manifest.axis.direction);
-    Places { axis, contact: contact.collect(), nodes: places }
+    SectorNodes { axis, contact: contact.collect(), nodes: places }
 }
 
 #[cfg(test)]

@@ -17,9 +17,9 @@ use super::eliminated::{Breakdown, Eliminated};
 const PANEL: usize = 192;
 
 /// Position in a front of each row of the matrix that the front holds.
-pub(super) struct Place(Vec<u32>);
+pub(super) struct FrontPositions(Vec<u32>);
 
-impl Place {
+impl FrontPositions {
     pub(super) fn new(size: usize) -> Self {
         Self(vec![u32::MAX; size])
     }
@@ -41,18 +41,18 @@ pub(super) fn eliminate(
     front: usize,
     terms: &[(f64, &SparseColMat<usize, f64>)],
     child: &mut dyn FnMut(usize) -> Option<Mat<f64>>,
-    place: &mut Place,
+    positions: &mut FrontPositions,
 ) -> Result<Eliminated, Breakdown> {
     let front = &analysis.fronts[front];
     let (p, r) = (front.pivots, front.rows.len());
-    place.enter(front);
+    positions.enter(front);
     let mut lower = Mat::zeros(p + r, p);
     for (factor, matrix) in terms {
         for j in 0..p {
             let column = front.start + j;
             for (row, value) in matrix.row_idx_of_col(column).zip(matrix.val_of_col(column)) {
                 if row >= column {
-                    lower[(place.of(row), j)] += factor * value;
+                    lower[(positions.of(row), j)] += factor * value;
                 }
             }
         }
@@ -62,7 +62,7 @@ pub(super) fn eliminate(
         let Some(passed) = child(below) else {
             unreachable!("a child is eliminated once, before its parent")
         };
-        let rows: Vec<usize> = analysis.fronts[below].rows.iter().map(|&row| place.of(row)).collect();
+        let rows: Vec<usize> = analysis.fronts[below].rows.iter().map(|&row| positions.of(row)).collect();
         for (j, &column) in rows.iter().enumerate() {
             let from = passed.col(j);
             if column < p {

@@ -101,27 +101,31 @@ fn eliminate_all<T: Send + Default>(
     let mut kept: Vec<T> = (0..fronts.len()).map(|_| T::default()).collect();
     let mut pivots = vec![0.0; analysis.eliminated];
     let mut updates: Vec<Option<Mat<f64>>> = vec![None; fronts.len()];
-    let eliminate =
-        |front, child: &mut dyn FnMut(usize) -> Option<Mat<f64>>, place: &mut eliminate::Place| {
-            let Eliminated { lower, pivots, update } =
-                eliminate::eliminate(analysis, front, terms, child, place)?;
-            Ok((keep(&fronts[front], lower.as_ref(), &pivots), pivots, update))
-        };
+    let eliminate = |front,
+                     child: &mut dyn FnMut(usize) -> Option<Mat<f64>>,
+                     positions: &mut eliminate::FrontPositions| {
+        let Eliminated { lower, pivots, update } =
+            eliminate::eliminate(analysis, front, terms, child, positions)?;
+        Ok((keep(&fronts[front], lower.as_ref(), &pivots), pivots, update))
+    };
 
-    let run = |place: &mut eliminate::Place, subtree: &Vec<usize>| {
+    let run = |positions: &mut eliminate::FrontPositions, subtree: &Vec<usize>| {
         let mut waiting: Vec<Option<Mat<f64>>> = vec![None; subtree.len()];
         let mut done = Vec::with_capacity(subtree.len());
         for (position, &front) in subtree.iter().enumerate() {
             // A subtree is a run of consecutive fronts that ends with its root.
             let (kept, pivots, update) =
-                eliminate(front, &mut |child| waiting[child - subtree[0]].take(), place)?;
+                eliminate(front, &mut |child| waiting[child - subtree[0]].take(), positions)?;
             waiting[position] = Some(update);
             done.push((kept, pivots));
         }
         Ok((done, waiting.pop().flatten()))
     };
-    let answers: Vec<Result<_, Breakdown>> =
-        analysis.subtrees.par_iter().map_init(|| eliminate::Place::new(analysis.size), run).collect();
+    let answers: Vec<Result<_, Breakdown>> = analysis
+        .subtrees
+        .par_iter()
+        .map_init(|| eliminate::FrontPositions::new(analysis.size), run)
+        .collect();
     let mut store = |front: usize, found: T, of_front: &[f64]| {
         pivots[fronts[front].start..][..of_front.len()].copy_from_slice(of_front);
         kept[front] = found;
@@ -135,9 +139,9 @@ fn eliminate_all<T: Send + Default>(
             updates[root] = update;
         }
     }
-    let mut place = eliminate::Place::new(analysis.size);
+    let mut positions = eliminate::FrontPositions::new(analysis.size);
     for &front in &analysis.top {
-        let (found, of_front, update) = eliminate(front, &mut |child| updates[child].take(), &mut place)?;
+        let (found, of_front, update) = eliminate(front, &mut |child| updates[child].take(), &mut positions)?;
         store(front, found, &of_front);
         updates[front] = Some(update);
     }

@@ -6,6 +6,7 @@ use nalgebra::Vector3;
 
 use crate::extrapolation::extrapolation;
 use crate::gradients::{Gradients, Recovery};
+use crate::material::Lame;
 use crate::mesh::SectorMesh;
 
 /// Row of the operator: the displacement gradient in x, y, z at a node, summed over the elements of one material around it.
@@ -14,7 +15,7 @@ pub(super) struct Row {
     /// Node of the gradient.
     pub(super) node: u32,
     /// Lamé's constants of the material.
-    pub(super) constants: (f64, f64),
+    pub(super) constants: Lame,
     /// Range of the row's entries in [`Rows::columns`].
     pub(super) entries: std::ops::Range<usize>,
 }

@@ -7,6 +7,7 @@ use nalgebra::Matrix3;
 
 use super::build::{Bubbles, Row, Rows};
 use crate::frame::AxisFrame;
+use crate::material::Lame;
 use crate::mesh::SectorMesh;
 
 /// Columns computed at once, real and imaginary parts beside each other: nine derivatives of this many fit into registers.
@@ -174,7 +175,7 @@ impl NodalStress {
                 (0..3).for_each(|k| add(&mut lanes, frame[(i, k)], &gradient[j][k]));
                 lanes
             };
-            let (lambda, mu) = row.constants;
+            let Lame { lambda, mu } = row.constants;
             let normal: [Lanes; 3] = std::array::from_fn(|i| h(i, i));
             for (i, sum) in sum.iter_mut().take(3).enumerate() {
                 normal.iter().for_each(|strain| add(sum, lambda, strain));

@@ -146,7 +146,8 @@ impl CasingMotion {
         scheme: Scheme,
         step: f64,
         contact_nodes: &[ContactNode],
-        (sectors, around): (usize, usize),
+        sectors: usize,
+        around: usize,
         stride: usize,
     ) -> Self {
         let repeats = around / sectors;
@@ -345,7 +346,7 @@ mod tests {
             waves: vec![wave(0, 3.0, 2.0), wave(2, 5.0, 3.0), wave(3, 7.0, 4.0)],
             damping_ratio: 0.1,
         };
-        let mut motion = CasingMotion::new(&casing, Scheme::ExactModal, 0.01, &nodes, (5, 5), 8);
+        let mut motion = CasingMotion::new(&casing, Scheme::ExactModal, 0.01, &nodes, 5, 5, 8);
         let mut gaps = vec![0.0; 40];
         motion.add(17.3, &mut gaps);
         motion.press(2 * 8 + 1, 6.0);

@@ -71,9 +71,9 @@ impl Weight {
     }
 }
 
-/// Places of a nodal diameter's modes in the state.
+/// Offsets of a nodal diameter's modes in the state.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Place {
+pub(crate) struct ModeOffsets {
     /// Start of the real part.
     pub(crate) re: usize,
     /// Start of the imaginary part; none of a single harmonic.
@@ -134,15 +134,15 @@ impl ModalMistuning {
     }
 
     /// Stiffness −∂f/∂z of every mistuned family between the Fourier columns: Re(w̄ C w), symmetric.
-    pub(crate) fn stiffness(&self, places: &[Place]) -> Vec<Mat<f64>> {
-        let sectors = places.iter().map(|place| 1 + usize::from(place.im.is_some())).sum();
+    pub(crate) fn stiffness(&self, offsets: &[ModeOffsets]) -> Vec<Mat<f64>> {
+        let sectors = offsets.iter().map(|offset| 1 + usize::from(offset.im.is_some())).sum();
         let of = |family: usize| {
             // Amplitudes per unit z: of a pair the real and the imaginary part of w and of jw.
             let mut amplitude = Mat::<f64>::zeros(sectors, sectors);
-            for (place, weight) in places.iter().zip(&self.weight) {
-                let (w, re) = (weight.at(family), place.column);
+            for (offset, weight) in offsets.iter().zip(&self.weight) {
+                let (w, re) = (weight.at(family), offset.column);
                 amplitude[(re, re)] = w.re;
-                if place.im.is_some() {
+                if offset.im.is_some() {
                     amplitude[(re + 1, re)] = w.im;
                     amplitude[(re, re + 1)] = -w.im;
                     amplitude[(re + 1, re + 1)] = w.re;
@@ -157,7 +157,7 @@ impl ModalMistuning {
 
     /// Writes the modal forces of the state `z`.
     #[inline(always)]
-    pub(crate) fn force<S: Simd>(&mut self, simd: S, places: &[Place], z: &[f64], force: &mut [f64]) {
+    pub(crate) fn force<S: Simd>(&mut self, simd: S, offsets: &[ModeOffsets], z: &[f64], force: &mut [f64]) {
         if self.families == 0 {
             return;
         }
@@ -165,11 +165,11 @@ impl ModalMistuning {
         let vectors = *length / S::F64_LANES;
         let line = |column: usize| column * vectors;
         let amplitude = S::as_mut_simd_f64s(amplitude).0;
-        for (place, weight) in places.iter().zip(&*weight) {
+        for (offset, weight) in offsets.iter().zip(&*weight) {
             let (w_re, w_im) = weight.vectors::<S>();
-            let z_re = &S::as_simd_f64s(&z[place.re..place.re + *length]).0[..vectors];
-            let amplitude = &mut amplitude[line(place.column)..];
-            match place.im {
+            let z_re = &S::as_simd_f64s(&z[offset.re..offset.re + *length]).0[..vectors];
+            let amplitude = &mut amplitude[line(offset.column)..];
+            match offset.im {
                 Some(im) => {
                     let z_im = &S::as_simd_f64s(&z[im..im + *length]).0[..vectors];
                     let (a_re, a_im) = amplitude.split_at_mut(vectors);
@@ -203,17 +203,17 @@ impl ModalMistuning {
                 }
             }
         }
-        for (place, weight) in places.iter().zip(&*weight) {
+        for (offset, weight) in offsets.iter().zip(&*weight) {
             let (w_re, w_im) = weight.vectors::<S>();
-            let pull = &pull[line(place.column)..];
+            let pull = &pull[line(offset.column)..];
             let zero = simd.splat_f64s(0.0);
             for v in 0..vectors {
-                let p_im = if place.im.is_some() { pull[line(1) + v] } else { zero };
+                let p_im = if offset.im.is_some() { pull[line(1) + v] } else { zero };
                 let (w_re, w_im, p_re) = (w_re[v], w_im[v], pull[v]);
                 let re = simd.mul_add_e_f64s(w_im, p_im, simd.mul_f64s(w_re, p_re));
                 let im = simd.negate_mul_add_e_f64s(w_re, p_im, simd.mul_f64s(w_im, p_re));
-                S::as_mut_simd_f64s(&mut force[place.re..place.re + *length]).0[v] = simd.neg_f64s(re);
-                if let Some(start) = place.im {
+                S::as_mut_simd_f64s(&mut force[offset.re..offset.re + *length]).0[v] = simd.neg_f64s(re);
+                if let Some(start) = offset.im {
                     S::as_mut_simd_f64s(&mut force[start..start + *length]).0[v] = im;
                 }
             }

@@ -40,7 +40,8 @@ impl OrbitShift {
     pub(crate) fn new(
         orbit: Orbit,
         contact_nodes: &[ContactNode],
-        (sectors, around): (usize, usize),
+        sectors: usize,
+        around: usize,
         stride: usize,
     ) -> Self {
         let mut shift = Self { orbit, cos: vec![0.0; sectors * stride], sin: vec![0.0; sectors * stride] };
@@ -80,7 +81,7 @@ mod tests {
         let nodes = [node(0.2), node(-1.1)];
         for whirl_ratio in [0.0, 1.0, -0.4, 0.5] {
             let orbit = Orbit { radius: 0.3, whirl_ratio, phase_rad: 0.7 };
-            let shift = OrbitShift::new(orbit, &nodes, (3, 6), 8);
+            let shift = OrbitShift::new(orbit, &nodes, 3, 6, 8);
             for revolutions in [0.0, 0.37, 12.81] {
                 let mut gaps = vec![1.0; 24];
                 shift.add(revolutions, 0.5, &mut gaps);

@@ -5,7 +5,7 @@ use super::family::Scenes;
 use super::told::{Told, amplitudes_of, carried, tell};
 use crate::result::{Bifurcation, BifurcationKind, BranchMaximum};
 use rubmap_wheel::dynamics::initial::Stepped;
-use rubmap_wheel::dynamics::steady::branch::locate::{FinerGrowth, Place, off_by_steps};
+use rubmap_wheel::dynamics::steady::branch::locate::{FinerGrowth, SpecialPoint, off_by_steps};
 use rubmap_wheel::dynamics::steady::branch::{Branch, Lost, Motion};
 use rubmap_wheel::dynamics::steady::stability::Stability;
 
@@ -119,7 +119,7 @@ impl Events<'_> {
     fn off_by_steps(
         &self,
         [a, b]: [At<'_>; 2],
-        place: &Place<Told>,
+        place: &SpecialPoint<Told>,
         look: impl Fn(&Motion) -> Result<(f64, Told), Lost>,
     ) -> Result<f64, Lost> {
         let known = |lost: Result<f64, Lost>| match lost {

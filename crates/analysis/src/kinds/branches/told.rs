@@ -79,7 +79,7 @@ pub(super) fn tell(
     let told = scenes.simulation(motion.value, 0.0, |simulation, _| {
         let mut passage = branch.lap.passage(&simulation)?;
         let (state, hint) = (passage.state_of(&motion.state), passage.state_of(hint));
-        let floquet = Floquet::of(&passage, (&state, &hint), MULTIPLIERS)?;
+        let floquet = Floquet::of(&passage, &state, &hint, MULTIPLIERS)?;
         let part = |vector: &[c64], of: fn(&c64) -> f64| -> Vec<f64> { vector.iter().map(of).collect() };
         let mut disturbances = vec![0.0; passage.size()];
         for one in &floquet.multipliers {

@@ -5,6 +5,7 @@ use nalgebra::{Matrix3, SVector, Vector3};
 use super::blocks::{Blocks, NodalMatrix};
 use crate::impeller::material::{Material, Stress};
 use rubmap_solid::gauss::{GaussPoint, gauss_points};
+use rubmap_solid::material::Lame;
 use rubmap_solid::natural::{CORNERS, Natural};
 
 /// Hexahedron of N nodes at known Cartesian positions.
@@ -104,7 +105,7 @@ pub(super) fn elastic_blocks<const F: usize>(
             }
         }
     }
-    let (lambda, mu) = material.lame_constants();
+    let Lame { lambda, mu } = material.lame_constants();
     for a in 0..F {
         for b in 0..=a {
             let s = products[a][b];

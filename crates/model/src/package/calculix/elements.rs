@@ -10,12 +10,19 @@ use super::solids::{DeckElement, Solids};
 use super::strengths::Strengths;
 use crate::package::raw::{ManifestMesh, RawElement};
 
+/// Mesh of one sector as a package holds it.
+pub(super) struct SectorTable {
+    /// Entry of the manifest, with the materials of the element sets.
+    pub(super) manifest: ManifestMesh,
+    pub(super) elements: Vec<RawElement>,
+}
+
 /// Element table of all elements that `keep` accepts, and their materials by the element sets of their sections.
 pub(super) fn table(
     solids: &Solids,
     strengths: &Strengths,
     keep: impl Fn(u64, &DeckElement) -> Result<bool, NoMesh>,
-) -> Result<(ManifestMesh, Vec<RawElement>), NoMesh> {
+) -> Result<SectorTable, NoMesh> {
     if let Some(unusable) = &solids.unusable {
         return Err(unusable.clone());
     }
@@ -29,7 +36,7 @@ pub(super) fn table(
         section_of.extend(members.map(|&element| (element, (set.as_str(), material.as_str()))));
     }
     let mut sets: BTreeMap<&str, (Arc<str>, Material)> = BTreeMap::new();
-    let mut table = Vec::new();
+    let mut elements = Vec::new();
     for (&id, element) in &solids.elements {
         if !keep(id, element)? {
             continue;
@@ -41,10 +48,10 @@ pub(super) fn table(
             sets.insert(set, (set.into(), constants));
         }
         let set = Arc::clone(&sets[set].0);
-        table.push(RawElement { id, kind: element.kind, set, nodes: element.nodes.clone() });
+        elements.push(RawElement { id, kind: element.kind, set, nodes: element.nodes.clone() });
     }
     let sets = sets.into_iter().map(|(name, (_, material))| (name.to_owned(), material)).collect();
-    Ok((ManifestMesh { elements: "elements.csv".to_owned(), sets }, table))
+    Ok(SectorTable { manifest: ManifestMesh { elements: "elements.csv".to_owned(), sets }, elements })
 }
 
 fn constants(solids: &Solids, name: &str) -> Result<Material, NoMesh> {

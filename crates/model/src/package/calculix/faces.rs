@@ -8,7 +8,7 @@ use super::error::{ModelProblem, NoCopy};
 use super::matrices::DofList;
 use super::model::CalculixModel;
 use super::sets::set;
-use crate::package::by_place::{Nearest, Places};
+use crate::package::by_place::{Nearest, NodeGrid};
 use crate::package::check::slits::{self, Unpaired};
 use crate::package::raw::RawDof;
 use rubmap_solid::frame::AxisFrame;
@@ -49,7 +49,7 @@ pub(super) fn pair(
     }
     let alpha = TAU / sectors as f64;
     let turned = |low: &[u64], high: &[u64]| -> Result<Vec<[u64; 2]>, Unfit> {
-        let places = Places::new(high.iter().map(|node| (*node, positions[node])).collect(), tolerance);
+        let places = NodeGrid::new(high.iter().map(|node| (*node, positions[node])).collect(), tolerance);
         let to = |node: &u64| frame.turn_point(positions[node], alpha);
         let found: Vec<Option<u64>> = low.iter().map(|node| places.near(to(node))).collect();
         let Some(first) = found.iter().position(Option::is_none) else {

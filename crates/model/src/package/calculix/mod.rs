@@ -35,10 +35,9 @@ pub use no_mesh::NoMesh;
 
 use super::by_place;
 use super::check;
-use super::raw::{
-    Axis, Frame, Manifest, ManifestContact, ManifestMesh, RawElement, RawMatrix, RawNode, RawPackage,
-};
+use super::raw::{Axis, Frame, Manifest, ManifestContact, RawMatrix, RawNode, RawPackage};
 use deck::Deck;
+use elements::SectorTable;
 use faces::{check_all_paired, check_ties, faces, pair};
 use matrices::DofList;
 use rubmap_solid::frame::AxisFrame;
@@ -117,7 +116,7 @@ pub fn import(model: &CalculixModel) -> Result<(RawPackage, ImportSummary), Calc
         (pairs, rest.dofs, contact_set.to_vec())
     };
     check_all_paired(&dofs, &pairs, &positions, &frame, sectors, tolerance)?;
-    let of_elements = kept.iter().flat_map(|(_, elements)| elements).flat_map(|element| &element.nodes);
+    let of_elements = kept.iter().flat_map(|kept| &kept.elements).flat_map(|element| &element.nodes);
     let in_sector: HashSet<u64> = (dofs.iter().map(|dof| dof.node))
         .chain(pairs.iter().flatten().copied())
         .chain(of_elements.copied())
@@ -155,8 +154,8 @@ pub fn import(model: &CalculixModel) -> Result<(RawPackage, ImportSummary), Calc
         mesh: None,
     };
     let mut package = RawPackage { manifest, nodes, dofs, mass, stiffness, gyroscopic: None, elements: None };
-    let with_mesh = kept.and_then(|(mesh, elements)| {
-        package.manifest.mesh = Some(mesh);
+    let with_mesh = kept.and_then(|SectorTable { manifest, elements }| {
+        package.manifest.mesh = Some(manifest);
         package.elements = Some(elements);
         check::mesh_alone(&package).map_err(|error| NoMesh::Refused { message: error.to_string() })
     });
@@ -170,12 +169,12 @@ pub fn import(model: &CalculixModel) -> Result<(RawPackage, ImportSummary), Calc
 
 /// Refuses a wheel whose sectors have different numbers of elements, without elements that cannot move.
 fn even(
-    kept: (ManifestMesh, Vec<RawElement>),
+    kept: SectorTable,
     deck: &Deck,
     sectors: usize,
     moves: impl Fn(&DeckElement) -> bool,
-) -> Result<(ManifestMesh, Vec<RawElement>), NoMesh> {
-    let (sector, wheel) = (kept.1.len(), deck.solids.elements.values().filter(|e| moves(e)).count());
+) -> Result<SectorTable, NoMesh> {
+    let (sector, wheel) = (kept.elements.len(), deck.solids.elements.values().filter(|e| moves(e)).count());
     if sector * sectors == wheel { Ok(kept) } else { Err(NoMesh::Uneven { sector, wheel, sectors }) }
 }
 

@@ -18,7 +18,7 @@ use nalgebra::Vector3;
 use super::error::{ModelProblem, NoCopy};
 use super::matrices::DofList;
 use super::no_mesh::NoMesh;
-use crate::package::by_place::Places;
+use crate::package::by_place::NodeGrid;
 use crate::package::check::slits::on_axis;
 use crate::package::raw::{RawDof, RawMatrix};
 use rubmap_solid::frame::AxisFrame;
@@ -66,7 +66,7 @@ pub(super) fn cut<'a>(
     if let Some(&node) = nodes.iter().find(|node| on_axis(positions[node], frame, sectors, tolerance)) {
         return Err(ModelProblem::FreeOnAxis { node });
     }
-    let places = Places::new(nodes.iter().map(|node| (*node, positions[node])).collect(), tolerance);
+    let places = NodeGrid::new(nodes.iter().map(|node| (*node, positions[node])).collect(), tolerance);
     let alpha = TAU / sectors as f64;
     let mut next = HashMap::new();
     for &node in &nodes {

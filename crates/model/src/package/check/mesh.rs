@@ -11,7 +11,7 @@ use super::elements;
 use super::layout::NONE;
 use super::overlap;
 use super::tables::NodeIndex;
-use crate::package::by_place::{Places, tolerance};
+use crate::package::by_place::{NodeGrid, tolerance};
 use crate::package::content::SourceLines;
 use crate::package::error::{ArchiveProblem, ManifestProblem, PackageError, TableProblem};
 use crate::package::raw::{Manifest, ManifestMesh, RawElement, RawNode, RawPackage};
@@ -82,7 +82,7 @@ pub(crate) fn made(
             .collect();
         let position = |node: u32| nodes[node as usize].position;
         let places = clamped.iter().map(|&node| (u64::from(node), position(node))).collect();
-        let places = Places::new(places, tolerance(nodes.iter().map(|node| node.position)));
+        let places = NodeGrid::new(places, tolerance(nodes.iter().map(|node| node.position)));
         let alpha = TAU / manifest.sectors as f64;
         for &low in &clamped {
             let high = places.near(frame.turn_point(position(low), alpha));

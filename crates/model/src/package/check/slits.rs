@@ -1,6 +1,6 @@
 //! Free nodes without a cyclic pair: a slit between sectors, or a hub whose sectors each have an axis of their own.
 
-use super::super::by_place::Places;
+use super::super::by_place::NodeGrid;
 use rubmap_solid::frame::{AxisFrame, distance};
 use std::f64::consts::TAU;
 
@@ -41,7 +41,7 @@ pub(crate) fn find(
     if let Some(&(node, _)) = on_axis {
         return Some(Unpaired::OnAxis { node });
     }
-    let places = Places::new(free, tolerance);
+    let places = NodeGrid::new(free, tolerance);
     let alpha = TAU / sectors as f64;
     alone.into_iter().find_map(|(node, position)| {
         let other = |turn| places.near(frame.turn_point(position, turn)).filter(|other| *other != node);

@@ -136,7 +136,8 @@ impl DiscSolver {
         &mut self,
         w: &W,
         coefficient: f64,
-        (q, mut free): (&[f64], impl FnMut(usize) -> [f64; 2]),
+        q: &[f64],
+        mut free: impl FnMut(usize) -> [f64; 2],
         tolerance: f64,
     ) -> Result<(), ComplementarityError> {
         self.places.clear();

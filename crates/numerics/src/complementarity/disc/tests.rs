@@ -49,7 +49,7 @@ fn spread(solver: &DiscSolver, places: usize) -> DVector<f64> {
 fn solve(solver: &mut DiscSolver, w: &Dense, mu: f64, known: &DVector<f64>) -> DVector<f64> {
     let q: Vec<_> = (0..w.size()).map(|i| known[3 * i]).collect();
     let free = |i: usize| [-known[3 * i + 1], -known[3 * i + 2]];
-    solver.solve(w, mu, (&q, free), 1e-14).unwrap();
+    solver.solve(w, mu, &q, free, 1e-14).unwrap();
     spread(solver, w.size())
 }
 

@@ -13,7 +13,7 @@ use super::super::effects::{Effects, FrictionLaw};
 use super::super::energy::EffectWork;
 use super::super::oscillators::Oscillators;
 use super::super::oscillators::lanes::LANES;
-use super::super::oscillators::rows::{Loads, Rows};
+use super::super::oscillators::rows::{Loads, Readout, Rows};
 use super::super::statistics::RunStatistics;
 use super::instant::Instant;
 use super::residual::ResidualDisplacement;
@@ -71,6 +71,17 @@ pub(super) struct Obstacle {
     force_rows: usize,
     force_stride: usize,
     pub(super) tally: ContactTally,
+}
+
+/// Casing as the gaps of one step see it.
+#[derive(Clone, Copy)]
+struct Wall<'a> {
+    /// Number of the step in the revolution.
+    step: usize,
+    /// Growth of the restriction.
+    growth: f64,
+    /// Shift of all gaps.
+    shift: Option<&'a [f64]>,
 }
 
 impl Obstacle {
@@ -135,14 +146,14 @@ impl Obstacle {
         Loads { rows: applied(&self.rows, surroundings), loaded: &self.loaded, force: &self.force }
     }
 
-    /// Forces of the last solution, and the normal displacements to be read: rows and where their values go.
+    /// Forces of the last solution, and the normal displacements to be read.
     #[inline(always)]
     pub(super) fn loads_and_reading<'a>(
         &'a mut self,
         surroundings: Option<&'a Surroundings>,
-    ) -> (Loads<'a>, (&'a Rows, &'a mut [f64])) {
+    ) -> (Loads<'a>, Readout<'a>) {
         let Self { rows, harmonic, loaded, force, .. } = self;
-        (Loads { rows: applied(rows, surroundings), loaded, force }, (rows, harmonic))
+        (Loads { rows: applied(rows, surroundings), loaded, force }, Readout { rows, out: harmonic })
     }
 
     /// Predicts the gaps g_p = c − p − nᵀu of all sectors. Returns the smallest if it is negative, otherwise a number that is not.
@@ -164,28 +175,25 @@ impl Obstacle {
             }
             None => None,
         };
+        let wall = Wall { step: now.step, growth, shift };
         if fourier.sectors() > ALL_TRANSFORMED {
             amplitude_sums(simd, fourier, &self.harmonic, &mut self.amplitude_sums);
             self.near.clear();
             for sector in 0..fourier.sectors() {
-                let far = self.least_gaps(simd, (now.step, growth, shift), sector) >= 0.0;
+                let far = self.least_gaps(simd, wall, sector) >= 0.0;
                 self.is_far[sector] = far;
                 if !far {
                     self.near.push(sector);
                 }
             }
         }
-        self.near_gaps(simd, fourier, (now.step, growth, shift))
+        self.near_gaps(simd, fourier, wall)
     }
 
-    /// Writes the lower bounds of the gaps of a sector, at a step, growth of the restriction and shift of all gaps. Returns the smallest.
+    /// Writes the lower bounds of the gaps of a sector. Returns the smallest.
     #[inline(always)]
-    fn least_gaps<S: Simd>(
-        &mut self,
-        simd: S,
-        (step, growth, shift): (usize, f64, Option<&[f64]>),
-        sector: usize,
-    ) -> f64 {
+    fn least_gaps<S: Simd>(&mut self, simd: S, wall: Wall<'_>, sector: usize) -> f64 {
+        let Wall { step, growth, shift } = wall;
         let Self { rows, restriction, unrestricted, clearance, amplitude_sums, predicted_gap, .. } = self;
         let stride = rows.stride;
         let vectors = stride / S::F64_LANES;
@@ -198,7 +206,7 @@ impl Obstacle {
         let growth = simd.splat_f64s(growth);
         let mut smallest = simd.splat_f64s(f64::INFINITY);
         for v in 0..vectors {
-            let room = room(simd, clearance[v], (growth, restricted[v]), shift, sector * vectors + v);
+            let room = room(simd, clearance[v], growth, restricted[v], shift, sector * vectors + v);
             gap[v] = simd.sub_f64s(room, sums[v]);
             smallest = simd.min_f64s(smallest, gap[v]);
         }
@@ -207,19 +215,14 @@ impl Obstacle {
 
     /// Writes the gaps of the near sectors, and returns the smallest.
     #[inline(always)]
-    fn near_gaps<S: Simd>(
-        &mut self,
-        simd: S,
-        fourier: &SectorFourier,
-        at: (usize, f64, Option<&[f64]>),
-    ) -> f64 {
+    fn near_gaps<S: Simd>(&mut self, simd: S, fourier: &SectorFourier, wall: Wall<'_>) -> f64 {
         let mut smallest = simd.splat_f64s(f64::INFINITY);
         for first in (0..self.near.len()).step_by(TOGETHER) {
             let of_group = match self.near[first..] {
-                [a] => self.gaps_of(simd, fourier, at, [a]),
-                [a, b] => self.gaps_of(simd, fourier, at, [a, b]),
-                [a, b, c] => self.gaps_of(simd, fourier, at, [a, b, c]),
-                [a, b, c, d, ..] => self.gaps_of(simd, fourier, at, [a, b, c, d]),
+                [a] => self.gaps_of(simd, fourier, wall, [a]),
+                [a, b] => self.gaps_of(simd, fourier, wall, [a, b]),
+                [a, b, c] => self.gaps_of(simd, fourier, wall, [a, b, c]),
+                [a, b, c, d, ..] => self.gaps_of(simd, fourier, wall, [a, b, c, d]),
                 [] => break,
             };
             smallest = simd.min_f64s(smallest, of_group);
@@ -233,9 +236,10 @@ impl Obstacle {
         &mut self,
         simd: S,
         fourier: &SectorFourier,
-        (step, growth, shift): (usize, f64, Option<&[f64]>),
+        wall: Wall<'_>,
         sectors: [usize; R],
     ) -> S::f64s {
+        let Wall { step, growth, shift } = wall;
         let Self { rows, restriction, unrestricted, clearance, harmonic, predicted_gap, .. } = self;
         let vectors = rows.stride / S::F64_LANES;
         let gap = S::as_mut_simd_f64s(predicted_gap).0;
@@ -261,7 +265,7 @@ impl Obstacle {
                 };
                 let at = sectors[r] * vectors + v;
                 let restricted = S::as_simd_f64s(restricted).0[v];
-                let room = room(simd, clearance[v], (growth, restricted), shift, at);
+                let room = room(simd, clearance[v], growth, restricted, shift, at);
                 gap[at] = simd.sub_f64s(room, u[r]);
                 smallest = simd.min_f64s(smallest, gap[at]);
             }
@@ -273,10 +277,11 @@ impl Obstacle {
     #[inline(never)]
     fn complete_gaps(&mut self, fourier: &SectorFourier, now: Instant, shift: Option<&[f64]>) {
         let growth = ramp(now.revolutions, self.ramp_revolutions);
+        let wall = Wall { step: now.step, growth, shift };
         for sector in 0..fourier.sectors() {
             if std::mem::take(&mut self.is_far[sector]) {
                 // Rare: not worth a second copy for the widest vectors.
-                self.gaps_of(pulp::Scalar, fourier, (now.step, growth, shift), [sector]);
+                self.gaps_of(pulp::Scalar, fourier, wall, [sector]);
             }
         }
         self.near.clear();
@@ -302,7 +307,8 @@ impl Obstacle {
         &mut self,
         fourier: &SectorFourier,
         now: Instant,
-        (surroundings, read): (Option<&mut Surroundings>, impl Fn(&Rows, &mut [f64])),
+        surroundings: Option<&mut Surroundings>,
+        read: impl Fn(&Rows, &mut [f64]),
         statistics: &mut RunStatistics,
         work: &mut EffectWork,
     ) -> Result<(), ComplementarityError> {
@@ -311,8 +317,8 @@ impl Obstacle {
             None => (&mut Law::Plain, None, None, None),
         };
         loop {
-            let problem = (&self.delassus, self.predicted_gap.as_slice(), self.tolerance);
-            let solved = law.solve(&mut self.solver, problem, now.step, &read);
+            let (w, gap) = (&self.delassus, self.predicted_gap.as_slice());
+            let solved = law.solve(&mut self.solver, w, gap, self.tolerance, now.step, &read);
             let Solution { active, gap, .. } = law.solution(&self.solver);
             if self.near.len() == fourier.sectors() || (solved.is_ok() && !self.reaches_far(active, gap)) {
                 solved?;
@@ -378,7 +384,8 @@ impl Obstacle {
         simd: S,
         oscillators: &Oscillators,
         fourier: &SectorFourier,
-        (now, surroundings): (Instant, Option<&mut Surroundings>),
+        now: Instant,
+        surroundings: Option<&mut Surroundings>,
     ) -> bool {
         self.clear_forces(fourier);
         oscillators.project(simd, &self.rows, &mut self.harmonic);
@@ -390,7 +397,7 @@ impl Obstacle {
         let law = surroundings.map_or(&Law::Plain, |surroundings| &surroundings.law);
         let (active, symmetric) = (law.solution(&self.solver).active, !matches!(law, Law::General(_)));
         let places = active.iter().map(|&index| self.delassus.place(index));
-        trace.touch(step, places, (|i, j| self.delassus.entry(active[i], active[j]), symmetric));
+        trace.touch(step, places, |i, j| self.delassus.entry(active[i], active[j]), symmetric);
     }
 
     /// Largest penetration of the state at `now`, the instant of the last gaps.
@@ -438,7 +445,8 @@ impl Obstacle {
 fn room<S: Simd>(
     simd: S,
     clearance: S::f64s,
-    (growth, restricted): (S::f64s, S::f64s),
+    growth: S::f64s,
+    restricted: S::f64s,
     shift: Option<&[f64]>,
     at: usize,
 ) -> S::f64s {

@@ -87,7 +87,8 @@ impl Recorder {
         oscillators: &Oscillators,
         fourier: &SectorFourier,
         force: Option<&[f64]>,
-        (step, windowed): (u64, bool),
+        step: u64,
+        windowed: bool,
     ) {
         oscillators.project(simd, &self.rows, &mut self.harmonic);
         let stride = self.rows.stride;
@@ -187,7 +188,9 @@ impl Recorder {
         wheel: &ModalWheel,
         oscillators: &Oscillators,
         fourier: &SectorFourier,
-        (modes, casing, steps): (Vec<InitialMode>, Vec<SteppedWave>, u64),
+        modes: Vec<InitialMode>,
+        casing: Vec<SteppedWave>,
+        steps: u64,
     ) {
         (self.history.end, self.history.casing_end) = (modes, casing);
         self.history.tips = self.tips.motions();

@@ -94,7 +94,8 @@ impl Stepper {
             scheme,
             simulation.step_s(),
             simulation.damping,
-            (touching, follow),
+            touching,
+            follow,
             simulation.initial,
         );
         let surroundings = Surroundings::new(simulation, &oscillators, &fourier);
@@ -109,7 +110,8 @@ impl Stepper {
             &simulation.effects,
             &oscillators,
             &fourier,
-            (simulation.step_s(), loaded),
+            simulation.step_s(),
+            loaded,
         );
         if let Some(drive) = &mut drive {
             drive.start(wheel, simulation.initial, &mut oscillators, revolutions);
@@ -320,8 +322,8 @@ impl Stepper {
     fn end(&mut self, simulation: &Simulation<'_>, revolutions: usize) {
         let modes = self.modes_at_end(simulation, revolutions as f64);
         let casing = self.flexible_casing().map(CasingMotion::stepped).unwrap_or_default();
-        let end = (modes, casing, self.statistics.steps);
-        self.recorder.end(simulation.wheel, &self.oscillators, &self.fourier, end);
+        let steps = self.statistics.steps;
+        self.recorder.end(simulation.wheel, &self.oscillators, &self.fourier, modes, casing, steps);
     }
 
     /// Motion that was found to repeat after `revolution`, if the run may end because of it.

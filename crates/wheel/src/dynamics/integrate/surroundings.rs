@@ -105,12 +105,12 @@ impl Surroundings {
             || effects.clearance_drift.is_some();
         let stride = padded(contact_nodes.len());
         let size = wheel.sectors * stride;
-        let around = (wheel.sectors, wheel.around());
+        let (sectors, around) = (wheel.sectors, wheel.around());
         let casing = effects.flexible_casing.map(|casing| {
-            CasingMotion::new(casing, scheme, simulation.step_s(), contact_nodes, around, stride)
+            CasingMotion::new(casing, scheme, simulation.step_s(), contact_nodes, sectors, around, stride)
         });
         let disc = effects.friction.and_then(|friction| {
-            Disc::new(simulation, friction, (oscillators, fourier), (casing.as_ref(), stride))
+            Disc::new(simulation, friction, oscillators, fourier, casing.as_ref(), stride)
         });
         Some(Self {
             law: match effects.coating {
@@ -135,7 +135,7 @@ impl Surroundings {
             },
             sliding,
             casing,
-            orbit: effects.orbit.map(|orbit| OrbitShift::new(orbit, contact_nodes, around, stride)),
+            orbit: effects.orbit.map(|orbit| OrbitShift::new(orbit, contact_nodes, sectors, around, stride)),
             change: (effects.clearance_change)
                 .map(|change| ClearanceShift::new(change, contact_nodes.len(), stride)),
             drift: effects.clearance_drift.cloned(),
@@ -193,7 +193,9 @@ impl Law {
     pub(super) fn solve(
         &mut self,
         plain: &mut ActiveSetSolver,
-        (w, gap, tolerance): (&Delassus, &[f64], f64),
+        w: &Delassus,
+        gap: &[f64],
+        tolerance: f64,
         step: usize,
         read: impl Fn(&Rows, &mut [f64]),
     ) -> Result<(), ComplementarityError> {
@@ -210,7 +212,7 @@ impl Law {
                     CoatedSolver::General(solver) => solver.solve(w, law, gap, tolerance),
                 }
             }
-            Self::Disc(disc) => disc.solve((gap, tolerance), read),
+            Self::Disc(disc) => disc.solve(gap, tolerance, read),
         }
     }
 

@@ -38,7 +38,8 @@ impl Trace {
         &mut self,
         step: usize,
         places: impl Iterator<Item = (usize, usize)>,
-        (w, symmetric): (impl Fn(usize, usize) -> f64, bool),
+        w: impl Fn(usize, usize) -> f64,
+        symmetric: bool,
     ) {
         let places: Vec<_> = places.collect();
         if places.is_empty() {

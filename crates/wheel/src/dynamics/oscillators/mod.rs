@@ -19,7 +19,7 @@ use pulp::Simd;
 use self::lanes::padded;
 pub(crate) use self::recursion::Exchange;
 use self::recursion::{Advance, Complete, CompleteAndPredict, Modes, Numbers, Pass, Sums};
-use self::rows::{Loads, Rows};
+use self::rows::{Loads, Readout, Rows};
 use self::segment::Segment;
 use super::initial::{InitialMode, SteppedMode};
 use super::modal_wheel::ModalWheel;
@@ -91,7 +91,8 @@ impl Oscillators {
         scheme: Scheme,
         step: f64,
         damping: Option<&ModalDamping>,
-        (touching, follow): (bool, bool),
+        touching: bool,
+        follow: bool,
         initial: &[InitialMode],
     ) -> Self {
         let mut segments = Vec::with_capacity(wheel.harmonics.len());
@@ -127,7 +128,7 @@ impl Oscillators {
             let zeta = damping.map_or(0.0, |damping| damping.ratio(mode.family));
             this.start(mode, |z, v| {
                 let omega = wheel.harmonics[mode.harmonic].omega[mode.family];
-                scheme.first_increment((omega, zeta), step, (z, v), follow)
+                scheme.first_increment(omega, zeta, step, z, v, follow)
             });
         }
         this
@@ -177,7 +178,7 @@ impl Oscillators {
         &mut self,
         simd: S,
         loads: Loads<'_>,
-        reading: (&Rows, &mut [f64]),
+        reading: Readout<'_>,
     ) -> Exchange {
         self.pass::<S, Advance>(simd, Some(loads), Some(reading))
     }
@@ -189,7 +190,7 @@ impl Oscillators {
         &mut self,
         simd: S,
         loads: Loads<'_>,
-        reading: (&Rows, &mut [f64]),
+        reading: Readout<'_>,
     ) -> Exchange {
         if loads.loaded.is_empty() {
             self.pass::<S, CompleteAndPredict>(simd, None, Some(reading))
@@ -210,7 +211,7 @@ impl Oscillators {
         &mut self,
         simd: S,
         loads: Option<Loads<'_>>,
-        reading: Option<(&Rows, &mut [f64])>,
+        reading: Option<Readout<'_>>,
     ) -> Exchange {
         if self.dissipates {
             self.pass_counting::<S, P, true>(simd, loads, reading)
@@ -224,7 +225,7 @@ impl Oscillators {
         &mut self,
         simd: S,
         loads: Option<Loads<'_>>,
-        mut reading: Option<(&Rows, &mut [f64])>,
+        mut reading: Option<Readout<'_>>,
     ) -> Exchange {
         let zero = simd.splat_f64s(0.0);
         let mut sums = Sums::<S, DISSIPATES>::new(simd);
@@ -248,7 +249,7 @@ impl Oscillators {
                     }
                 }
             }
-            if let Some((rows, out)) = &mut reading {
+            if let Some(Readout { rows, out }) = &mut reading {
                 rows.project(simd, index, segment, &self.state.z, out);
             }
         }

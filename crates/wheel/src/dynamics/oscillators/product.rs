@@ -23,7 +23,7 @@ impl Rows {
         out: &mut [f64],
     ) {
         let (z, out) = (&z[segment.state..][..segment.size()], &mut out[segment.column * self.stride..]);
-        self.blocks[index].project(simd, segment, z, out, (self.count, self.stride));
+        self.blocks[index].project(simd, segment, z, out, self.count, self.stride);
     }
 }
 
@@ -33,7 +33,7 @@ impl Loads<'_> {
     pub(super) fn modal<S: Simd>(self, simd: S, index: usize, segment: Segment, out: &mut [f64]) {
         let Self { rows, loaded, force } = self;
         let force = &force[segment.column * rows.stride..];
-        rows.blocks[index].load(simd, segment, loaded, (force, rows.stride), out);
+        rows.blocks[index].load(simd, segment, loaded, force, rows.stride, out);
     }
 }
 
@@ -46,7 +46,8 @@ impl RowBlock {
         simd: S,
         segment: Segment,
         loaded: &[usize],
-        (force, stride): (&[f64], usize),
+        force: &[f64],
+        stride: usize,
         out: &mut [f64],
     ) {
         let out = &mut out[..segment.size()];
@@ -67,7 +68,8 @@ impl RowBlock {
         segment: Segment,
         z: &[f64],
         out: &mut [f64],
-        (rows, stride): (usize, usize),
+        rows: usize,
+        stride: usize,
     ) {
         if segment.single {
             simd.vectorize(ProjectSingle { block: self, z, out: &mut out[..rows] });

@@ -28,6 +28,14 @@ pub(crate) struct Loads<'a> {
     pub(crate) force: &'a [f64],
 }
 
+/// Rows to be read, and where their values go.
+#[derive(Debug)]
+pub(crate) struct Readout<'a> {
+    pub(crate) rows: &'a Rows,
+    /// Values in Fourier coordinates, `[column][row]`, rows padded to their stride.
+    pub(crate) out: &'a mut [f64],
+}
+
 /// Modal components dᵀφ_m of each row direction d, real and imaginary parts.
 #[derive(Debug, Clone)]
 pub(super) struct RowBlock {

@@ -1,6 +1,6 @@
 //! Layout of the oscillators.
 
-use super::super::mistuning::Place;
+use super::super::mistuning::ModeOffsets;
 
 /// Places of the modes of one nodal diameter in the arrays of the oscillators.
 #[derive(Debug, Clone, Copy)]
@@ -24,9 +24,13 @@ impl Segment {
         (0..if self.single { 1 } else { 2 }).map(move |part| self.state + part * self.length)
     }
 
-    /// Place of the modes in the state, and their Fourier column, for mistuning, which couples nodal diameters.
-    pub(super) fn place(&self) -> Place {
-        Place { re: self.state, im: (!self.single).then_some(self.state + self.length), column: self.column }
+    /// Offsets of the modes in the state, and their Fourier column, for mistuning, which couples nodal diameters.
+    pub(super) fn offsets(&self) -> ModeOffsets {
+        ModeOffsets {
+            re: self.state,
+            im: (!self.single).then_some(self.state + self.length),
+            column: self.column,
+        }
     }
 
     /// Number of values in the state arrays.

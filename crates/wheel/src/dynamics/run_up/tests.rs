@@ -231,11 +231,13 @@ fn a_drift_is_linear_between_its_ends() {
 
 /// Wheel that nothing touches, with given steps and samples per revolution.
 fn untouched<'a>(
-    (wheel, contact_nodes): (&'a ModalWheel, &'a [ContactNode]),
+    wheel: &'a ModalWheel,
+    contact_nodes: &'a [ContactNode],
     damping: &'a ModalDamping,
     effects: Effects<'a>,
     initial: &'a [InitialMode],
-    (steps_per_revolution, samples_per_revolution): (usize, usize),
+    steps_per_revolution: usize,
+    samples_per_revolution: usize,
 ) -> Simulation<'a> {
     Simulation {
         wheel,
@@ -286,13 +288,12 @@ impl Oscillator {
         for segment in segments {
             let wheel = self.wheel(segment.speed_rad_s);
             let effects = Effects { excitation: &excitation, ..Effects::default() };
-            let sizes = (16 * samples, samples);
             let stretch: Stretch = Simulation {
                 sensors: &[SensorRow {
                     direction: Direction { node: 0, components: [0.0, 0.0, 1.0] },
                     sector: 0,
                 }],
-                ..untouched((&wheel, nodes), &damping, effects, &state, sizes)
+                ..untouched(&wheel, nodes, &damping, effects, &state, 16 * samples, samples)
             }
             .stretch(Part { first_sample: segment.first_sample, samples: segment.samples }, &|_| true);
             assert_eq!(stretch.ended, None);
@@ -304,7 +305,7 @@ impl Oscillator {
 
     /// Response of ẍ + 2ζωẋ + ω²x = cos(n(Ω₀t + at²/2)) from rest, at ascending instants: Duhamel's integral by the trapezoidal rule in the
     /// frame that turns with the free motion (Lewis, Trans. ASME 54 (1932) 253–261, has it in closed form for no damping).
-    fn duhamel(&self, (start, rate): (f64, f64), instants: &[f64]) -> Vec<f64> {
+    fn duhamel(&self, start: f64, rate: f64, instants: &[f64]) -> Vec<f64> {
         let (decay, free) = (self.zeta * self.omega, self.omega * (1.0 - self.zeta * self.zeta).sqrt());
         let pole = c64::new(-decay, free);
         let force = |t: f64| (f64::from(self.order) * (start * t + 0.5 * rate * t * t)).cos();
@@ -363,7 +364,7 @@ fn one_degree_of_freedom_passes_resonance_as_lewis_has_it() {
                         (-from + (from * from + 2.0 * rate * angle).sqrt()) / rate
                     })
                     .collect();
-                let exact = oscillator.duhamel((from, rate), &instants);
+                let exact = oscillator.duhamel(from, rate, &instants);
                 let scale = exact.iter().fold(0.0f64, |most, x| most.max(x.abs()));
                 found.iter().zip(&exact).fold(0.0f64, |most, (a, b)| most.max((a - b).abs())) / scale
             })

@@ -86,9 +86,11 @@ impl Scheme {
     /// statically, which has no past, the increment from its place at rest.
     pub fn first_increment(
         self,
-        (omega, zeta): (f64, f64),
+        omega: f64,
+        zeta: f64,
         h: f64,
-        (displacement, velocity): (f64, f64),
+        displacement: f64,
+        velocity: f64,
         follow: bool,
     ) -> f64 {
         match self {
@@ -124,7 +126,7 @@ mod tests {
         for scheme in schemes {
             for (omega, zeta) in [(1.0, 0.0), (30.0, 0.02), (150.0, 0.3)] {
                 let (h, z, v) = (0.01, 0.7, -20.0);
-                let d = scheme.first_increment((omega, zeta), h, (z, v), false);
+                let d = scheme.first_increment(omega, zeta, h, z, v, false);
                 let found = scheme.velocity(omega, zeta, h, z, d, false);
                 assert!((found - v).abs() < 1e-11 * omega.max(20.0), "{scheme:?} {omega}: {found}");
             }
@@ -136,7 +138,7 @@ mod tests {
     fn a_mode_that_forgets_its_past_within_a_step_starts_as_if_held() {
         for h in [13.0, 130.0] {
             let (omega, zeta) = (1000.0, 0.02);
-            assert_eq!(Scheme::ExactModal.first_increment((omega, zeta), h, (0.7, -20.0), false), 0.0);
+            assert_eq!(Scheme::ExactModal.first_increment(omega, zeta, h, 0.7, -20.0, false), 0.0);
             assert_eq!(Scheme::ExactModal.velocity(omega, zeta, h, 0.7, 0.1, false), 0.0);
         }
     }

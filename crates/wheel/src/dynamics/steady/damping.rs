@@ -22,7 +22,7 @@ const LEAST_STEP: f64 = 1.02;
 
 /// Response, and the factor of the damping of its scene from which it was followed.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Followed {
+pub(super) struct ContinuedResponse {
     pub(super) periodic: Periodic,
     pub(super) from: f64,
 }
@@ -35,9 +35,10 @@ pub(super) struct Followed {
 pub(super) fn follow(
     simulation: &Simulation<'_>,
     start: &[f64],
-    (search, taken): (&Search, &mut usize),
+    search: &Search,
+    taken: &mut usize,
     go_on: &dyn Fn() -> bool,
-) -> Result<Followed, NotFound> {
+) -> Result<ContinuedResponse, NotFound> {
     let stalled = |taken: usize| NotFound::Stalled { residual: f64::INFINITY, passages: taken };
     let Some(light) = simulation.damping else { return Err(stalled(*taken)) };
     let mut solve = |factor: f64, start: &[f64], marched: usize| {
@@ -55,12 +56,12 @@ pub(super) fn follow(
     let largest = ratios.copied().fold(0.0, f64::max);
     let mut sought = Err(stalled(0));
     for from in HEAVIER.into_iter().filter(|from| largest > 0.0 && from * largest <= MOST_DAMPING) {
-        sought = solve(from, start, search.marched).map(|periodic| Followed { periodic, from });
+        sought = solve(from, start, search.marched).map(|periodic| ContinuedResponse { periodic, from });
         if matches!(sought, Ok(_) | Err(NotFound::Cancelled)) {
             break;
         }
     }
-    let Followed { mut periodic, from } = sought?;
+    let ContinuedResponse { mut periodic, from } = sought?;
     let (mut factor, mut step) = (from, STEP);
     while factor > 1.0 {
         let next = (factor / step).max(1.0);
@@ -77,7 +78,7 @@ pub(super) fn follow(
             }
         }
     }
-    Ok(Followed { periodic, from })
+    Ok(ContinuedResponse { periodic, from })
 }
 
 fn times(damping: &ModalDamping, factor: f64) -> ModalDamping {

@@ -69,7 +69,7 @@ fn largest(tangent: &Tangent<'_>, count: usize, hint: &[f64]) -> Vec<(c64, Vec<c
         let told = TOLD * value.norm();
         residual <= if place < 2 { told.min(CERTAIN * (1.0 - value.norm()).abs()) } else { 10.0 * told }
     };
-    let found = arnoldi::largest(product, &start, (count, MOST_PRODUCTS), enough);
+    let found = arnoldi::largest(product, &start, count, MOST_PRODUCTS, enough);
     found.into_iter().map(|pair| (pair.value, pair.vector)).collect()
 }
 

@@ -85,7 +85,7 @@ impl Phase {
         ]
     }
 
-    fn after(&self, (x, from): (State, f64), t: f64) -> State {
+    fn after(&self, x: State, from: f64, t: f64) -> State {
         let (start, end) = (self.forced(from), self.forced(from + t));
         let moved = times(&self.transition(t), [x[0] - start[0], x[1] - start[1]]);
         [moved[0] + end[0], moved[1] + end[1]]
@@ -104,7 +104,7 @@ fn flow(mut x: State, speed: f64) -> (State, Matrix) {
     while t < period {
         let touching = overlap(x, speed, t) > 0.0;
         let phase = Phase::new(speed, touching);
-        let goes_on = |dt: f64| (overlap(phase.after((x, t), dt), speed, t + dt) > 0.0) == touching;
+        let goes_on = |dt: f64| (overlap(phase.after(x, t, dt), speed, t + dt) > 0.0) == touching;
         // Past the present instant, which may lie between two phases; then to where this one ends.
         let least = 1e-9 * period;
         let (mut held, mut next) = (least, least);
@@ -122,7 +122,7 @@ fn flow(mut x: State, speed: f64) -> (State, Matrix) {
             }
             held = ended;
         }
-        x = phase.after((x, t), held);
+        x = phase.after(x, t, held);
         derivative = product(&phase.transition(held), &derivative);
         t += held;
     }

@@ -86,7 +86,7 @@ pub fn find(
         asked(go_on)?;
         state = passage.map(&state)?;
     }
-    let mut best = accelerate(passage, state, (search, before + search.most), go_on)?;
+    let mut best = accelerate(passage, state, search, before + search.most, go_on)?;
     while best.residual > search.tolerance {
         asked(go_on)?;
         let stalled = |passage: &Passage<'_>| NotFound::Stalled {
@@ -111,7 +111,8 @@ fn asked(go_on: &dyn Fn() -> bool) -> Result<(), NotFound> {
 fn accelerate(
     passage: &mut Passage<'_>,
     mut state: Vec<f64>,
-    (search, last): (&Search, usize),
+    search: &Search,
+    last: usize,
     go_on: &dyn Fn() -> bool,
 ) -> Result<Best, NotFound> {
     let mut anderson = Anderson::new(DEPTH);

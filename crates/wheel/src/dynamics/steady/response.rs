@@ -1,6 +1,6 @@
 //! Periodic response of a scene: sought from where its march begins, judged, and checked by a march.
 
-use super::damping::{Followed, follow};
+use super::damping::{ContinuedResponse, follow};
 use super::multipliers::MOST_PRODUCTS;
 use super::periodic::{DEPTH, NotFound, Periodic, Search, find};
 use super::stability::{Floquet, Stability};
@@ -74,7 +74,7 @@ pub fn seek(simulation: &Simulation<'_>, limit: usize, control: bool, go_on: &dy
     let mut revolutions = 0.0;
     let response = match Passage::about_half(simulation) {
         Ok(mut passage) => {
-            let response = respond(&mut passage, simulation, (limit, control), (&mut revolutions, go_on));
+            let response = respond(&mut passage, simulation, limit, control, &mut revolutions, go_on);
             revolutions += passage.revolutions();
             response
         }
@@ -86,8 +86,10 @@ pub fn seek(simulation: &Simulation<'_>, limit: usize, control: bool, go_on: &dy
 fn respond(
     passage: &mut Passage<'_>,
     simulation: &Simulation<'_>,
-    (limit, control): (usize, bool),
-    (revolutions, go_on): (&mut f64, &dyn Fn() -> bool),
+    limit: usize,
+    control: bool,
+    revolutions: &mut f64,
+    go_on: &dyn Fn() -> bool,
 ) -> Result<Response, NotFound> {
     let (per_revolution, steps) = (simulation.steps_per_revolution, passage.steps());
     let passages = |revolutions: usize| (revolutions * per_revolution).div_ceil(steps);
@@ -97,10 +99,10 @@ fn respond(
     let (Periodic { state, residual }, followed_from) = match find(passage, &start, &search, go_on) {
         Err(stalled @ NotFound::Stalled { .. }) => {
             let mut taken = 0;
-            let followed = follow(simulation, &start, (&search, &mut taken), go_on);
+            let followed = follow(simulation, &start, &search, &mut taken, go_on);
             *revolutions += (taken * steps) as f64 / per_revolution as f64;
             match followed {
-                Ok(Followed { periodic, from }) => (periodic, Some(from)),
+                Ok(ContinuedResponse { periodic, from }) => (periodic, Some(from)),
                 Err(NotFound::Cancelled) => return Err(NotFound::Cancelled),
                 Err(_) => return Err(stalled),
             }
@@ -108,7 +110,7 @@ fn respond(
         found => (found?, None),
     };
     let hint: Vec<f64> = start.iter().zip(&state).map(|(a, b)| a - b).collect();
-    let mut floquet = Floquet::of(passage, (&state, &hint), MULTIPLIERS)?;
+    let mut floquet = Floquet::of(passage, &state, &hint, MULTIPLIERS)?;
     *revolutions += floquet.revolutions;
     let mut arrives = None;
     if floquet.stability == Stability::Stable {

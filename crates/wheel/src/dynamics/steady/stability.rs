@@ -59,7 +59,8 @@ impl Floquet {
     /// As of [`Passage::map`].
     pub fn of(
         passage: &Passage<'_>,
-        (state, hint): (&[f64], &[f64]),
+        state: &[f64],
+        hint: &[f64],
         count: usize,
     ) -> Result<Self, PassageError> {
         let over = |lobes: usize| -> Result<_, PassageError> {

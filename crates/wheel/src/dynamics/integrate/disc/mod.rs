@@ -54,8 +54,10 @@ impl Disc {
     pub(super) fn new(
         simulation: &Simulation<'_>,
         friction: Friction<'_>,
-        (oscillators, fourier): (&Oscillators, &SectorFourier),
-        (casing, stride): (Option<&CasingMotion>, usize),
+        oscillators: &Oscillators,
+        fourier: &SectorFourier,
+        casing: Option<&CasingMotion>,
+        stride: usize,
     ) -> Option<Self> {
         let Friction { coefficient, law: FrictionLaw::Disc, directions } = friction else { return None };
         let Simulation { wheel, contact_nodes, scheme, .. } = *simulation;
@@ -98,7 +100,8 @@ impl Disc {
     #[inline(always)]
     pub(super) fn solve(
         &mut self,
-        (gap, tolerance): (&[f64], f64),
+        gap: &[f64],
+        tolerance: f64,
         read: impl Fn(&Rows, &mut [f64]),
     ) -> Result<(), ComplementarityError> {
         let Self { coefficient, operator, solver, planes, fourier, stride, .. } = self;
@@ -117,7 +120,7 @@ impl Disc {
             }
             sliding
         };
-        solver.solve(operator, *coefficient, (gap, free), tolerance)
+        solver.solve(operator, *coefficient, gap, free, tolerance)
     }
 
     /// Forces λ and friction along the two directions of the plane, of every place that is pressed.

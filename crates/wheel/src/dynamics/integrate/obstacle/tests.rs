@@ -62,7 +62,7 @@ fn simulation<'a>(wheel: &'a ModalWheel, nodes: &'a [ContactNode], casing: &'a C
 fn obstacle(simulation: &Simulation<'_>, initial: &[InitialMode]) -> (Obstacle, Oscillators, SectorFourier) {
     let fourier = SectorFourier::new(SECTORS);
     let (scheme, step) = (simulation.scheme, simulation.step_s());
-    let oscillators = Oscillators::new(simulation.wheel, scheme, step, None, (true, true), initial);
+    let oscillators = Oscillators::new(simulation.wheel, scheme, step, None, true, true, initial);
     let casing = simulation.casing.expect("all have one");
     let obstacle = Obstacle::new(simulation, casing, &oscillators, &fourier, None);
     (obstacle, oscillators, fourier)
@@ -105,7 +105,7 @@ fn far_sectors_have_bounds_of_their_gaps_and_all_others_their_gaps() {
             (0..=SECTORS / 2).flat_map(|h| [mode(h, 0, &mut numbers), mode(h, 3, &mut numbers)]).collect();
         let (mut obstacle, oscillators, fourier) = obstacle(&simulation, &initial);
         let now = Instant::new(3, 1 + 8 * turn, STEPS);
-        let open = obstacle.look(pulp::Scalar, &oscillators, &fourier, (now, None));
+        let open = obstacle.look(pulp::Scalar, &oscillators, &fourier, now, None);
         let mut gaps = (0..SECTORS * NODES).map(|i| gap(&obstacle, &fourier, now.step, i / NODES, i % NODES));
         assert_eq!(open, gaps.all(|gap| gap >= 0.0));
         let holds = |obstacle: &Obstacle, exactly: bool| {
@@ -151,7 +151,7 @@ fn forces_that_close_a_far_gap_are_those_of_all_gaps() {
     };
     let (mut obstacle, oscillators, fourier) = obstacle(&simulation, &[mode(1), mode(4)]);
     let now = Instant::beginning(1);
-    assert!(!obstacle.look(pulp::Scalar, &oscillators, &fourier, (now, None)));
+    assert!(!obstacle.look(pulp::Scalar, &oscillators, &fourier, now, None));
     let was_far = obstacle.is_far.clone();
     let mut q = vec![f64::INFINITY; obstacle.predicted_gap.len()];
     for sector in 0..SECTORS {
@@ -162,7 +162,7 @@ fn forces_that_close_a_far_gap_are_those_of_all_gaps() {
     let bounds = obstacle.predicted_gap.clone();
     let (mut statistics, mut work) = (RunStatistics::default(), EffectWork::default());
     obstacle
-        .solve(&fourier, now, (None, |_: &Rows, _: &mut [f64]| ()), &mut statistics, &mut work)
+        .solve(&fourier, now, None, |_: &Rows, _: &mut [f64]| (), &mut statistics, &mut work)
         .expect("W is positive definite");
     let (active, lambda) = (obstacle.solver.active(), obstacle.solver.lambda());
     let sector = |index: usize| obstacle.delassus.place(index).0;

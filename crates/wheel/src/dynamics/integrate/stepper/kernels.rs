@@ -40,8 +40,8 @@ impl Stepper {
     #[inline(always)]
     fn read_on<S: Simd>(&mut self, simd: S, windowed: bool) {
         let force = self.obstacle.as_ref().map(|obstacle| obstacle.force.as_slice());
-        let when = (self.statistics.steps, windowed);
-        self.recorder.read(simd, &self.oscillators, &self.fourier, force, when);
+        let step = self.statistics.steps;
+        self.recorder.read(simd, &self.oscillators, &self.fourier, force, step, windowed);
     }
 
     #[inline(always)]
@@ -86,7 +86,7 @@ impl WithSimd for Solve<'_> {
         let read = |rows: &Rows, out: &mut [f64]| oscillators.project_of(simd, swing, rows, out);
         let (statistics, work) = (&mut stepper.statistics, stepper.energy.effects_mut());
         obstacle
-            .solve(fourier, now, (surroundings.as_mut(), read), statistics, work)
+            .solve(fourier, now, surroundings.as_mut(), read, statistics, work)
             .map_err(|error| Box::new(Outcome::ContactFailed { revolutions: now.revolutions, error }))
     }
 }
@@ -103,8 +103,8 @@ impl WithSimd for Look<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> bool {
         let Stepper { oscillators, fourier, obstacle, surroundings, .. } = self.stepper;
-        let at = (self.now, surroundings.as_mut());
-        obstacle.as_mut().is_none_or(|obstacle| obstacle.look(simd, oscillators, fourier, at))
+        let (now, surroundings) = (self.now, surroundings.as_mut());
+        obstacle.as_mut().is_none_or(|obstacle| obstacle.look(simd, oscillators, fourier, now, surroundings))
     }
 }
 

@@ -203,17 +203,15 @@ impl Motion for Affected {
             };
             return energy.add(exchange);
         };
-        let (loads, (rows, out)) = obstacle.loads_and_reading(surroundings.as_ref());
+        let (loads, reading) = obstacle.loads_and_reading(surroundings.as_ref());
         let exchange = match drive {
-            None if *massless => oscillators.advance_loaded(simd, loads, (rows, out)),
-            None => oscillators.complete_and_predict(simd, loads, (rows, out)),
+            None if *massless => oscillators.advance_loaded(simd, loads, reading),
+            None => oscillators.complete_and_predict(simd, loads, reading),
             Some(drive) if *massless => {
-                let reading = Some((rows, out));
-                oscillators.advance_driven(simd, drive, Some(loads), now.before, reading, work)
+                oscillators.advance_driven(simd, drive, Some(loads), now.before, Some(reading), work)
             }
             Some(drive) => {
-                let ahead = (loads, now.before);
-                oscillators.complete_and_predict_driven(simd, drive, ahead, (rows, out), work)
+                oscillators.complete_and_predict_driven(simd, drive, loads, now.before, reading, work)
             }
         };
         energy.add(exchange);

@@ -75,7 +75,8 @@ impl Acting {
         &mut self,
         simd: S,
         excitations: &[Excitation],
-        (index, segment): (usize, Segment),
+        index: usize,
+        segment: Segment,
         revolutions: f64,
     ) {
         if !self.is_excited(index) {
@@ -107,7 +108,8 @@ impl Acting {
     #[inline(always)]
     pub(super) fn on<S: Simd>(
         &self,
-        (index, segment): (usize, Segment),
+        index: usize,
+        segment: Segment,
         start: usize,
         loaded: bool,
     ) -> Forces<'_, S> {

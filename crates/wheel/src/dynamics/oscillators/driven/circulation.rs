@@ -45,13 +45,14 @@ impl Circulation {
     pub(super) fn push<S: Simd>(
         &mut self,
         simd: S,
-        (index, segment): (usize, Segment),
+        index: usize,
+        segment: Segment,
         revolutions: f64,
         z: &[f64],
         forces: &mut [f64],
     ) {
         let Self { rate, rows, all, pushed } = self;
-        rows[index].load(simd, segment, &all[..segment.integrated], (z, segment.length), pushed);
+        rows[index].load(simd, segment, &all[..segment.integrated], z, segment.length, pushed);
         let rate = simd.splat_f64s(rate.at(revolutions));
         let (forces, pushed) = (S::as_mut_simd_f64s(forces).0, S::as_simd_f64s(pushed).0);
         for (force, pushed) in forces.iter_mut().zip(pushed) {

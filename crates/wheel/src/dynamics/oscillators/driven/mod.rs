@@ -23,10 +23,10 @@ use super::super::effects::Effects;
 use super::super::energy::EffectWork;
 use super::super::excitation::{EngineOrderExcitation, ModalExcitation};
 use super::super::initial::InitialMode;
-use super::super::mistuning::{ModalMistuning, Place, RESOLVED};
+use super::super::mistuning::{ModalMistuning, ModeOffsets, RESOLVED};
 use super::super::modal_wheel::{ModalHarmonic, ModalWheel};
 use super::recursion::{Exchange, Modes};
-use super::rows::{Loads, Rows};
+use super::rows::{Loads, Readout, Rows};
 use super::segment::Segment;
 use super::{Oscillators, Part};
 use acting::{Acting, DrivenSums, Excitation};
@@ -40,7 +40,7 @@ use turning::Turning;
 pub(crate) struct Drive {
     excitations: Vec<Excitation>,
     mistuning: Option<ModalMistuning>,
-    places: Vec<Place>,
+    offsets: Vec<ModeOffsets>,
     turning: Option<Turning>,
     circulation: Option<Circulation>,
     acting: Acting,
@@ -60,7 +60,8 @@ impl Drive {
         effects: &Effects<'_>,
         oscillators: &Oscillators,
         fourier: &SectorFourier,
-        (step, loaded): (f64, Option<&Rows>),
+        step: f64,
+        loaded: Option<&Rows>,
     ) -> Option<Self> {
         if !Self::acts(wheel, effects) {
             return None;
@@ -92,7 +93,7 @@ impl Drive {
             },
             excitations,
             mistuning,
-            places: oscillators.segments.iter().map(Segment::place).collect(),
+            offsets: oscillators.segments.iter().map(Segment::offsets).collect(),
             turning,
             circulation,
             swing: of(true),
@@ -120,7 +121,7 @@ impl Drive {
 
     /// Stiffness −∂f/∂z of mistuning between the Fourier columns of every family that it couples.
     pub(crate) fn mistuned(&self) -> Vec<Mat<f64>> {
-        self.mistuning.as_ref().map(|mistuning| mistuning.stiffness(&self.places)).unwrap_or_default()
+        self.mistuning.as_ref().map(|mistuning| mistuning.stiffness(&self.offsets)).unwrap_or_default()
     }
 
     /// Reverses [`Self::start`] after `revolutions`: leaves the increments that free motion has at the same velocities, as `read` finds them.
@@ -188,13 +189,19 @@ impl Drive {
 
     /// Computes the known forces on nodal diameter `index`, `revolutions` after the start, and the Euler force on its displacements in `z`.
     #[inline(always)]
-    fn force<S: Simd>(&mut self, simd: S, of: (usize, Segment), revolutions: f64, z: &[f64]) {
+    fn force<S: Simd>(&mut self, simd: S, index: usize, segment: Segment, revolutions: f64, z: &[f64]) {
         let Self { acting, excitations, circulation, .. } = self;
-        acting.excite(simd, excitations, of, revolutions);
+        acting.excite(simd, excitations, index, segment, revolutions);
         if let Some(circulation) = circulation {
-            let (_, segment) = of;
             let range = segment.state..segment.state + segment.size();
-            circulation.push(simd, of, revolutions, &z[range.clone()], &mut acting.excitation[range]);
+            circulation.push(
+                simd,
+                index,
+                segment,
+                revolutions,
+                &z[range.clone()],
+                &mut acting.excitation[range],
+            );
         }
     }
 
@@ -202,7 +209,7 @@ impl Drive {
     #[inline(always)]
     fn pull<S: Simd>(&mut self, simd: S, z: &[f64]) {
         if let Some(mistuning) = &mut self.mistuning {
-            mistuning.force(simd, &self.places, z, &mut self.acting.mistuning);
+            mistuning.force(simd, &self.offsets, z, &mut self.acting.mistuning);
         }
     }
 }
@@ -217,8 +224,8 @@ impl WithSimd for Prepare<'_> {
     fn with_simd<S: Simd>(self, simd: S) {
         let Self(drive, oscillators, revolutions) = self;
         drive.pull(simd, &oscillators.state.z);
-        for of in oscillators.segments.iter().copied().enumerate() {
-            drive.force(simd, of, revolutions, &oscillators.state.z);
+        for (index, &segment) in oscillators.segments.iter().enumerate() {
+            drive.force(simd, index, segment, revolutions, &oscillators.state.z);
         }
     }
 }
@@ -266,8 +273,9 @@ impl Oscillators {
         &mut self,
         simd: S,
         drive: &mut Drive,
-        (loads, revolutions): (Loads<'_>, f64),
-        (rows, out): (&Rows, &mut [f64]),
+        loads: Loads<'_>,
+        revolutions: f64,
+        reading: Readout<'_>,
         work: &mut EffectWork,
     ) -> Exchange {
         let mut sums = DrivenSums::new(simd);
@@ -285,7 +293,7 @@ impl Oscillators {
                 self.complete_one(simd, index, drive, loads, &mut sums);
             }
             self.swing(simd, index, drive, revolutions, false);
-            rows.project(simd, index, self.segments[index], &self.state.z, out);
+            reading.rows.project(simd, index, self.segments[index], &self.state.z, reading.out);
         }
         sums.total(simd, work)
     }
@@ -311,7 +319,7 @@ impl Oscillators {
         let of = self.coefficients.of::<S>(segment);
         for start in segment.parts() {
             let Part { z, d, .. } = self.state.part::<S>(segment, start, false, false);
-            let forces = acting.on::<S>((index, segment), start, loaded);
+            let forces = acting.on::<S>(index, segment, start, loaded);
             let swing = &mut S::as_mut_simd_f64s(&mut swing[start..start + segment.length]).0[..z.len()];
             let moved = &S::as_simd_f64s(&moved[start - segment.state..][..segment.length]).0[..z.len()];
             for m in 0..z.len() {
@@ -340,7 +348,7 @@ impl Oscillators {
         drive: &mut Drive,
         loads: Option<Loads<'_>>,
         revolutions: f64,
-        mut reading: Option<(&Rows, &mut [f64])>,
+        mut reading: Option<Readout<'_>>,
         work: &mut EffectWork,
     ) -> Exchange {
         let mut sums = DrivenSums::new(simd);
@@ -354,12 +362,12 @@ impl Oscillators {
             let of = self.coefficients.of::<S>(segment);
             for start in segment.parts() {
                 let swing = S::as_simd_f64s(&drive.swing[start..start + segment.length]).0;
-                let forces = drive.acting.on::<S>((index, segment), start, loads.is_some());
+                let forces = drive.acting.on::<S>(index, segment, start, loads.is_some());
                 for (m, (&swing, &loss)) in swing.iter().zip(of.loss).enumerate() {
                     sums.count(simd, swing, loss, &forces, m);
                 }
             }
-            if let Some((rows, out)) = &mut reading {
+            if let Some(Readout { rows, out }) = &mut reading {
                 rows.project(simd, index, segment, &self.state.z, out);
             }
         }
@@ -370,12 +378,12 @@ impl Oscillators {
     #[inline(always)]
     fn swing<S: Simd>(&mut self, simd: S, index: usize, drive: &mut Drive, revolutions: f64, loaded: bool) {
         let segment = self.segments[index];
-        drive.force(simd, (index, segment), revolutions, &self.state.z);
+        drive.force(simd, index, segment, revolutions, &self.state.z);
         let Drive { turning, acting, swing, moved, turned, .. } = drive;
         let of = self.coefficients.of::<S>(segment);
         for start in segment.parts() {
             let Part { z, d, .. } = self.state.part::<S>(segment, start, false, false);
-            let forces = acting.on::<S>((index, segment), start, loaded);
+            let forces = acting.on::<S>(index, segment, start, loaded);
             let swing = S::as_mut_simd_f64s(&mut swing[start..start + segment.length]).0;
             let moved = S::as_mut_simd_f64s(&mut moved[start - segment.state..][..segment.length]).0;
             for m in 0..of.keep.len() {
@@ -389,7 +397,7 @@ impl Oscillators {
             }
         }
         let Some(turning) = turning else { return };
-        turning.turn(simd, (index, segment), moved, turned);
+        turning.turn(simd, index, segment, moved, turned);
         for start in segment.parts() {
             let Part { z, d, .. } = self.state.part::<S>(segment, start, false, false);
             let swing = S::as_mut_simd_f64s(&mut swing[start..start + segment.length]).0;

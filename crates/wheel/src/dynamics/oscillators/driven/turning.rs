@@ -55,12 +55,13 @@ impl Turning {
     pub(super) fn turn<S: Simd>(
         &self,
         simd: S,
-        (index, segment): (usize, Segment),
+        index: usize,
+        segment: Segment,
         swing: &[f64],
         out: &mut [f64],
     ) {
         let rows = &self.all[..segment.integrated];
-        self.swings[index].load(simd, segment, rows, (swing, segment.length), out);
+        self.swings[index].load(simd, segment, rows, swing, segment.length, out);
     }
 
     /// Loads with rows that give the modes the displacement by `loads` within a step, under the same forces.

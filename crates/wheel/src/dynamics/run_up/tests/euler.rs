@@ -73,7 +73,7 @@ fn stepped(profile: &SpeedProfile, scheme: Scheme, turning: bool, tolerance_rad:
         let wheel = wheel(segment.speed_rad_s, turning);
         let force = EulerForce { rate: profile.rates(segment.times_s), load: LOAD.to_vec() };
         let effects = Effects { euler_force: Some(&force), ..Effects::default() };
-        let of = untouched((&wheel, &nodes[..1]), &damping, effects, &modes, (4 * SAMPLES, SAMPLES));
+        let of = untouched(&wheel, &nodes[..1], &damping, effects, &modes, 4 * SAMPLES, SAMPLES);
         let stretch = Simulation { scheme, ..of }
             .stretch(Part { first_sample: segment.first_sample, samples: segment.samples }, &|_| true);
         assert_eq!(stretch.ended, None);
@@ -190,7 +190,7 @@ fn what_follows_is_handed_on_without_a_blow() {
     for part in 0..20 {
         let effects = Effects { euler_force: Some(&force), ..Effects::default() };
         // ωh = 10.5.
-        let stretch = untouched((&wheel, &nodes[..1]), &damping, effects, &modes, (240, 24))
+        let stretch = untouched(&wheel, &nodes[..1], &damping, effects, &modes, 240, 24)
             .stretch(Part { first_sample: 12 * part, samples: 12 }, &|_| true);
         modes = stretch.end;
         let still = 0.5 * omega[1].powi(2);

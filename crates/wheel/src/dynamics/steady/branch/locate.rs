@@ -4,8 +4,8 @@ use super::correct::Found;
 use super::{Branch, Lost, Motion};
 use crate::dynamics::initial::Stepped;
 
-/// Share of p to which a place is located.
-pub const PLACE: f64 = 1e-6;
+/// Share of p to which a point is located.
+pub const LOCATED: f64 = 1e-6;
 
 /// Share of the wider side at which golden section tries a point.
 const GOLDEN: f64 = 0.382;
@@ -13,14 +13,14 @@ const GOLDEN: f64 = 0.382;
 /// Largest number of points between two that are tried.
 const LOOKS: usize = 30;
 
-/// Place on a branch that was located.
+/// Special point of a branch that was located: a fold, a change of stability, or a maximum.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Place<T> {
-    /// Motion at the place.
+pub struct SpecialPoint<T> {
+    /// Motion at the point.
     pub motion: Motion,
     /// Data that the caller computed of the motion.
     pub told: T,
-    /// Error of the place, in p.
+    /// Error of the location, in p.
     pub error: f64,
 }
 
@@ -34,7 +34,7 @@ struct Look<T> {
 }
 
 impl Branch<'_> {
-    /// Place where `height` of a point is largest between the first and the last of three consecutive points, of which the middle one is no lower
+    /// Point where `height` of a point is largest between the first and the last of three consecutive points, of which the middle one is no lower
     /// than both. It is located at the summit of a parabola through the three highest, again and again; by golden section where that does not halve
     /// its steps (Brent 1973, chapter 5). `blur` is the error of a point's height: wherever tried points are as high within it, the summit may be.
     ///
@@ -46,7 +46,7 @@ impl Branch<'_> {
         height: impl Fn(&Motion, &T) -> f64,
         blur: impl Fn(&T) -> f64,
         tell: impl Fn(&Motion) -> Result<T, Lost>,
-    ) -> Result<Place<T>, Lost> {
+    ) -> Result<SpecialPoint<T>, Lost> {
         let [(a, of_a), (b, of_b), (c, of_c)] = points;
         let (before, after) = (self.distance(a, b)?, self.distance(b, c)?);
         let look = |along: f64, motion: &Motion, told: T| Look { along, motion: motion.clone(), told };
@@ -70,7 +70,7 @@ impl Branch<'_> {
             let Found { motion, .. } = self.between(&from.motion, &to.motion, share)?;
             error = (motion.value - at.motion.value).abs();
             let told = tell(&motion)?;
-            let settled = error <= PLACE * motion.value.abs();
+            let settled = error <= LOCATED * motion.value.abs();
             points.insert(highest + usize::from(along > at.along), Look { along, motion, told });
             if settled {
                 break;
@@ -80,10 +80,10 @@ impl Branch<'_> {
         let least = height(&motion, &told) - blur(&told);
         let as_high = points.iter().filter(|look| height(&look.motion, &look.told) >= least);
         let error = as_high.map(|look| (look.motion.value - motion.value).abs()).fold(error, f64::max);
-        Ok(Place { motion, told, error })
+        Ok(SpecialPoint { motion, told, error })
     }
 
-    /// Place between `a` and `b` at which the sign of `told` changes, which differs there: by chords (Illinois), also where it jumps. The
+    /// Point between `a` and `b` at which the sign of `told` changes, which differs there: by chords (Illinois), also where it jumps. The
     /// data returned are those of the last point where it is positive, if there was one.
     ///
     /// # Errors
@@ -93,7 +93,7 @@ impl Branch<'_> {
         (a, told_a): (&Motion, f64),
         (b, told_b): (&Motion, f64),
         tell: impl Fn(&Motion) -> Result<(f64, T), Lost>,
-    ) -> Result<Option<Place<T>>, Lost> {
+    ) -> Result<Option<SpecialPoint<T>>, Lost> {
         let (mut low, mut high) = ((0.0, told_a, a.value), (1.0, told_b, b.value));
         let mut best = None::<(f64, Motion, T)>;
         let mut last_side = None;
@@ -118,12 +118,12 @@ impl Branch<'_> {
                 high = here;
                 low.1 *= if stays { 0.5 } else { 1.0 };
             }
-            if (high.2 - low.2).abs() <= PLACE * here.2.abs() {
+            if (high.2 - low.2).abs() <= LOCATED * here.2.abs() {
                 break;
             }
         }
         let error = (high.2 - low.2).abs();
-        Ok(best.map(|(_, motion, told)| Place { motion, told, error }))
+        Ok(best.map(|(_, motion, told)| SpecialPoint { motion, told, error }))
     }
 }
 

@@ -8,7 +8,7 @@ use crate::dynamics::integrate::{Passage, Simulation};
 use crate::dynamics::numbers::Numbers;
 use crate::dynamics::steady::branch::correct::FOUND;
 use crate::dynamics::steady::branch::follow::{Front, Step};
-use crate::dynamics::steady::branch::locate::Place;
+use crate::dynamics::steady::branch::locate::SpecialPoint;
 use crate::dynamics::steady::branch::{Branch, Family, Lap, Motion, Unreachable};
 use crate::dynamics::steady::response::seek;
 use crate::dynamics::steady::stability::{Floquet, Stability};
@@ -37,7 +37,7 @@ fn tell(family: &OverSpeed, lap: Lap, motion: &Motion) -> (Floquet, Stepped) {
     let mut told = None;
     let act = &mut |passage: &mut Passage<'_>| {
         let state = passage.state_of(&motion.state);
-        let floquet = Floquet::of(passage, (&state, &vec![1.0; state.len()]), 4).unwrap();
+        let floquet = Floquet::of(passage, &state, &vec![1.0; state.len()], 4).unwrap();
         let size = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
         let grows: Vec<f64> = floquet.multipliers[0].vector.iter().map(|x: &c64| x.re).collect();
         let scale = size(&state) / size(&grows);
@@ -85,7 +85,7 @@ fn a_branch_of_doubled_period_begins_at_a_flip() {
                 };
                 let ends = [(&front.last, growth(&last)), (&found.motion, growth(&now))];
                 let place = branch.crossing(ends[0], ends[1], look);
-                if let Ok(Some(Place { motion, told: (floquet, grows), .. })) = place
+                if let Ok(Some(SpecialPoint { motion, told: (floquet, grows), .. })) = place
                     && floquet.stability == Stability::Flip
                 {
                     flips += 1;
