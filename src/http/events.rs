@@ -25,7 +25,7 @@ use super::results::find;
 use super::server::Lasting;
 use super::state::AppState;
 use crate::store::StoreError;
-use crate::store::jobs::JobId;
+use crate::store::jobs::{Job, JobId};
 use crate::tokens::{Principal, Tokens};
 
 /// Least time between two events of a job: nobody reads faster.
@@ -46,14 +46,14 @@ const SILENCE: Duration = Duration::from_secs(15);
 struct JobEvent {
     /// Name of the event: `job`.
     event: String,
-    /// Answer of `GET /v1/jobs/{id}` at the time of the event, as JSON in one line.
+    /// Answer of `GET /v1/jobs/{id}` at the time of the event without the posted request, as JSON in one line.
     data: String,
 }
 
 /// Follow a job as it changes.
 ///
 /// Server-sent events: an event `job` at once and after every change, but no more than three a second. The data of an event are the
-/// answer of `GET /v1/jobs/{id}` at that time, in one line. The stream ends after the event of a job that has ended, and once the
+/// answer of `GET /v1/jobs/{id}` at that time without `posted` and `posted_to`, in one line. The stream ends after the event of a job that has ended, and once the
 /// job is deleted. It may end before, when the service stops, has too many connections or does not know the token any more; the
 /// client then asks for it again. Lines that begin with a colon keep the connection alive.
 #[utoipa::path(get, path = "/v1/jobs/{id}/events", operation_id = "follow_job", tag = "jobs",
@@ -135,6 +135,7 @@ async fn tell(state: AppState, teller: Teller) {
 async fn look(state: &AppState, id: JobId) -> Result<Option<(String, bool)>, StoreError> {
     let Some(job) = state.store.job(id).await? else { return Ok(None) };
     let has_ended = job.status.is_final();
-    let job = jobs::detail(state, job).await?;
+    // The posted request may be large and never changes: it is not sent again with every step of the job.
+    let job = jobs::detail(state, Job { posted: None, ..job }).await?;
     Ok(Some((serde_json::to_string(&job)?, has_ended)))
 }

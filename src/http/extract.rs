@@ -213,19 +213,22 @@ pub(super) fn read_as<T>(
         let kind = if unknown_fields == total { Kind::UnknownField } else { Kind::InvalidRequest };
         return Err(Problem::first_violations(kind, total, first));
     }
-    // What fails here is in the contract but not in the type: the place is all that can be said of it.
-    read(body).map_err(|error| Problem::new(Kind::InvalidRequest, error.to_string()))
+    // Allowed by the contract but not by the type. The place in the text is left out: labels were taken out of it before.
+    read(body).map_err(|error| Problem::new(Kind::InvalidRequest, without_place(&error)))
 }
 
 fn malformed(error: &serde_json::Error) -> Problem {
-    let (line, column) = (error.line(), error.column());
-    // serde_json appends " at line 1 column 2"; the item has these as numbers.
-    let full = error.to_string();
-    let message = full.rsplit_once(" at line ").map_or(full.as_str(), |(message, _)| message);
+    let (line, column, message) = (error.line(), error.column(), without_place(error));
     Problem::new(Kind::MalformedJson, format!("{message} (line {line}, column {column})")).with(ProblemItem {
         line: Some(line as u64),
         column: Some(column as u64),
-        detail: message.to_owned(),
+        detail: message,
         ..ProblemItem::default()
     })
+}
+
+/// Message of an error, to which serde_json appends " at line 1 column 2".
+fn without_place(error: &serde_json::Error) -> String {
+    let full = error.to_string();
+    full.rsplit_once(" at line ").map_or(full.as_str(), |(message, _)| message).to_owned()
 }

@@ -185,7 +185,7 @@ pub(super) async fn written(
 pub(super) fn read_states(
     (store, runtime): (&Store, &Handle),
     job: JobId,
-    document: Document,
+    document: Document<'_>,
     source: &FieldSource,
 ) -> Result<WheelStates, Problem> {
     let text = runtime.block_on(store.document(job, document))?.unwrap_or_default();

@@ -181,15 +181,15 @@ fn check_static(of_shape: bool, has_mesh: bool) -> Result<(), Problem> {
 
 /// Indices of the speeds whose states are recorded.
 pub(super) async fn recorded_speeds(store: &Store, job: JobId) -> Result<Vec<u32>, StoreError> {
-    let of_states = |document| match document {
-        Document { name: STATES, part } => Some(part),
-        _ => None,
-    };
-    Ok(store.documents(job).await?.into_iter().filter_map(of_states).collect())
+    store.document_parts(job, STATES).await
 }
 
 /// Document with the states of a speed, the index of that speed in the sweep, and the bytes of the document.
-async fn recorded(state: &AppState, job: &Job, speed: Option<u32>) -> Result<(Document, u32, u64), Problem> {
+async fn recorded(
+    state: &AppState,
+    job: &Job,
+    speed: Option<u32>,
+) -> Result<(Document<'static>, u32, u64), Problem> {
     let all = recorded_speeds(&state.store, job.id).await?;
     let found = match speed {
         Some(speed) => all.contains(&speed).then_some(speed),

@@ -111,7 +111,7 @@ impl<T: Export + Serialize + DeserializeOwned + Send + 'static> Forms<T> {
         state: &AppState,
         download: Download,
         job: &Job,
-        document: Document,
+        document: Document<'static>,
     ) -> Result<Response, Problem> {
         let bytes = stored_bytes(state, job, document).await?;
         let text = read(state, job.id, document);
@@ -143,14 +143,14 @@ impl<T: Export + Serialize + DeserializeOwned + Send + 'static> Forms<T> {
 fn read(
     state: &AppState,
     job: JobId,
-    document: Document,
+    document: Document<'static>,
 ) -> impl FnOnce() -> Result<String, Problem> + Send + 'static {
     let (store, runtime) = (state.store.clone(), Handle::current());
     move || runtime.block_on(store.document(job, document))?.ok_or_else(|| job_not_found(&job))
 }
 
 /// Bytes of a document's text; a problem with the reason if there is no document.
-async fn stored_bytes(state: &AppState, job: &Job, document: Document) -> Result<u64, Problem> {
+async fn stored_bytes(state: &AppState, job: &Job, document: Document<'static>) -> Result<u64, Problem> {
     if let Some(bytes) = state.store.document_bytes(job.id, document).await? {
         return Ok(bytes);
     }

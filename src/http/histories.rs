@@ -11,7 +11,7 @@ use super::download::{Download, DownloadQuery};
 use super::extract::{JobPath, JsonBody, Parameters};
 use super::forms::Forms;
 use super::idempotency::IdempotencyKey;
-use super::kinds::{self, Asking};
+use super::kinds::{self, ReceivedRequest};
 use super::problem::{Kind, Problem};
 use super::results::{check_sensor, find, sweep, wrong_kind};
 use super::state::AppState;
@@ -19,10 +19,9 @@ use super::stream;
 use super::studies::check_speed;
 use crate::analysis::kinds::case_study::{CASE_STUDY, HistoriesOfSweep};
 use crate::analysis::kinds::document::Document;
-use crate::analysis::kinds::kind::Work;
 use crate::analysis::kinds::sweep::HISTORIES;
 use crate::analysis::request::{HistoriesRequest, HistorySpeeds};
-use crate::analysis::resolved::{ResolvedStudy, ResolvedSweep};
+use crate::analysis::resolved::{ResolvedCaseStudy, ResolvedStudy, ResolvedSweep};
 use crate::analysis::result::SpeedHistories;
 use crate::analysis::run::{self, Histories};
 use crate::kinds::JobKind;
@@ -124,19 +123,13 @@ pub(super) async fn get_histories(
 
 /// Sweep whose speeds a job records; refuses jobs that record none.
 pub(super) fn recorded_sweep(job: &Job) -> Result<&ResolvedSweep, Problem> {
-    match job.request.work() {
-        Work::Recorded(case) => Ok(case.sweep()),
-        _ => job.request.get().ok_or_else(|| wrong_kind(job, JobKind(&CASE_STUDY))),
-    }
+    let case = job.request.get().map(ResolvedCaseStudy::sweep);
+    case.or_else(|| job.request.get()).ok_or_else(|| wrong_kind(job, JobKind(&CASE_STUDY)))
 }
 
 /// Index of the first speed of a job that has histories; where none has, the first of all.
 async fn first(state: &AppState, job: &Job) -> Result<u32, Problem> {
-    let recorded = state.store.documents(job.id).await?.into_iter().find_map(|document| match document {
-        Document { name: HISTORIES, part } => Some(part),
-        _ => None,
-    });
-    Ok(recorded.unwrap_or(0))
+    Ok(state.store.document_parts(job.id, HISTORIES).await?.first().copied().unwrap_or(0))
 }
 
 /// Refuses a sensor or a contact node that does not exist and thus cannot be drawn.
@@ -199,14 +192,14 @@ pub(super) async fn create_histories(
     let critical = critical(&state, id, settings, &body.value).await?;
     let posted = Posted { to: format!("/v1/jobs/{id}/histories"), body: serde_json::to_string(&body.value)? };
     let sweep = settings.clone();
-    let asking = Asking {
+    let received = ReceivedRequest {
         asked: Box::new(HistoriesOfSweep { sweep, critical, request: body.value }),
         labels: Labels::default(),
         posted: Some(posted),
         // The same words on another job are another request.
         fingerprint: format!("{}-{id}", body.fingerprint),
     };
-    kinds::accept(&state, &whose, key, asking).await
+    kinds::accept(&state, &whose, key, received).await
 }
 
 /// Indices of the critical speeds, if the request asks for them; otherwise none.

@@ -1,5 +1,7 @@
 //! Jobs as answers show them.
 
+use std::borrow::Cow;
+
 use serde::Serialize;
 use serde_json::value::RawValue;
 use utoipa::openapi::schema::AnyOfBuilder;
@@ -70,7 +72,7 @@ pub(super) struct JobDetail {
     #[serde(flatten)]
     pub(super) job: JobBody,
     /// Request as it was posted, without labels: posted again to `posted_to`, it starts another job like this one. Absent for some jobs of
-    /// earlier versions, which did not keep it.
+    /// earlier versions, which did not keep it, and in events.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) posted: Option<PostedBody>,
     /// Path to which the request was posted.
@@ -79,8 +81,7 @@ pub(super) struct JobDetail {
     pub(super) posted_to: Option<String>,
     /// Request as it was resolved: with every default filled in, and with everything that `refine` or a threshold has added so far. Results
     /// have it as `settings`. The designs of a campaign are left out, which `GET /v1/jobs/{id}/campaign` has.
-    #[schema(value_type = Object)]
-    pub(super) request: Box<RawValue>,
+    pub(super) request: ResolvedBody,
     /// Settings that were chosen for the job, once they are, if its request asks for an accuracy or gives a budget.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) choice: Option<Chosen>,
@@ -89,7 +90,7 @@ pub(super) struct JobDetail {
     pub(super) reduction: Option<ReductionReport>,
 }
 
-/// Request of a job of any kind, as the schemas of their routes describe it.
+/// Request of a job of any kind, as it was posted.
 #[derive(Debug, Serialize)]
 #[serde(transparent)]
 pub(super) struct PostedBody(Box<RawValue>);
@@ -98,11 +99,26 @@ impl ToSchema for PostedBody {}
 
 impl PartialSchema for PostedBody {
     fn schema() -> RefOr<Schema> {
-        let kinds = kinds::all().map(|kind| Ref::from_schema_name((kind.request.name)()));
-        let kinds = kinds.chain([Ref::from_schema_name(HistoriesRequest::name())]);
-        // Not exactly one: an empty object is a request of more than one kind.
-        kinds.fold(AnyOfBuilder::new(), AnyOfBuilder::item).into()
+        any_of(kinds::all().map(|kind| (kind.request.name)()).chain([HistoriesRequest::name()]))
     }
+}
+
+/// Request of a job of any kind, resolved.
+#[derive(Debug, Serialize)]
+#[serde(transparent)]
+pub(super) struct ResolvedBody(Box<RawValue>);
+
+impl ToSchema for ResolvedBody {}
+
+impl PartialSchema for ResolvedBody {
+    fn schema() -> RefOr<Schema> {
+        any_of(kinds::all().map(|kind| (kind.resolved.name)()))
+    }
+}
+
+/// Schema of a value that has at least one of the schemas of these `names`; not exactly one, as an empty object has several.
+fn any_of(names: impl Iterator<Item = Cow<'static, str>>) -> RefOr<Schema> {
+    names.map(Ref::from_schema_name).fold(AnyOfBuilder::new(), AnyOfBuilder::item).into()
 }
 
 /// Link to something related.
@@ -156,7 +172,7 @@ impl JobDetail {
             job: body,
             posted: posted.map(RawValue::from_string).transpose()?.map(PostedBody),
             posted_to,
-            request: RawValue::from_string(job.request.shown()?)?,
+            request: ResolvedBody(RawValue::from_string(job.request.shown()?)?),
             choice: job.choice,
             reduction,
         })

@@ -154,7 +154,7 @@ pub(super) async fn label_job(
 #[utoipa::path(post, path = "/v1/jobs/{id}/pause", operation_id = "pause_job", tag = "jobs",
     params(("id" = String, Path, description = "Id of the job.")),
     responses(
-        (status = 200, description = "The job, which is set aside.", body = JobDetail),
+        (status = 200, description = "The job, which is paused.", body = JobDetail),
         (status = 409, description = "The job has ended.", body = Problem,
             content_type = "application/problem+json"),
     ))]
@@ -195,7 +195,7 @@ async fn set_paused(
     match state.jobs.set_paused(id, paused).await? {
         None => Err(job_not_found(&id)),
         Some(status) if status.is_final() => {
-            let detail = format!("the job is {}: it cannot be set aside or go on any more", status.as_str());
+            let detail = format!("the job is {}: it cannot be paused or continued any more", status.as_str());
             Err(Problem::new(Kind::JobEnded, detail))
         }
         Some(_) => get_job(state, whose, JobPath(id)).await,

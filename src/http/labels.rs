@@ -181,7 +181,7 @@ pub(super) fn add_labels(request: &mut Object) {
 /// Takes the labels out of the body of a request: the request as JSON without them, and the labels.
 ///
 /// # Errors
-/// A body that is no object, has a field twice, or labels of other types.
+/// A body that is no object, or labels of other types. Fields given twice were refused before, by the contract.
 pub(super) fn apart(body: &[u8]) -> serde_json::Result<(String, Given)> {
     let Fields(fields) = serde_json::from_slice(body)?;
     let (mut given, mut request) = (Given::default(), Vec::new());

@@ -66,7 +66,7 @@ impl Legs {
         name.map_or(Ok(None), |name| self.document(Document::part(name, index as u32)))
     }
 
-    fn document<D: DeserializeOwned>(&self, document: Document) -> Result<Option<D>, Problem> {
+    fn document<D: DeserializeOwned>(&self, document: Document<'_>) -> Result<Option<D>, Problem> {
         let text = self.runtime.block_on(self.store.document(self.job, document))?;
         Ok(text.map(|text| serde_json::from_str(&text)).transpose()?)
     }

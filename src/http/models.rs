@@ -13,7 +13,7 @@ use utoipa::{IntoParams, ToSchema};
 
 use super::extract::{MergePatch, ModelPath, Parameters, declared_bytes, expect_media_type, is_media_type};
 use super::idempotency::{self, IdempotencyKey};
-use super::kinds::{self, Asking, Receipt};
+use super::kinds::{self, Receipt, ReceivedRequest};
 use super::labels::{LabelPatch, LabelQuery};
 use super::page;
 use super::problem::{Kind, Problem, excerpt};
@@ -154,8 +154,8 @@ pub(super) async fn create_model(
             let detail = "beside parameters of the generator name, tags and notes are fields of the body";
             return Err(Problem::new(Kind::InvalidParameter, detail));
         }
-        let asking = Asking::read(&state, &MODEL_GENERATION, request).await?;
-        return kinds::accept(&state, &whose, key, asking).await;
+        let received = ReceivedRequest::read(&state, &MODEL_GENERATION, request).await?;
+        return kinds::accept(&state, &whose, key, received).await;
     }
     if declared_bytes(request.headers()) > Some(state.upload_bytes) {
         return Err(too_large(state.upload_bytes));

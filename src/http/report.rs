@@ -14,7 +14,6 @@ use super::spectra::ROW_MEMORY;
 use super::state::AppState;
 use super::stream;
 use crate::analysis::kinds::document::Document;
-use crate::analysis::kinds::kind::Units;
 use crate::analysis::kinds::modal_analysis::{CAMPBELL, MODAL_ANALYSIS};
 use crate::analysis::kinds::sweep::{CRITICAL_SPEEDS, ERRORS, HISTORIES};
 use crate::analysis::resolved::ResolvedSweep;
@@ -77,12 +76,12 @@ pub(super) async fn get_report(
         Some(of) => state.store.document_bytes(of, CAMPBELL).await?.unwrap_or(0),
         None => 0,
     };
-    let mut histories = state.store.documents(id).await?;
-    histories.retain(|document| document.name == HISTORIES);
+    let mut histories = state.store.document_parts(id, HISTORIES).await?;
     histories.truncate(MOST_HISTORIES);
     let mut recorded = 0;
-    for document in &histories {
-        recorded += state.store.document_bytes(id, *document).await?.unwrap_or(0);
+    for speed in &histories {
+        let document = Document::part(HISTORIES, *speed);
+        recorded += state.store.document_bytes(id, document).await?.unwrap_or(0);
     }
     let pictures = match (job.request.get(), &job.facts) {
         (Some(request), Some(facts)) => Pictures::find(&state, &job, request, facts).await?,
@@ -125,8 +124,8 @@ struct Found<'a> {
     runtime: &'a Handle,
     /// Job that computed the natural frequencies.
     campbell: Option<JobId>,
-    /// Histories that are drawn.
-    histories: &'a [Document],
+    /// Indices of the speeds whose histories are drawn.
+    histories: &'a [u32],
     /// Pictures of recorded states.
     pictures: Option<&'a Pictures>,
 }
@@ -154,8 +153,9 @@ impl Found<'_> {
                 let rows = self.runtime.block_on(self.store.contacts(self.job.id, row))?;
                 let forces = (!rows.is_empty()).then(|| run::force_map(request, &facts.units, rows));
                 let mut histories = Vec::new();
-                for document in self.histories {
-                    histories.extend(self.document::<SpeedHistories>(self.job.id, *document)?);
+                for speed in self.histories {
+                    let document = Document::part(HISTORIES, *speed);
+                    histories.extend(self.document::<SpeedHistories>(self.job.id, document)?);
                 }
                 let floors = (self.store, self.runtime);
                 let pictures = self.pictures.map(|pictures| pictures.draw(floors, self.job, request, facts));
@@ -198,7 +198,7 @@ impl Found<'_> {
     fn document<T: serde::de::DeserializeOwned>(
         &self,
         job: JobId,
-        document: Document,
+        document: Document<'_>,
     ) -> Result<Option<T>, StoreError> {
         let text = self.runtime.block_on(self.store.document(job, document))?;
         Ok(text.map(|text| serde_json::from_str(&text)).transpose()?)
@@ -207,10 +207,8 @@ impl Found<'_> {
 
 /// Head of a report.
 fn head(job: &Job, campbell: Option<JobId>) -> Head {
-    let kind = match job.kind.units {
-        Units::Once => "Modal analysis",
-        _ => "Sweep of contact simulations",
-    };
+    let kind =
+        if job.kind == JobKind(&MODAL_ANALYSIS) { "Modal analysis" } else { "Sweep of contact simulations" };
     let facts = job.facts.as_ref();
     let model = facts.map_or("", |facts| facts.name.as_str());
     let mut rows = vec![("job", format!("{kind} {}", job.id)), ("model", model.to_owned())];

@@ -60,7 +60,7 @@ async fn of_sweep(engine: &Engine, job: &Live, request: &ResolvedSweep) -> Resul
         job.id = %job.id, setting = ?choice.setting, estimated_error = choice.estimated_error, "chose a setting"
     );
     let chosen = choice.explicit(request);
-    // Nobody has checked these knobs yet.
+    // These settings have not been checked yet.
     let chosen = run::resolve_sweep(chosen.into(), &facts).map_err(AnalysisError::Refused)?;
     engine.choose(job, Arc::new(chosen), Chosen::Setting(choice)).await
 }

@@ -22,22 +22,17 @@ pub(super) async fn speeds(engine: &Engine, job: &Live) -> Result<(), Interrupti
         // Somebody else saw the last of them finished too, and has gone on with more.
         return Ok(());
     }
-    let Work::Speeds(_) = job.request.work() else { return Ok(()) };
-    let (request, finished) = (Arc::clone(&job.request), points.clone());
-    let more = move || match request.work() {
-        Work::Speeds(speeds) => speeds.more(&finished),
-        _ => None,
-    };
-    if let Some(longer) = engine.computing.run(&job.watch, more).await? {
-        return more_speeds(engine, job, longer).await;
+    let Work::Speeds(speeds) = Arc::clone(&job.request).work() else { return Ok(()) };
+    if speeds.may_grow() {
+        let (grown, finished) = (Arc::clone(&speeds), points.clone());
+        if let Some(longer) = engine.computing.run(&job.watch, move || grown.more(&finished)).await? {
+            return more_speeds(engine, job, longer).await;
+        }
     }
     expect_completed(&points)?;
-    match job.request.work() {
-        Work::Speeds(speeds) => match speeds.concluded() {
-            Some(sweep) => conclude(engine, job, sweep, points).await,
-            None => complete(engine, job, &[], None).await,
-        },
-        _ => Ok(()),
+    match speeds.concluded() {
+        Some(sweep) => conclude(engine, job, sweep, points).await,
+        None => complete(engine, job, &[], None).await,
     }
 }
 
@@ -102,14 +97,14 @@ fn expect_completed(points: &[Point]) -> Result<(), Interruption> {
 pub(super) async fn complete(
     engine: &Engine,
     job: &Live,
-    documents: &[(Document, String)],
+    documents: &[(Document<'_>, String)],
     made: Option<&str>,
 ) -> Result<(), Interruption> {
     let write = || engine.store.complete_job(job.id, documents, made);
     let completed = patiently(&job.watch, write).await?;
     engine.forget(job.id);
     if !completed {
-        // Set aside at this moment, perhaps: whoever ends this task looks at the job again.
+        // The job may just have been paused: the caller looks at it again.
         return Err(Interruption::NotWanted);
     }
     tracing::info!(job.id = %job.id, "successful");

@@ -111,7 +111,7 @@ impl Jobs {
             let mut sensors = asked.sensors().to_vec();
             let found = self.facts(whose, id, pointer).await?;
             match self.place(id, &mut sensors).await? {
-                // Positions are told of the first model.
+                // Only positions on the first model are reported.
                 Ok(placed) if facts.is_empty() => placed_sensors = placed,
                 Ok(_) => {}
                 Err(violations) => unplaced.extend(violations),
@@ -122,7 +122,7 @@ impl Jobs {
         let planner = &self.engine.planner;
         let mut resolving = planner.run(&whose.owner, move || asked.resolve(models)).await?;
         // Other requests have their turn in between; once the client has gone no other turn begins.
-        while let Ok(Resolving::Left(left)) = resolving {
+        while let Ok(Resolving::Unfinished(left)) = resolving {
             resolving = planner.run(&whose.owner, move || check_for_a_turn(left)).await?;
         }
         let job = all_violations(unplaced, resolving)?;
@@ -360,14 +360,16 @@ fn check_for_a_turn(mut left: Box<dyn Unchecked>) -> Result<Resolving, Vec<Viola
     let begin = Instant::now();
     loop {
         match left.check()? {
-            Resolving::Left(more) if begin.elapsed() < TURN => left = more,
+            Resolving::Unfinished(more) if begin.elapsed() < TURN => left = more,
             resolving => return Ok(resolving),
         }
     }
 }
 
-/// Resolved job, unless anything is wrong with its request: then all that is. For sensors that could not be placed it reports why, and not
-/// that they have no nodes, which follows.
+/// Resolved job.
+///
+/// # Errors
+/// All violations. For a sensor that could not be placed the reason is reported, and not that it has no node.
 fn all_violations(
     mut unplaced: Vec<Violation>,
     resolving: Result<Resolving, Vec<Violation>>,

@@ -16,7 +16,7 @@ pub(super) async fn prepare(engine: &Engine, id: JobId) -> Result<(), Interrupti
     let Some(job) = engine.live(id).await? else { return Err(Interruption::NotWanted) };
     match engine.store.begin_job(id, &run::vectors()).await? {
         Begun::Yes => {}
-        // It may have been set aside, and go on before this preparation has ended: then it is looked at again.
+        // The job may be paused, and continued before this preparation has ended: the caller looks at it again.
         Begun::Unwanted => return Err(Interruption::NotWanted),
         Begun::Elsewhere(vectors) => {
             engine.tasks.prepare_elsewhere(id, &vectors);
@@ -24,10 +24,10 @@ pub(super) async fn prepare(engine: &Engine, id: JobId) -> Result<(), Interrupti
         }
     }
     let job = choice::made(engine, job).await?;
-    match job.request.work() {
+    match Arc::clone(&job.request).work() {
         Work::Once(once) => once::run(engine, &job, once).await,
-        Work::Trials(study) => study::run(engine, &job, study).await,
-        Work::Recorded(case) => recorded::run(engine, &job, case).await,
+        Work::Trials(study) => study::run(engine, &job, &study).await,
+        Work::Recorded(case) => recorded::run(engine, &job, &case).await,
         Work::Speeds(_) => prepare_speeds(engine, &job).await,
         Work::Legs(legs) => legs::run(engine, &job, legs).await,
         Work::Model => generation::run(engine, &job).await,

@@ -23,7 +23,7 @@ pub(super) async fn run(engine: &Engine, RunSpeed { job: id, speed }: RunSpeed) 
         let finished = engine.store.finished_speeds(id).await?.len();
         return go_on(engine, &job, speed, finished as u32).await;
     }
-    let Work::Speeds(speeds) = job.request.work() else { return Ok(()) };
+    let Work::Speeds(speeds) = Arc::clone(&job.request).work() else { return Ok(()) };
     let (request, place) = speeds.speed(speed).map_err(AnalysisError::Refused)?;
     let request = request.into_owned();
     let monitor = PhaseMonitor::uncounted(job.watch.clone());
@@ -37,13 +37,10 @@ pub(super) async fn run(engine: &Engine, RunSpeed { job: id, speed }: RunSpeed) 
     let bytes = job.speed_bytes.load(Ordering::Relaxed);
     let memory = engine.memory.hold(bytes).await.map_err(Interruption::speed_memory)?;
     let monitor = SpeedMonitor::new(job.watch.clone(), speed);
-    let whole = Arc::clone(&job.request);
+    let whole = Arc::clone(&speeds);
     let compute = move || {
         let found = run::run_speed(&reduced, &request, place as usize, start.as_ref(), &monitor)?;
-        let result = match whole.work() {
-            Work::Speeds(speeds) => speeds.kept(found, speed),
-            _ => found,
-        };
+        let result = whole.kept(found, speed);
         let packed = PackedSpeed::of(&result)?;
         Ok::<_, Interruption>((result.point, packed, memory))
     };

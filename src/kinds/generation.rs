@@ -18,16 +18,16 @@ pub static MODEL_GENERATION: Kind = Kind {
     route: "/v1/models",
     operation: "model_generation",
     about: "A model from the parameters of the generator",
-    // The route takes packages, too, and describes itself.
-    create: Words::new("", ""),
-    plan: Words::new("Plan the generation of a model: what it would make and cost. Starts nothing.", ""),
+    // The contract describes this route where packages are uploaded to it, too.
+    create: Words::brief("Generate a model."),
+    plan: Words::brief("Plan the generation of a model: what it would make and cost. Starts nothing."),
     example: include_str!("example.json"),
     results: &[],
-    documents: &[],
     units: Units::Model,
     read: kind::read::<GenerationRequest>,
     stored: |text, _| Ok(Arc::new(serde_json::from_str::<Generation>(text)?)),
     request: Shape::of::<ImpellerRequest>(),
+    resolved: Shape::of::<ImpellerParameters>(),
     planned: Shape::of::<GenerationPlan>(),
 };
 
@@ -36,7 +36,7 @@ pub static MODEL_GENERATION: Kind = Kind {
 #[serde(transparent)]
 struct GenerationRequest(ImpellerRequest);
 
-/// Model to generate: parameters that are sound.
+/// Model to generate, by parameters within their ranges.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Generation {
@@ -92,7 +92,7 @@ impl ResolvedJob for Generation {
         Plan::of(&plan, None)
     }
 
-    fn work(&self) -> Work<'_> {
+    fn work(self: Arc<Self>) -> Work {
         Work::Model
     }
 }

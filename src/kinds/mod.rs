@@ -20,13 +20,12 @@ pub struct JobKind(pub &'static Kind);
 
 /// All kinds of jobs.
 pub fn all() -> impl Iterator<Item = JobKind> {
-    KINDS.into_iter().chain([&MODEL_GENERATION]).map(JobKind)
+    KINDS.iter().copied().chain([&MODEL_GENERATION]).map(JobKind)
 }
 
-/// Names of the kinds whose jobs are computed in these units, as a list of SQL.
-pub fn names_in_sql(units: Units) -> String {
-    let names = all().filter(|kind| kind.units == units).map(|kind| format!("'{}'", kind.name));
-    format!("({})", names.collect::<Vec<_>>().join(", "))
+/// Names of the kinds whose jobs are computed in these units.
+pub fn names_of(units: Units) -> impl Iterator<Item = &'static str> {
+    all().filter(move |kind| kind.units == units).map(|kind| kind.0.name)
 }
 
 impl JobKind {

@@ -51,6 +51,17 @@ pub enum StoreError {
         /// Earliest version that this program brings up to date.
         least: i64,
     },
+    /// Disk without room for the step that brings tables up to date.
+    #[error(
+        "bringing the tables up to date takes {needed} bytes for a while, and the disk has {free}: make room, or delete jobs with the \
+         program that made the folder"
+    )]
+    NoRoomForTables {
+        /// Bytes that the step takes.
+        needed: u64,
+        /// Bytes that the disk has.
+        free: u64,
+    },
     /// The tables of the queue that machines share refused.
     #[error("queue: {0}")]
     SharedQueue(#[from] QueueError),
@@ -155,6 +166,7 @@ impl StoreError {
             | Self::NotUpToDate(_)
             | Self::NewerTables { .. }
             | Self::OlderTables { .. }
+            | Self::NoRoomForTables { .. }
             | Self::LostDatabase { .. }
             | Self::Json(_)
             | Self::Numbers(_)

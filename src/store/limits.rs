@@ -3,8 +3,8 @@
 use sqlx::{AnyConnection, AssertSqlSafe, SqlSafeStr};
 
 use super::error::StoreError;
+use super::sql::kinds_of;
 use crate::analysis::kinds::kind::Units;
-use crate::kinds::names_in_sql;
 
 /// Limits of one owner; `None` for no limit.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -106,7 +106,7 @@ impl Limits {
             "select (select count(*) from model_owners where owner = $1)
                    + (select count(*) from jobs where owner = $1 and kind in {}
                       and status in ('accepted', 'running', 'paused'))",
-            names_in_sql(Units::Model)
+            kinds_of(Units::Model)
         );
         let models = count(connection, AssertSqlSafe(sql), owner).await?;
         Ok(if models >= limit { Err(LimitReached::Models { models, limit }) } else { Ok(()) })

@@ -64,7 +64,7 @@ fn text<Files: RustEmbed>(name: &str) -> Option<String> {
     String::from_utf8(Files::get(name)?.data.into_owned()).ok()
 }
 
-/// The step of a file that is called as `0027_tables.sql`.
+/// Migration of a file with a name like `0027_tables.sql`.
 fn migration<Files: RustEmbed>(name: &str) -> Option<Migration> {
     let (version, description) = name.strip_suffix(".sql")?.split_once('_')?;
     let sql = AssertSqlSafe(text::<Files>(name)?).into_sql_str();

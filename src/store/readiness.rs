@@ -6,8 +6,8 @@ use super::dialect::Dialect;
 use super::error::StoreError;
 use super::handle::Store;
 use super::reserve::free_bytes;
+use super::sql::kinds_of;
 use crate::analysis::kinds::kind::Units;
-use crate::kinds::names_in_sql;
 
 /// Backlog of work that is waiting.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -51,7 +51,7 @@ impl Store {
             "select count(*) filter (where status = 'accepted'), count(*) filter (where status = 'running'),
                  cast(coalesce(sum(speeds - finished) filter (where kind in {}), 0) as bigint)
              from jobs where status in ('accepted', 'running', 'paused') and status <> 'paused'",
-            names_in_sql(Units::Speeds)
+            kinds_of(Units::Speeds)
         );
         let (jobs_accepted, jobs_running, speeds_unfinished) =
             sqlx::query_as::<_, (i64, i64, i64)>(AssertSqlSafe(count)).fetch_one(&self.readers).await?;

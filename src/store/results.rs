@@ -16,13 +16,21 @@ use super::{end_states, packed};
 use crate::analysis::kinds::document::Document;
 use crate::analysis::result::{ContactForces, Point, PointStatus, SpeedResult, SpeedSpectra, WearMap};
 use crate::analysis::run::REVISION;
-use crate::kinds;
 
-/// Document that a row holds.
-fn document(name: &str, part: u32) -> Result<Document, StoreError> {
-    let found = kinds::all().flat_map(|kind| kind.documents).copied().find(|known| *known == name);
-    let unknown = || StoreError::Unknown { column: "documents.name", value: name.to_owned() };
-    Ok(Document::part(found.ok_or_else(unknown)?, part))
+/// Name and part of a document that a job has stored.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct StoredDocument {
+    /// Name of the document.
+    pub name: String,
+    /// Part of the document.
+    pub part: u32,
+}
+
+impl StoredDocument {
+    /// Document by which the store finds it.
+    pub fn document(&self) -> Document<'_> {
+        Document::part(&self.name, self.part)
+    }
 }
 
 /// Finished speed as it is stored.
@@ -148,6 +156,17 @@ impl Store {
         Ok(points.iter().map(|point| serde_json::from_str(point)).collect::<Result<_, _>>()?)
     }
 
+    /// Size of the credentials of all finished speeds of a job, bytes.
+    pub async fn points_bytes(&self, job: JobId) -> Result<u64, StoreError> {
+        let bytes: i64 = sqlx::query_scalar(
+            "select cast(coalesce(sum(octet_length(point)), 0) as bigint) from speed_results where job = $1",
+        )
+        .bind(job.to_string())
+        .fetch_one(&self.readers)
+        .await?;
+        Ok(bytes.unsigned_abs())
+    }
+
     /// Row that `row` takes from the spectra of the finished speed `index` of a job; `None` where the speed has no spectra.
     ///
     /// # Errors
@@ -213,7 +232,12 @@ impl Store {
     }
 
     /// Stores a document of a running job, in a transaction of its own. An existing document stays as it is; a deleted job stores nothing.
-    pub async fn keep_document(&self, job: JobId, document: Document, body: &str) -> Result<(), StoreError> {
+    pub async fn keep_document(
+        &self,
+        job: JobId,
+        document: Document<'_>,
+        body: &str,
+    ) -> Result<(), StoreError> {
         let mut transaction = self.write().await?;
         transaction.guard(Guarded::Job(job)).await?;
         keep_result(&mut transaction, job, document, body).await?;
@@ -222,7 +246,11 @@ impl Store {
     }
 
     /// Size of the text of a document in bytes, if it exists.
-    pub async fn document_bytes(&self, job: JobId, document: Document) -> Result<Option<u64>, StoreError> {
+    pub async fn document_bytes(
+        &self,
+        job: JobId,
+        document: Document<'_>,
+    ) -> Result<Option<u64>, StoreError> {
         let Document { name, part } = document;
         let bytes: Option<i64> = sqlx::query_scalar(
             "select octet_length(body) from documents where job = $1 and name = $2 and part = $3",
@@ -236,16 +264,29 @@ impl Store {
     }
 
     /// Lists the documents of a finished job.
-    pub async fn documents(&self, job: JobId) -> Result<Vec<Document>, StoreError> {
+    pub async fn documents(&self, job: JobId) -> Result<Vec<StoredDocument>, StoreError> {
         let rows = sqlx::query("select name, part from documents where job = $1 order by name, part")
             .bind(job.to_string())
             .fetch_all(&self.readers)
             .await?;
-        rows.iter().map(|row| document(row.try_get("name")?, number(row, "part")?)).collect()
+        rows.iter()
+            .map(|row| Ok(StoredDocument { name: row.try_get("name")?, part: number(row, "part")? }))
+            .collect()
+    }
+
+    /// Lists the parts of the documents called `name` that a job has stored, ascending.
+    pub async fn document_parts(&self, job: JobId, name: &str) -> Result<Vec<u32>, StoreError> {
+        let parts: Vec<i64> =
+            sqlx::query_scalar("select part from documents where job = $1 and name = $2 order by part")
+                .bind(job.to_string())
+                .bind(name)
+                .fetch_all(&self.readers)
+                .await?;
+        parts.into_iter().map(|part| of("documents.part", part)).collect()
     }
 
     /// Finds a document of a finished job, as JSON text.
-    pub async fn document(&self, job: JobId, document: Document) -> Result<Option<String>, StoreError> {
+    pub async fn document(&self, job: JobId, document: Document<'_>) -> Result<Option<String>, StoreError> {
         let Document { name, part } = document;
         Ok(sqlx::query_scalar("select body from documents where job = $1 and name = $2 and part = $3")
             .bind(job.to_string())
@@ -260,7 +301,7 @@ impl Store {
 pub(super) async fn insert_document(
     connection: &mut AnyConnection,
     job: JobId,
-    document: Document,
+    document: Document<'_>,
     body: &str,
 ) -> Result<bool, StoreError> {
     let Document { name, part } = document;
@@ -284,7 +325,7 @@ pub(super) async fn insert_document(
 pub(super) async fn keep_result(
     connection: &mut AnyConnection,
     job: JobId,
-    document: Document,
+    document: Document<'_>,
     body: &str,
 ) -> Result<bool, StoreError> {
     let inserted = insert_document(connection, job, document, body).await?;

@@ -14,6 +14,7 @@ use sqlx::{AnyConnection, AnyPool, AssertSqlSafe, ConnectOptions, Connection, Ex
 use super::error::StoreError;
 use super::migrations::{Joining, SQLITE};
 use super::packages::count_packages;
+use super::reserve::free_bytes;
 
 /// Name of the database in its folder.
 pub(super) const DATABASE: &str = "rubmap.sqlite";
@@ -105,7 +106,7 @@ async fn bring_up_to_date(folder: &Path) -> Result<(), StoreError> {
         .busy_timeout(PATIENCE)
         .connect()
         .await?;
-    join(&mut connection).await?;
+    join(&mut connection, folder).await?;
     SQLITE.migrator.run(&mut connection).await.map_err(|error| match error {
         MigrateError::VersionMissing(found) => {
             StoreError::NewerTables { part: "the data folder", found, known: known_version() }
@@ -117,44 +118,54 @@ async fn bring_up_to_date(folder: &Path) -> Result<(), StoreError> {
     Ok(())
 }
 
-/// Brings tables that earlier programs made in many steps to those that are now made as a whole.
-async fn join(connection: &mut SqliteConnection) -> Result<(), StoreError> {
-    let history =
-        "select exists (select 1 from sqlite_master where type = 'table' and name = '_sqlx_migrations')";
-    if !sqlx::query_scalar::<_, bool>(history).fetch_one(&mut *connection).await? {
-        return Ok(());
-    }
+/// Brings tables that earlier programs made in many steps to those that are now made as a whole. Harmless to repeat.
+async fn join(connection: &mut SqliteConnection, folder: &Path) -> Result<(), StoreError> {
     let Joining { from, sql, to, checksum } = &SQLITE.joining;
-    let found: Option<i64> =
-        sqlx::query_scalar("select max(version) from _sqlx_migrations").fetch_one(&mut *connection).await?;
-    match found {
+    match latest_step(connection).await? {
         Some(found) if found == *from => {}
         Some(found) if found < *from => return Err(StoreError::OlderTables { found, least: *from }),
         _ => return Ok(()),
     }
+    expect_room(connection, folder).await?;
     tracing::info!("bringing the tables up to date, once");
-    // References to tables that are made anew are checked again afterwards; the setting cannot be changed within a transaction.
+    // References lead to tables that are made anew; the setting cannot be changed within a transaction.
     connection.execute("pragma foreign_keys = off").await?;
     let mut transaction = connection.begin_with("begin immediate").await?;
     // Another process may have made the step meanwhile.
-    let now: Option<i64> =
-        sqlx::query_scalar("select max(version) from _sqlx_migrations").fetch_one(&mut *transaction).await?;
-    if now != found {
-        return Ok(());
+    if latest_step(&mut transaction).await? == Some(*from) {
+        transaction.execute(AssertSqlSafe(sql.as_str())).await?;
+        transaction.execute("delete from _sqlx_migrations").await?;
+        sqlx::query(
+            "insert into _sqlx_migrations (version, description, success, checksum, execution_time)
+             values ($1, 'tables', true, $2, 0)",
+        )
+        .bind(to)
+        .bind(checksum)
+        .execute(&mut *transaction)
+        .await?;
     }
-    transaction.execute(AssertSqlSafe(sql.as_str())).await?;
-    transaction.execute("delete from _sqlx_migrations").await?;
-    sqlx::query(
-        "insert into _sqlx_migrations (version, description, success, checksum, execution_time)
-         values ($1, 'tables', true, $2, 0)",
-    )
-    .bind(to)
-    .bind(checksum)
-    .execute(&mut *transaction)
-    .await?;
     transaction.commit().await?;
     connection.execute("pragma foreign_keys = on").await?;
     Ok(())
+}
+
+/// Version of the last step that made the tables; `None` for a new file.
+async fn latest_step(connection: &mut SqliteConnection) -> Result<Option<i64>, StoreError> {
+    let history =
+        "select exists (select 1 from sqlite_master where type = 'table' and name = '_sqlx_migrations')";
+    if !sqlx::query_scalar::<_, bool>(history).fetch_one(&mut *connection).await? {
+        return Ok(None);
+    }
+    Ok(sqlx::query_scalar("select max(version) from _sqlx_migrations").fetch_one(connection).await?)
+}
+
+/// Requires room for the documents and requests once more in the file, and once in its log while they are copied.
+async fn expect_room(connection: &mut SqliteConnection, folder: &Path) -> Result<(), StoreError> {
+    let copied = "select coalesce((select sum(octet_length(body)) from documents), 0)
+             + coalesce((select sum(octet_length(request) + coalesce(octet_length(facts), 0)) from jobs), 0)";
+    let copied: i64 = sqlx::query_scalar(copied).fetch_one(connection).await?;
+    let (needed, free) = (2 * copied.unsigned_abs(), free_bytes(folder)?);
+    if needed > free { Err(StoreError::NoRoomForTables { needed, free }) } else { Ok(()) }
 }
 
 /// Version to which this program brings tables.
@@ -185,6 +196,8 @@ async fn make_shrinkable(connection: &mut SqliteConnection) -> Result<(), StoreE
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
     use super::*;
     use crate::store::Store;
     use crate::store::jobs::JobFilter;
@@ -327,6 +340,7 @@ mod tests {
         for head in &heads {
             let job = store.job(head.id).await.unwrap().unwrap();
             assert_eq!(job.request.speeds(), head.speeds.total, "{}", head.kind.name);
+            assert_eq!(Arc::clone(&job.request).work().units(), head.kind.units, "{}", head.kind.name);
             // The form in which these were stored is not the one that is posted.
             let resolved_otherwise =
                 ["branches", "campaign", "case_study", "run_up"].contains(&head.kind.name);

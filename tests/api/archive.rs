@@ -192,7 +192,14 @@ async fn every_kind_of_job_repeats_to_the_bit() {
     (run_ups["speed"]["to"], run_ups["speed"]["hold_s"]) = (400.into(), 0.into());
     let mut compared = campaign_of(&model);
     compared["compared_model"] = api.model(model::package(1.1)).await.into();
+    let mut alone = campaign_of(&model);
+    alone["compared_model"] = serde_json::Value::Null;
+    let mut chosen = modal_analysis_of(&model);
+    chosen.as_object_mut().unwrap().remove("modes_per_speed");
+    chosen["budget"] = json!({"seconds": 60.0});
     let asked = [
+        ("/v1/modal-analyses", chosen),
+        ("/v1/campaigns", alone),
         ("/v1/sweeps", refined),
         ("/v1/sweeps", coated),
         ("/v1/modal-analyses", modal_analysis_of(&model)),
@@ -225,9 +232,16 @@ async fn every_kind_of_job_repeats_to_the_bit() {
         assert_eq!(plan.status, 200, "{path}: {}", plan.body);
     }
     let found = entries(&download(api, &ids[0]).await);
+    let modes = &json_of(&found, "request.json")["modes_per_speed"];
+    assert_eq!(
+        modes,
+        &json_of(&found, "choice.json")["modes_per_speed"],
+        "what was chosen is not chosen again"
+    );
+    let found = entries(&download(api, &ids[2]).await);
     assert!(json_of(&found, "settings.json")["speeds"].as_array().unwrap().len() > 1, "speeds were added");
     assert!(json_of(&found, "request.json")["speeds"].as_array().unwrap().len() == 1, "and are added again");
-    let coated = entries(&download(api, &ids[1]).await);
+    let coated = entries(&download(api, &ids[3]).await);
     assert!(coated.iter().any(|(name, _)| name == "results/wear/00000.json"));
     app.stop().await;
 }

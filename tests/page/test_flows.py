@@ -353,7 +353,7 @@ def test_branches_are_seen_while_they_grow(service, model, new_page):
 def test_a_form_says_what_run_ups_take(service, swept, model, new_page):
     page = new_page(f"{service.url}/#/sweep?model={model}&kind=run_up", expected=["422"])
     plan = page.get_by_role("status", name="Plan")
-    runs = plan.get_by_text(re.compile(r"rad/s² \(.* rpm/s\): .* revolutions, .* pieces of one speed, .* steps"))
+    runs = plan.get_by_text(re.compile(r"rad/s² \(.* rpm/s\): .* revolutions, .* segments of one speed, .* steps"))
     runs.first.wait_for()
     assert runs.count() == 3
     rates = page.get_by_label("Rates")

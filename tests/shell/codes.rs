@@ -162,7 +162,7 @@ fn a_job_is_set_aside_and_goes_on() {
     let says = |status: &str| on.err.contains(&format!("job {id} is {status}"));
     assert!(on.code == 0 && (says("accepted") || says("running")), "{on:?}");
     shell.done("cancel long");
-    ends(&shell, "pause long", 3, &["dismissed: it cannot be set aside"]);
+    ends(&shell, "pause long", 3, &["dismissed: it cannot be paused"]);
 }
 
 #[test]

@@ -54,7 +54,8 @@ export async function show(main, { query }, signal, first = 'sweep') {
     const job = await api.get(`/v1/jobs/${query.get('as')}`, { signal });
     const kind = REQUESTS[job.kind];
     if (!kind) throw new Error(`a job of kind ${job.kind} has no form`);
-    if (job.posted_to !== kind.path) throw new Error('the request of this job was not kept, or belongs to another job: begin a new one');
+    if (!job.posted) throw new Error('an earlier version did not keep the request of this job: begin a new one');
+    if (job.posted_to !== kind.path) throw new Error('this job records a sweep, and has no request of its own: begin with that sweep');
     replace(main, h('h1', {}, `As ${nameOf(job)}, but …`), place);
     const model = await api.get(`/v1/models/${job.model}`, { signal });
     await requestForm(place, { model, kind, value: job.posted, words: `Model: ${model.name}` }, signal);

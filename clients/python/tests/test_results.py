@@ -49,6 +49,8 @@ def test_speeds_ascend_whatever_their_order_in_the_request(client: rubmap.Client
     nearest = found.sel(speed=19000 * np.pi / 30.0, method="nearest")
     np.testing.assert_array_equal(nearest["amplitude"], sweep.spectrum(2)["amplitude"][0])
     recorded = sweep.record({"speeds": [1], "quantities": ["displacement", "velocity"]}).wait(progress=False)
+    with pytest.raises(ValueError, match="no request of its own"):
+        recorded.plan()
     assert recorded.histories(speed=1)["velocity"].attrs["units"] == "mm/s"
 
 

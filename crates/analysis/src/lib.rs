@@ -2,15 +2,11 @@
 //!
 //! - [`run::prepare`] reduces a sector (once per model and `modes_per_speed`);
 //! - [`run::check`], [`run::run_speed`] and [`run::modal_analysis`] compute on the reduced sector;
-//! - [`run::plan_sweep`], [`run::plan_modal_analysis`] and [`run::plan_branches`] tell work and cost of these beforehand;
 //! - [`run::refine`] adds the speeds that a sweep lacks around its peaks;
 //! - [`run::interaction_map`] and [`run::critical_speeds`] assemble the finished speeds of a sweep, [`run::refine`] asks for more;
 //! - [`run::speed_histories`] simulates a speed once more and records what happens, [`run::force_map`] gathers contact over all speeds;
-//! - [`run::branch_leg`] follows periodic responses while a number of their scene changes;
-//! - [`run::run_up_leg`] takes a wheel whose speed changes some frames further, [`run::run_ups`] puts them together, [`run::plan_run_ups`]
-//!   says what they cost;
-//! - [`run::campaign`] gathers the results of the designs of a scene, [`run::more_designs`] adds the missing ones, [`run::plan_campaign`]
-//!   tells the cost;
+//! - [`kinds`] has what each kind of job is asked, plans, computes and answers: branches and run-ups leg by leg, campaigns design by design;
+//! - [`run::run_ups`] and [`run::campaign`] put their results together;
 //! - [`run::run_trial`] runs one speed to be compared with others: for studies ([`run::work_precision`]), for the choice of settings
 //!   ([`run::next`], [`run::next_modes`]) and for the error of a finished sweep ([`run::error_estimate`]).
 

@@ -30,7 +30,7 @@ use rubmap_wheel::revision::VERSION;
 
 /// Plans a resolved sweep on `workers` threads; without `reduced`, as far as the facts allow. The caller adds the choice, the positions of
 /// the sensors and the measured machine.
-pub fn plan_sweep(
+pub(crate) fn plan_sweep(
     request: &ResolvedSweep,
     facts: &ModelFacts,
     reduced: Option<&ReducedSector>,
@@ -110,7 +110,7 @@ fn sectors_simulated(scene: &Scene, facts: &ModelFacts) -> u32 {
 }
 
 /// Plans a resolved modal analysis; without `reduced`, as far as the facts allow. The caller adds the choice.
-pub fn plan_modal_analysis(
+pub(crate) fn plan_modal_analysis(
     request: &ResolvedModalAnalysis,
     facts: &ModelFacts,
     reduced: Option<&ReducedSector>,

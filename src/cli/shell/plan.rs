@@ -123,7 +123,7 @@ fn run_ups(plan: &RunUpPlan) -> String {
         let rate = run.rate_rad_s2.map_or_else(String::new, |rate| format!("{rate:.4} rad/s²: "));
         let _ = writeln!(
             words,
-            "run         {rate}{:.4} s, {:.1} revolutions in {} pieces of one speed",
+            "run         {rate}{:.4} s, {:.1} revolutions in {} segments of one speed",
             run.duration_s, run.revolutions, run.segments
         );
         if let Some(message) = &run.message {

@@ -18,17 +18,17 @@ use self::manifest::{
 };
 use self::writer::Writer;
 use super::extract::JobPath;
-use super::forms::TEXT_MEMORY;
+use super::forms::{READ_MEMORY, TEXT_MEMORY};
 use super::problem::{Kind, Problem};
 use super::results::{expect_successful, find};
 use super::spectra::ROW_MEMORY;
 use super::state::AppState;
 use super::stream;
-use crate::analysis::kinds::document::Document;
 use crate::analysis::kinds::kind::Units;
 use crate::analysis::result::SpeedResult;
 use crate::analysis::run::VERSION;
 use crate::store::jobs::{Job, Posted};
+use crate::store::results::StoredDocument;
 use crate::store::{Store, StoreError};
 use crate::tokens::Principal;
 use crate::version;
@@ -45,7 +45,7 @@ pub(super) struct ArchiveZip(Vec<u8>);
 /// settings as results repeat them; `package.zip`, the model byte by byte, and `compared-package.zip` where two are compared;
 /// `results/`; and `manifest.json` with the SHA-256 of
 /// every entry, the revision of the numerics and the kind of vectors of the processor that computed the job. The archive of a job
-/// always has the same bytes.
+/// always has the same bytes. Histories of a sweep that has ended are repeated with that sweep, not by themselves.
 #[utoipa::path(get, path = "/v1/jobs/{id}/archive", operation_id = "get_archive", tag = "results",
     params(("id" = String, Path, description = "Id of a job.")),
     responses(
@@ -82,9 +82,11 @@ pub(super) async fn get_archive(
         packages.push((name, package));
     }
     let documents = state.store.documents(id).await?;
-    let mut bytes = ROW_MEMORY * state.store.largest_spectra(id).await?;
+    let rows = ROW_MEMORY * state.store.largest_spectra(id).await?;
+    let mut bytes = rows.max(READ_MEMORY * state.store.points_bytes(id).await?);
     for document in &documents {
-        bytes = bytes.max(TEXT_MEMORY * state.store.document_bytes(id, *document).await?.unwrap_or(0));
+        bytes =
+            bytes.max(TEXT_MEMORY * state.store.document_bytes(id, document.document()).await?.unwrap_or(0));
     }
     let leave = state.answers.leave(&state.jobs, bytes).await;
     let (store, runtime) = (state.store.clone(), Handle::current());
@@ -100,7 +102,7 @@ struct Contents {
     posted: Posted,
     /// Packages of its models, by the names of their entries.
     packages: Vec<(&'static str, File)>,
-    documents: Vec<Document>,
+    documents: Vec<StoredDocument>,
     store: Store,
     runtime: Handle,
 }
@@ -124,8 +126,8 @@ impl Contents {
             self.write_speeds(&mut zip)?;
         }
         for document in &self.documents {
-            let Document { name, part } = document;
-            let body = self.read(self.store.document(self.job.id, *document))?;
+            let StoredDocument { name, part } = document;
+            let body = self.read(self.store.document(self.job.id, document.document()))?;
             let name = format!("{RESULTS}{}/{part}.json", name.replace('_', "-"));
             zip.add(&name, body.len() as u64, |out| out.write_all(body.as_bytes()))?;
         }

@@ -8,6 +8,7 @@ use crate::store::dialect::Guarded;
 use crate::store::end_states;
 use crate::store::error::StoreError;
 use crate::store::handle::Store;
+use crate::store::results::insert_document;
 use crate::store::status::JobStatus;
 use crate::store::time::now;
 
@@ -104,7 +105,7 @@ impl Store {
     pub async fn complete_job(
         &self,
         id: JobId,
-        documents: &[(Document, String)],
+        documents: &[(Document<'_>, String)],
         made: Option<&str>,
     ) -> Result<bool, StoreError> {
         let mut transaction = self.write().await?;
@@ -116,17 +117,7 @@ impl Store {
         }
         let time = now();
         for (document, body) in documents {
-            let Document { name, part } = *document;
-            sqlx::query(
-                "insert into documents (job, name, part, body, created_at) values ($1, $2, $3, $4, $5)",
-            )
-            .bind(id.to_string())
-            .bind(name)
-            .bind(i64::from(part))
-            .bind(body)
-            .bind(&time)
-            .execute(&mut *transaction)
-            .await?;
+            insert_document(&mut transaction, id, *document, body).await?;
         }
         let bytes: usize = documents.iter().map(|(_, body)| body.len()).sum();
         sqlx::query(

@@ -6,19 +6,17 @@ import { h } from '../../lib/dom.js';
 import { ended } from '../../lib/events.js';
 import { nameOf } from '../../lib/format.js';
 import { problem } from '../../lib/problem.js';
-import { REQUESTS } from '../sweep.js';
 
 /**
- * Buttons of a job: set aside and cancel while it runs; again, as it is or otherwise; delete when it has ended.
+ * Buttons of a job: pause and cancel while it runs; again, as it is or otherwise; delete when it has ended.
  * @param {any} job as a list or its own page has it
  * @param {{told: any, deleted: () => void | Promise<void>}} where `told` is an element that takes what is refused, `deleted` what is done then
  * @param {AbortSignal} signal
  */
 export function actions(job, { told, deleted }, signal) {
   const name = nameOf(job);
-  const request = REQUESTS[job.kind];
   return [
-    h('a', { class: 'button', href: `#/${request ? 'sweep' : 'generate'}?as=${job.id}`, 'aria-label': `As ${name}, but …` }, 'As this, but …'),
+    h('a', { class: 'button', href: `#/${job.kind === 'model_generation' ? 'generate' : 'sweep'}?as=${job.id}`, 'aria-label': `As ${name}, but …` }, 'As this, but …'),
     ended(job) ? button('Run again', `Run ${name} again`, again) : setAside(),
     ended(job)
       ? button('Delete', `Delete ${name}`, remove, 'bad')

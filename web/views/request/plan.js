@@ -64,7 +64,7 @@ function runs(list) {
   const words = (run) => [
     duration(run.duration_s),
     count(run.revolutions, 'revolution'),
-    `${count(run.segments, 'piece')} of one speed`,
+    `${count(run.segments, 'segment')} of one speed`,
     run.steps ? count(run.steps, 'step') : null,
     run.computing_time_s ? `${between(run.computing_time_s, duration)} to compute` : null,
   ].filter(Boolean).join(', ');

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal, NotRequired, TypeAlias
+from typing import Literal, NotRequired, TypeAlias
 from typing_extensions import TypedDict
 
 
@@ -1814,6 +1814,12 @@ class CaseStudyRequest(TypedDict, closed=True):
     tags: NotRequired[list[str]]
 
 
+class CaseStudySettings(TypedDict, closed=True):
+    record: Recorded
+    speeds: list[int]
+    sweep: SweepRequest
+
+
 class CriticalSpeeds(TypedDict):
     casing_coincidences: NotRequired[list[Coincidence]]
     critical_speeds: list[CriticalSpeed]
@@ -2136,6 +2142,18 @@ PostedBody: TypeAlias = (
 )
 
 
+ResolvedBody: TypeAlias = (
+    SweepRequest
+    | ModalAnalysisRequest
+    | CaseStudySettings
+    | BranchesSettings
+    | RunUpSettings
+    | CampaignSettings
+    | StudyRequest
+    | ImpellerParameters
+)
+
+
 class RunUpPlan(TypedDict):
     contact_pairs: int
     effects: list[PlannedEffect]
@@ -2160,4 +2178,4 @@ class JobDetail(JobBody):
     posted: NotRequired[PostedBody | None]
     posted_to: NotRequired[str | None]
     reduction: NotRequired[ReductionReport | None]
-    request: dict[str, Any]
+    request: ResolvedBody

@@ -49,7 +49,9 @@ class Job:
     def request(self) -> dict[str, Any]:
         """What is asked for, as the contract's request of this kind; of a job found in a list it is read when it is wanted."""
         if self._request is None:
-            self._request = asked_of(self.state) or {}
+            self._request = asked_of(self.state, self.path)
+        if self._request is None:
+            raise ValueError(f"{self!r} has no request of its own: it records another job, or an earlier service did not keep it")
         return self._request
 
     def __repr__(self) -> str:
@@ -116,11 +118,11 @@ class Job:
         self._service.delete(self._own(), cancel_only="true")
 
     def pause(self) -> None:
-        """Sets it aside; what it has found so far stays."""
+        """Pauses it; what it has found so far stays."""
         self._service.ask(f"{self._own()}/pause", {})
 
     def go_on(self) -> None:
-        """Lets it go on where it was set aside."""
+        """Continues it where it was paused."""
         self._service.ask(f"{self._own()}/continue", {})
 
     def delete(self) -> None:
@@ -190,10 +192,13 @@ class Job:
                     return
 
 
-def asked_of(found: Mapping[str, Any]) -> dict[str, Any] | None:
-    """The request of a job as it was posted; lists leave it out, and some jobs of earlier services do not have it."""
+def asked_of(found: Mapping[str, Any], path: str) -> dict[str, Any] | None:
+    """The request of a job as it was posted to the path of its kind.
+
+    None where it is not told (in lists), was not kept (by earlier services), or was posted elsewhere (histories of a sweep).
+    """
     posted: dict[str, Any] | None = found.get("posted")
-    return posted
+    return posted if found.get("posted_to") == path else None
 
 
 def _left(end: float | None, most: float) -> float:

@@ -1,4 +1,4 @@
-//! Kind of a job, and what each kind must tell of its requests and jobs.
+//! Kind of a job: the interface that every kind implements for its requests and its jobs.
 
 use std::any::Any;
 use std::borrow::Cow;
@@ -15,10 +15,10 @@ use crate::model::{ModelFacts, ReducedSector};
 use crate::monitor::Monitor;
 use crate::request::Sensor;
 use crate::resolved::{ResolvedCaseStudy, ResolvedModalAnalysis, ResolvedStudy, ResolvedSweep};
-use crate::result::{Point, PointStatus};
+use crate::result::{Point, PointStatus, SpeedResult};
 
-/// Reader of a stored job from its text and so many rounds of a refinement.
-pub type ReadStored = fn(&str, u32) -> Result<Arc<dyn ResolvedJob>, NotStored>;
+/// Reader of a stored job, from its text and the number of rounds of a refinement.
+pub type ReadStored = fn(&str, u32) -> Result<Arc<dyn ResolvedJob>, NotReadable>;
 
 /// Kind of a job.
 pub struct Kind {
@@ -38,9 +38,7 @@ pub struct Kind {
     pub example: &'static str,
     /// Results of its jobs: relation, and path below that of the job.
     pub results: &'static [(&'static str, &'static str)],
-    /// Names of the documents that its jobs store.
-    pub documents: &'static [&'static str],
-    /// Units in which its jobs are computed.
+    /// Units in which its jobs are computed, those of their [`Work`].
     pub units: Units,
     /// Reads a request.
     pub read: fn(&str) -> serde_json::Result<Box<dyn Asked>>,
@@ -49,6 +47,9 @@ pub struct Kind {
     /// Schema of its requests.
     #[cfg(feature = "schema")]
     pub request: Shape,
+    /// Schema of its resolved requests.
+    #[cfg(feature = "schema")]
+    pub resolved: Shape,
     /// Schema of its plans.
     #[cfg(feature = "schema")]
     pub planned: Shape,
@@ -86,26 +87,31 @@ pub enum Units {
 pub struct Words {
     /// Sentence that heads the operation.
     pub summary: &'static str,
-    /// Description; empty for none.
-    pub description: &'static str,
-    /// Reasons for the status 422, where they are not those of all kinds; empty for those.
-    pub refused: &'static str,
+    /// Description, if the summary does not say all.
+    pub description: Option<&'static str>,
+    /// Reasons for the status 422, where they are not those of all kinds.
+    pub refused: Option<&'static str>,
 }
 
 impl Words {
     /// Words on an operation that is refused as those of other kinds are.
     pub const fn new(summary: &'static str, description: &'static str) -> Self {
-        Self { summary, description, refused: "" }
+        Self { summary, description: Some(description), refused: None }
+    }
+
+    /// Words on an operation of which the summary says all.
+    pub const fn brief(summary: &'static str) -> Self {
+        Self { summary, description: None, refused: None }
     }
 }
 
 /// Reason why a stored job cannot be read.
 #[derive(Debug, thiserror::Error)]
-pub enum NotStored {
+pub enum NotReadable {
     /// Text that is no request of this kind.
     #[error(transparent)]
     Json(#[from] serde_json::Error),
-    /// Request that was never resolved.
+    /// Request that breaks the rules which it met when it was resolved.
     #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("; "))]
     Unsound(Vec<Violation>),
 }
@@ -116,6 +122,18 @@ pub enum NotStored {
 /// Text that is no such request.
 pub fn read<R: Asked + DeserializeOwned + 'static>(text: &str) -> serde_json::Result<Box<dyn Asked>> {
     Ok(Box::new(serde_json::from_str::<R>(text)?))
+}
+
+/// Reads a stored job for [`Kind::stored`]: `resolve` makes the job of the request as it was written.
+///
+/// # Errors
+/// Text that is no such request, or a request that breaks the rules.
+pub(crate) fn stored<W: DeserializeOwned, J: ResolvedJob>(
+    text: &str,
+    resolve: impl FnOnce(W) -> Result<J, Vec<Violation>>,
+) -> Result<Arc<dyn ResolvedJob>, NotReadable> {
+    let written = serde_json::from_str(text)?;
+    Ok(Arc::new(resolve(written).map_err(NotReadable::Unsound)?))
 }
 
 /// Model that a request names.
@@ -163,13 +181,54 @@ pub trait Asked: Debug + Send {
     fn resolve(self: Box<Self>, models: Vec<GivenModel>) -> Result<Resolving, Vec<Violation>>;
 }
 
+/// Request for a job that computes from one model.
+pub trait OfOneModel: Debug + Send + 'static {
+    /// Kind of the job.
+    const KIND: &'static Kind;
+
+    /// Resolved request.
+    type Job: ResolvedJob;
+
+    /// Id of the model.
+    fn model(&self) -> &str;
+
+    /// Sensors, to be placed at nodes of the model.
+    fn sensors(&self) -> &[Sensor] {
+        &[]
+    }
+
+    /// Resolves the request against its model.
+    ///
+    /// # Errors
+    /// All violations at once.
+    fn resolve(self, model: GivenModel) -> Result<Self::Job, Vec<Violation>>;
+}
+
+impl<R: OfOneModel> Asked for R {
+    fn kind(&self) -> &'static Kind {
+        R::KIND
+    }
+
+    fn models(&self) -> Vec<NamedModel<'_>> {
+        vec![NamedModel::own(self.model())]
+    }
+
+    fn sensors(&self) -> &[Sensor] {
+        self.sensors()
+    }
+
+    fn resolve(self: Box<Self>, models: Vec<GivenModel>) -> Result<Resolving, Vec<Violation>> {
+        Ok(Resolving::Done(Arc::new((*self).resolve(first(&mut models.into_iter())?)?)))
+    }
+}
+
 /// State of a request that is being resolved.
 #[derive(Debug)]
 pub enum Resolving {
     /// Job, all of it checked.
     Done(Arc<dyn ResolvedJob>),
     /// Job that takes long to check.
-    Left(Box<dyn Unchecked>),
+    Unfinished(Box<dyn Unchecked>),
 }
 
 /// Job that is checked piece by piece, so that other requests have their turn in between.
@@ -222,8 +281,10 @@ pub trait ResolvedJob: Any + Debug + Send + Sync {
         0
     }
 
-    /// Ids of the models that it computes from; one that is compared comes last.
-    fn models(&self) -> Vec<&str>;
+    /// Ids of the models that it computes from, those of its scenes; one that is compared comes last.
+    fn models(&self) -> Vec<&str> {
+        self.scenes().into_iter().map(ResolvedSweep::model).collect()
+    }
 
     /// Number of speeds by now, of all designs together; each run of a run-up counts as one.
     fn speeds(&self) -> u32;
@@ -233,8 +294,10 @@ pub trait ResolvedJob: Any + Debug + Send + Sync {
         self.speeds()
     }
 
-    /// Number `modes_per_speed` of the reduction that the results rest on, if there is one and it is known.
-    fn modes_per_speed(&self) -> Option<u32>;
+    /// Number `modes_per_speed` of the reduction that the results rest on, that of its first scene, if there is one and it is known.
+    fn modes_per_speed(&self) -> Option<u32> {
+        self.scenes().first().and_then(|scene| scene.modes().given())
+    }
 
     /// Whether the whole job must be computed on processors with one kind of vectors.
     fn is_of_one_kind(&self) -> bool {
@@ -251,7 +314,7 @@ pub trait ResolvedJob: Any + Debug + Send + Sync {
         Vec::new()
     }
 
-    /// Settings that it leaves the service to choose.
+    /// Settings that the job leaves to the service.
     fn choice(&self) -> Option<ToChoose<'_>> {
         None
     }
@@ -261,14 +324,14 @@ pub trait ResolvedJob: Any + Debug + Send + Sync {
         Recorded::default()
     }
 
-    /// Plan of the job: what it will do and cost.
+    /// Plan of the job: work and cost.
     ///
     /// # Errors
     /// If it cannot be written, which is a defect.
     fn plan(&self, grounds: &Grounds) -> serde_json::Result<Plan>;
 
     /// Work of the job.
-    fn work(&self) -> Work<'_>;
+    fn work(self: Arc<Self>) -> Work;
 }
 
 impl dyn ResolvedJob {
@@ -287,21 +350,33 @@ pub enum ToChoose<'a> {
     Modes(&'a ResolvedModalAnalysis),
 }
 
-/// Work of a job, by its units.
-#[derive(Clone, Copy)]
-pub enum Work<'a> {
+/// Work of a job, which the service runs.
+#[derive(Clone)]
+pub enum Work {
     /// One computation on one reduction.
-    Once(&'a dyn Once),
+    Once(Arc<dyn Once>),
     /// Runs that are compared at the end; runs that other jobs stored are not repeated.
-    Trials(&'a ResolvedStudy),
+    Trials(Arc<ResolvedStudy>),
     /// Speeds of which everything is recorded, side by side.
-    Recorded(&'a ResolvedCaseStudy),
+    Recorded(Arc<ResolvedCaseStudy>),
     /// Speeds, each a task of its own.
-    Speeds(&'a dyn Speeds),
+    Speeds(Arc<dyn Speeds>),
     /// Legs, one after the other.
-    Legs(&'a dyn Legs),
-    /// Model, which is made and kept.
+    Legs(Arc<dyn Legs>),
+    /// Model of the generator, which is made and kept.
     Model,
+}
+
+impl Work {
+    /// Units in which the work is done.
+    pub fn units(&self) -> Units {
+        match self {
+            Self::Once(_) | Self::Trials(_) | Self::Recorded(_) => Units::Once,
+            Self::Speeds(_) => Units::Speeds,
+            Self::Legs(_) => Units::Legs,
+            Self::Model => Units::Model,
+        }
+    }
 }
 
 /// Reduction that a job rests on.
@@ -316,7 +391,7 @@ pub struct Reduction<'a> {
 }
 
 /// Job that is one computation.
-pub trait Once: Sync {
+pub trait Once: Send + Sync {
     /// Reduction that it computes on.
     fn reduction(&self) -> Reduction<'_>;
 
@@ -328,11 +403,11 @@ pub trait Once: Sync {
         &self,
         reduced: &ReducedSector,
         monitor: &dyn Monitor,
-    ) -> Result<serde_json::Result<Vec<(Document, String)>>, AnalysisError>;
+    ) -> Result<serde_json::Result<Vec<(Document<'static>, String)>>, AnalysisError>;
 }
 
 /// Job whose speeds are tasks of their own.
-pub trait Speeds: Sync {
+pub trait Speeds: Send + Sync {
     /// Sweep that speed `index` of the job belongs to, and its index there.
     ///
     /// # Errors
@@ -340,7 +415,10 @@ pub trait Speeds: Sync {
     fn speed(&self, index: u32) -> Result<(Cow<'_, ResolvedSweep>, u32), Vec<Violation>>;
 
     /// Part of the result of speed `index` that is stored, from the whole.
-    fn kept(&self, found: crate::result::SpeedResult, index: u32) -> crate::result::SpeedResult;
+    fn kept(&self, found: SpeedResult, index: u32) -> SpeedResult;
+
+    /// Whether speeds may be added.
+    fn may_grow(&self) -> bool;
 
     /// Job with more speeds, if the finished ones call for some.
     fn more(&self, points: &[Point]) -> Option<Arc<dyn ResolvedJob>>;
@@ -374,7 +452,7 @@ pub struct Leg {
 }
 
 /// Job that is computed leg by leg, each with all that the next one needs.
-pub trait Legs: Sync {
+pub trait Legs: Send + Sync {
     /// Names of its documents.
     fn names(&self) -> LegNames;
 
@@ -401,12 +479,30 @@ pub trait Legs: Sync {
     ) -> Result<serde_json::Result<Leg>, AnalysisError>;
 }
 
+/// Computes a leg for [`Legs::leg`]: `further` takes the course after the leg before, `written` writes the leg.
+///
+/// # Errors
+/// Those of `further`.
+pub(crate) fn next_leg<C: Serialize + DeserializeOwned, L>(
+    course: Option<&str>,
+    further: impl FnOnce(Option<C>) -> Result<(L, Option<C>), AnalysisError>,
+    written: impl FnOnce(&L) -> serde_json::Result<Leg>,
+) -> Result<serde_json::Result<Leg>, AnalysisError> {
+    let course = match course.map(serde_json::from_str).transpose() {
+        Ok(course) => course,
+        Err(error) => return Ok(Err(error)),
+    };
+    let (leg, next) = further(course)?;
+    let text = || Ok(Leg { course: next.as_ref().map(text).transpose()?, ..written(&leg)? });
+    Ok(text())
+}
+
 /// First of the models that a request is resolved against.
 ///
 /// # Errors
 /// If there is none, which is a defect of the caller.
-pub(crate) fn only(models: Vec<GivenModel>) -> Result<GivenModel, Vec<Violation>> {
-    models.into_iter().next().ok_or_else(|| vec![Violation::new("/model", "a model is missing")])
+pub(crate) fn first(models: &mut impl Iterator<Item = GivenModel>) -> Result<GivenModel, Vec<Violation>> {
+    models.next().ok_or_else(|| vec![Violation::new("/model", "a model is missing")])
 }
 
 /// JSON text of a resolved request.

@@ -10,4 +10,4 @@ use super::study::kind::STUDY;
 use super::sweep::kind::SWEEP;
 
 /// Kinds of jobs that compute from models, in the order in which people meet them.
-pub static KINDS: [&Kind; 7] = [&SWEEP, &MODAL_ANALYSIS, &CASE_STUDY, &BRANCHES, &RUN_UP, &CAMPAIGN, &STUDY];
+pub static KINDS: &[&Kind] = &[&SWEEP, &MODAL_ANALYSIS, &CASE_STUDY, &BRANCHES, &RUN_UP, &CAMPAIGN, &STUDY];

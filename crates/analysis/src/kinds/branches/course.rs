@@ -10,7 +10,7 @@ use rubmap_wheel::dynamics::steady::branch::follow::Front;
 
 /// State of a branch job between legs.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Course {
+pub(crate) struct Course {
     /// Stretch that is being followed.
     pub(super) under_way: UnderWay,
     /// Stretches still to be begun, the next one last.

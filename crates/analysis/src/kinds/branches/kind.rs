@@ -9,13 +9,14 @@ use crate::kinds::branches::resolve::resolve_branches;
 #[cfg(feature = "schema")]
 use crate::kinds::kind::Shape;
 use crate::kinds::kind::{
-    self, Asked, GivenModel, Kind, Leg, LegNames, Legs, NamedModel, NotStored, ResolvedJob, Resolving, Units,
-    Words, Work,
+    self, GivenModel, Kind, Leg, LegNames, Legs, OfOneModel, ResolvedJob, Units, Words, Work,
 };
 use crate::kinds::plan::{Capacity, Grounds, Plan};
 use crate::model::ReducedSector;
 use crate::monitor::Monitor;
-use crate::request::BranchesRequest;
+#[cfg(feature = "schema")]
+use crate::request::BranchesSettings;
+use crate::request::{BranchesRequest, Sensor};
 use crate::resolved::{ResolvedBranches, ResolvedSweep};
 use crate::result::BranchesPlan;
 
@@ -38,15 +39,13 @@ pub static BRANCHES: Kind = Kind {
     ),
     example: include_str!("example.json"),
     results: &[("branches", "/branches")],
-    documents: &[LEGS.leg, LEGS.course],
     units: Units::Legs,
     read: kind::read::<BranchesRequest>,
-    stored: |text, _| {
-        let written = serde_json::from_str(text)?;
-        Ok(Arc::new(ResolvedBranches::stored(written).map_err(NotStored::Unsound)?))
-    },
+    stored: |text, _| kind::stored(text, ResolvedBranches::stored),
     #[cfg(feature = "schema")]
     request: Shape::of::<BranchesRequest>(),
+    #[cfg(feature = "schema")]
+    resolved: Shape::of::<BranchesSettings>(),
     #[cfg(feature = "schema")]
     planned: Shape::of::<BranchesPlan>(),
 };
@@ -54,23 +53,21 @@ pub static BRANCHES: Kind = Kind {
 /// Documents of the legs.
 pub const LEGS: LegNames = LegNames { leg: "branches", course: "branch_course", beside: None };
 
-impl Asked for BranchesRequest {
-    fn kind(&self) -> &'static Kind {
-        &BRANCHES
+impl OfOneModel for BranchesRequest {
+    const KIND: &'static Kind = &BRANCHES;
+
+    type Job = ResolvedBranches;
+
+    fn model(&self) -> &str {
+        &self.model
     }
 
-    fn models(&self) -> Vec<NamedModel<'_>> {
-        vec![NamedModel::own(&self.model)]
-    }
-
-    fn sensors(&self) -> &[crate::request::Sensor] {
+    fn sensors(&self) -> &[Sensor] {
         &self.sensors
     }
 
-    fn resolve(mut self: Box<Self>, models: Vec<GivenModel>) -> Result<Resolving, Vec<Violation>> {
-        let GivenModel { facts, sensors } = kind::only(models)?;
-        self.sensors = sensors;
-        Ok(Resolving::Done(Arc::new(resolve_branches(*self, &facts)?)))
+    fn resolve(self, GivenModel { facts, sensors }: GivenModel) -> Result<Self::Job, Vec<Violation>> {
+        resolve_branches(Self { sensors, ..self }, &facts)
     }
 }
 
@@ -83,16 +80,8 @@ impl ResolvedJob for ResolvedBranches {
         kind::text(self)
     }
 
-    fn models(&self) -> Vec<&str> {
-        vec![self.sweep.model()]
-    }
-
     fn speeds(&self) -> u32 {
         self.sweep.speeds.count()
-    }
-
-    fn modes_per_speed(&self) -> Option<u32> {
-        self.sweep.modes().given()
     }
 
     fn scenes(&self) -> Vec<&ResolvedSweep> {
@@ -106,7 +95,7 @@ impl ResolvedJob for ResolvedBranches {
         Plan::of(&plan, plan.estimate.clone())
     }
 
-    fn work(&self) -> Work<'_> {
+    fn work(self: Arc<Self>) -> Work {
         Work::Legs(self)
     }
 }
@@ -130,15 +119,10 @@ impl Legs for ResolvedBranches {
         course: Option<&str>,
         monitor: &dyn Monitor,
     ) -> Result<serde_json::Result<Leg>, AnalysisError> {
-        let course = match course.map(serde_json::from_str).transpose() {
-            Ok(course) => course,
-            Err(error) => return Ok(Err(error)),
-        };
-        let (leg, course) = branch_leg(reduced, self, course, monitor)?;
-        let written = || {
-            let course = course.as_ref().map(kind::text).transpose()?;
-            Ok(Leg { text: kind::text(&leg)?, beside: None, ended: None, course })
-        };
-        Ok(written())
+        kind::next_leg(
+            course,
+            |course| branch_leg(reduced, self, course, monitor),
+            |leg| Ok(Leg { text: kind::text(leg)?, beside: None, ended: None, course: None }),
+        )
     }
 }

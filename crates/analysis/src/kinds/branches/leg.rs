@@ -41,7 +41,7 @@ const AT_FOLD: f64 = 1e-3;
 ///
 /// # Errors
 /// Cancellation; a refusal where there is nothing to follow.
-pub fn branch_leg(
+pub(crate) fn branch_leg(
     sector: &ReducedSector,
     asked: &ResolvedBranches,
     course: Option<Course>,

@@ -27,7 +27,7 @@ use rubmap_wheel::revision::VERSION;
 const REVOLUTIONS: RangeInclusive<u64> = 20..=260;
 
 /// Plans resolved branches; without `reduced`, as far as the facts allow. The caller adds the measured machine.
-pub fn plan_branches(
+pub(crate) fn plan_branches(
     asked: &ResolvedBranches,
     facts: &ModelFacts,
     reduced: Option<&ReducedSector>,
@@ -124,7 +124,7 @@ fn priced_point(
 
 /// Memory that branches take while they are followed, in bytes: a run of the scene at the start, the search for its response, and the modes
 /// of the other values that are kept.
-pub fn branches_memory(reduced: &ReducedSector, asked: &ResolvedBranches) -> u64 {
+pub(crate) fn branches_memory(reduced: &ReducedSector, asked: &ResolvedBranches) -> u64 {
     let sweep = asked.sweep();
     let Ok((wheel, stepping)) = ready(reduced, sweep, asked.speed_rad_s()) else { return 0 };
     let nodes = touching(reduced, sweep);

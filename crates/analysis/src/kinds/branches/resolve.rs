@@ -20,7 +20,7 @@ const MULTIPLES: std::ops::RangeInclusive<f64> = 1e-3..=1e3;
 const POINTS: std::ops::RangeInclusive<u32> = 1..=10_000;
 
 /// Parses a branch request and checks it against its model.
-pub fn resolve_branches(
+pub(crate) fn resolve_branches(
     request: BranchesRequest,
     facts: &ModelFacts,
 ) -> Result<ResolvedBranches, Vec<Violation>> {

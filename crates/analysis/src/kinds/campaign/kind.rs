@@ -10,12 +10,11 @@ use crate::kinds::campaign::resolve::{CampaignDesigns, ComparedModel, resolve_ca
 #[cfg(feature = "schema")]
 use crate::kinds::kind::Shape;
 use crate::kinds::kind::{
-    self, Asked, GivenModel, Kind, NamedModel, NotStored, ResolvedJob, Resolving, Speeds, Unchecked, Units,
-    Words, Work,
+    self, Asked, GivenModel, Kind, NamedModel, ResolvedJob, Resolving, Speeds, Unchecked, Units, Words, Work,
 };
 use crate::kinds::plan::{Grounds, Plan};
 use crate::kinds::sweep::kind as sweep;
-use crate::request::{CampaignRequest, CampaignSettings};
+use crate::request::{CampaignRequest, CampaignSettings, Sensor};
 use crate::resolved::{ResolvedCampaign, ResolvedSweep};
 #[cfg(feature = "schema")]
 use crate::result::CampaignPlan;
@@ -29,12 +28,16 @@ pub static CAMPAIGN: Kind = Kind {
     about: "Contact over a range of speeds, of many designs of a scene",
     create: Words {
         summary: "Simulate many designs of a scene over speeds.",
-        description: "One job simulates all designs: `parameters` are the numbers of the scene that vary, and `design`, the design of experiments, \
+        description: Some(
+            "One job simulates all designs: `parameters` are the numbers of the scene that vary, and `design`, the design of experiments, \
          chooses their values. All designs share the reduction, and each is checked against the model before any simulation begins. \
          `GET /v1/jobs/{id}/campaign` has the result so far. With `threshold.within`, designs are added where it is undecided whether the \
          limit is met with the requested probability.",
-        refused: "A field is unknown, missing or impossible, also of a single design, the model is unknown \
+        ),
+        refused: Some(
+            "A field is unknown, missing or impossible, also of a single design, the model is unknown \
             (`errors` points at each), or the idempotency key belongs to another request.",
+        ),
     },
     plan: Words::new(
         "Plan a campaign: what it would do and cost. Starts nothing.",
@@ -43,15 +46,13 @@ pub static CAMPAIGN: Kind = Kind {
     ),
     example: include_str!("example.json"),
     results: &[("campaign", "/campaign")],
-    documents: &[],
     units: Units::Speeds,
     read: kind::read::<CampaignRequest>,
-    stored: |text, _| {
-        let written = serde_json::from_str(text)?;
-        Ok(Arc::new(ResolvedCampaign::stored(written).map_err(NotStored::Unsound)?))
-    },
+    stored: |text, _| kind::stored(text, ResolvedCampaign::stored),
     #[cfg(feature = "schema")]
     request: Shape::of::<CampaignRequest>(),
+    #[cfg(feature = "schema")]
+    resolved: Shape::of::<CampaignSettings>(),
     #[cfg(feature = "schema")]
     planned: Shape::of::<CampaignPlan>(),
 };
@@ -66,23 +67,23 @@ impl Asked for CampaignRequest {
         [NamedModel::own(&self.model)].into_iter().chain(compared).collect()
     }
 
-    fn sensors(&self) -> &[crate::request::Sensor] {
+    fn sensors(&self) -> &[Sensor] {
         &self.sensors
     }
 
     fn resolve(mut self: Box<Self>, models: Vec<GivenModel>) -> Result<Resolving, Vec<Violation>> {
         let mut models = models.into_iter();
-        let GivenModel { facts, sensors } = kind::only(models.by_ref().take(1).collect())?;
+        let GivenModel { facts, sensors } = kind::first(&mut models)?;
         self.sensors = sensors;
         let compared = models.next().map(|GivenModel { facts, sensors }| ComparedModel { facts, sensors });
-        Ok(Resolving::Left(Box::new(resolve_campaign(*self, facts, compared)?)))
+        Ok(Resolving::Unfinished(Box::new(resolve_campaign(*self, facts, compared)?)))
     }
 }
 
 impl Unchecked for CampaignDesigns {
     fn check(mut self: Box<Self>) -> Result<Resolving, Vec<Violation>> {
         if self.check_next() {
-            return Ok(Resolving::Left(self));
+            return Ok(Resolving::Unfinished(self));
         }
         Ok(Resolving::Done(Arc::new(self.finish()?)))
     }
@@ -102,20 +103,12 @@ impl ResolvedJob for ResolvedCampaign {
         kind::text(&CampaignSettings { designs: Vec::new(), ..self.settings.clone() })
     }
 
-    fn models(&self) -> Vec<&str> {
-        self.sweeps().map(ResolvedSweep::model).collect()
-    }
-
     fn speeds(&self) -> u32 {
         self.simulations()
     }
 
     fn speeds_at_most(&self) -> u32 {
         self.simulations_at_most()
-    }
-
-    fn modes_per_speed(&self) -> Option<u32> {
-        self.sweep.modes().given()
     }
 
     fn scenes(&self) -> Vec<&ResolvedSweep> {
@@ -132,7 +125,7 @@ impl ResolvedJob for ResolvedCampaign {
         Plan::of(&plan, plan.estimate.clone())
     }
 
-    fn work(&self) -> Work<'_> {
+    fn work(self: Arc<Self>) -> Work {
         Work::Speeds(self)
     }
 }
@@ -146,6 +139,10 @@ impl Speeds for ResolvedCampaign {
     fn kept(&self, found: SpeedResult, index: u32) -> SpeedResult {
         let point = Point { index, ..found.point };
         SpeedResult { point, spectra: None, end_state: None, wear: None, contact: None }
+    }
+
+    fn may_grow(&self) -> bool {
+        self.speeds_at_most() > self.speeds()
     }
 
     fn more(&self, points: &[Point]) -> Option<Arc<dyn ResolvedJob>> {

@@ -13,7 +13,7 @@ use crate::result::Point;
 /// is met with the probability, within its range; if the first designs all lie on one side, one batch covers the whole range. The other
 /// parameters continue along a Sobol sequence in their distributions. Each batch depends on nothing but the results before it. No batch
 /// follows one without any complete design.
-pub fn more_designs(campaign: &ResolvedCampaign, points: &[Point]) -> Option<ResolvedCampaign> {
+pub(crate) fn more_designs(campaign: &ResolvedCampaign, points: &[Point]) -> Option<ResolvedCampaign> {
     let (threshold, within) = campaign.settings.sought()?;
     let index = campaign.settings.parameter(&threshold.parameter)?;
     let distributions: Vec<&Distribution> = campaign.distributions.iter().flatten().collect();

@@ -4,7 +4,7 @@ use crate::resolved::ResolvedCampaign;
 use crate::result::{CampaignPlan, CostRange, Estimate, SweepPlan};
 
 /// Plans a campaign on `workers` threads from the plans of its scene before any change, with its model and with the compared one.
-pub fn plan_campaign(
+pub(crate) fn plan_campaign(
     campaign: &ResolvedCampaign,
     scene: SweepPlan,
     compared: Option<SweepPlan>,

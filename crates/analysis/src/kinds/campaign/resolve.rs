@@ -31,7 +31,7 @@ const TOLD: usize = 20;
 
 /// Model that a campaign compares with its own.
 #[derive(Debug, Clone)]
-pub struct ComparedModel {
+pub(crate) struct ComparedModel {
     /// Facts of the model.
     pub facts: ModelFacts,
     /// Sensors asked for, at nodes of this model.
@@ -40,7 +40,7 @@ pub struct ComparedModel {
 
 /// Parses a campaign and checks its unchanged scene against its models; its designs are still to be checked. `compared` is the model of
 /// `compared_model`, if there is one.
-pub fn resolve_campaign(
+pub(crate) fn resolve_campaign(
     request: CampaignRequest,
     facts: ModelFacts,
     compared: Option<ComparedModel>,
@@ -135,7 +135,7 @@ pub fn resolve_campaign(
 
 /// Campaign whose designs are checked one at a time, so that whoever resolves it can do other work between two of them, or give up.
 #[derive(Debug)]
-pub struct CampaignDesigns {
+pub(crate) struct CampaignDesigns {
     campaign: ResolvedCampaign,
     /// Sweep of every model, written out without the table that all designs share, and facts of the model.
     models: Vec<(serde_json::Value, ModelFacts)>,
@@ -151,7 +151,7 @@ pub struct CampaignDesigns {
 impl CampaignDesigns {
     /// Checks the next design of a model; `false` if none was left. A violation is reported at the parameter that changes the field, if one
     /// does.
-    pub fn check_next(&mut self) -> bool {
+    pub(crate) fn check_next(&mut self) -> bool {
         let (model, design) =
             (self.checked / self.designs.len().max(1), self.checked % self.designs.len().max(1));
         let (Some((sweep, facts)), Some((index, values))) =
@@ -178,7 +178,7 @@ impl CampaignDesigns {
     ///
     /// # Errors
     /// Violations of the designs.
-    pub fn finish(self) -> Result<ResolvedCampaign, Vec<Violation>> {
+    pub(crate) fn finish(self) -> Result<ResolvedCampaign, Vec<Violation>> {
         self.found.finish(self.campaign)
     }
 }

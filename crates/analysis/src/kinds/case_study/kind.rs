@@ -7,13 +7,12 @@ use crate::error::Violation;
 use crate::kinds::case_study::resolve::{histories_of, resolve_case_study};
 #[cfg(feature = "schema")]
 use crate::kinds::kind::Shape;
-use crate::kinds::kind::{
-    self, Asked, GivenModel, Kind, NamedModel, NotStored, Recorded, ResolvedJob, Resolving, Units, Words,
-    Work,
-};
+use crate::kinds::kind::{self, GivenModel, Kind, OfOneModel, Recorded, ResolvedJob, Units, Words, Work};
 use crate::kinds::plan::{Grounds, Plan};
-use crate::kinds::sweep::kind::{self as sweep, HISTORIES, STATES};
-use crate::request::{CaseStudyRequest, HistoriesRequest};
+use crate::kinds::sweep::kind as sweep;
+#[cfg(feature = "schema")]
+use crate::request::CaseStudySettings;
+use crate::request::{CaseStudyRequest, HistoriesRequest, Sensor};
 use crate::resolved::{ResolvedCaseStudy, ResolvedSweep};
 use crate::result::SweepPlan;
 
@@ -33,36 +32,32 @@ pub static CASE_STUDY: Kind = Kind {
     ),
     example: include_str!("example.json"),
     results: &[("histories", "/histories")],
-    documents: &[HISTORIES, STATES],
     units: Units::Once,
     read: kind::read::<CaseStudyRequest>,
-    stored: |text, rounds| {
-        let written = serde_json::from_str(text)?;
-        Ok(Arc::new(ResolvedCaseStudy::stored(written, rounds).map_err(NotStored::Unsound)?))
-    },
+    stored: |text, rounds| kind::stored(text, |written| ResolvedCaseStudy::stored(written, rounds)),
     #[cfg(feature = "schema")]
     request: Shape::of::<CaseStudyRequest>(),
+    #[cfg(feature = "schema")]
+    resolved: Shape::of::<CaseStudySettings>(),
     #[cfg(feature = "schema")]
     planned: Shape::of::<SweepPlan>(),
 };
 
-impl Asked for CaseStudyRequest {
-    fn kind(&self) -> &'static Kind {
-        &CASE_STUDY
+impl OfOneModel for CaseStudyRequest {
+    const KIND: &'static Kind = &CASE_STUDY;
+
+    type Job = ResolvedCaseStudy;
+
+    fn model(&self) -> &str {
+        &self.model
     }
 
-    fn models(&self) -> Vec<NamedModel<'_>> {
-        vec![NamedModel::own(&self.model)]
-    }
-
-    fn sensors(&self) -> &[crate::request::Sensor] {
+    fn sensors(&self) -> &[Sensor] {
         &self.sensors
     }
 
-    fn resolve(mut self: Box<Self>, models: Vec<GivenModel>) -> Result<Resolving, Vec<Violation>> {
-        let GivenModel { facts, sensors } = kind::only(models)?;
-        self.sensors = sensors;
-        Ok(Resolving::Done(Arc::new(resolve_case_study(*self, &facts)?)))
+    fn resolve(self, GivenModel { facts, sensors }: GivenModel) -> Result<Self::Job, Vec<Violation>> {
+        resolve_case_study(Self { sensors, ..self }, &facts)
     }
 }
 
@@ -77,18 +72,17 @@ pub struct HistoriesOfSweep {
     pub request: HistoriesRequest,
 }
 
-impl Asked for HistoriesOfSweep {
-    fn kind(&self) -> &'static Kind {
-        &CASE_STUDY
+impl OfOneModel for HistoriesOfSweep {
+    const KIND: &'static Kind = &CASE_STUDY;
+
+    type Job = ResolvedCaseStudy;
+
+    fn model(&self) -> &str {
+        self.sweep.model()
     }
 
-    fn models(&self) -> Vec<NamedModel<'_>> {
-        vec![NamedModel::own(self.sweep.model())]
-    }
-
-    fn resolve(self: Box<Self>, models: Vec<GivenModel>) -> Result<Resolving, Vec<Violation>> {
-        let GivenModel { facts, .. } = kind::only(models)?;
-        Ok(Resolving::Done(Arc::new(histories_of(&self.sweep, &self.request, &self.critical, &facts)?)))
+    fn resolve(self, GivenModel { facts, .. }: GivenModel) -> Result<Self::Job, Vec<Violation>> {
+        histories_of(&self.sweep, &self.request, &self.critical, &facts)
     }
 }
 
@@ -105,16 +99,8 @@ impl ResolvedJob for ResolvedCaseStudy {
         self.sweep.speeds().rounds()
     }
 
-    fn models(&self) -> Vec<&str> {
-        vec![self.sweep.model()]
-    }
-
     fn speeds(&self) -> u32 {
         self.speeds.len() as u32
-    }
-
-    fn modes_per_speed(&self) -> Option<u32> {
-        self.sweep.modes().given()
     }
 
     fn scenes(&self) -> Vec<&ResolvedSweep> {
@@ -131,7 +117,7 @@ impl ResolvedJob for ResolvedCaseStudy {
         Plan::of(&plan, plan.estimate.clone())
     }
 
-    fn work(&self) -> Work<'_> {
+    fn work(self: Arc<Self>) -> Work {
         Work::Recorded(self)
     }
 }

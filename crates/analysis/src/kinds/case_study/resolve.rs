@@ -11,7 +11,7 @@ use crate::resolve::recorded::{check_fields, check_histories, check_recorded, wa
 use crate::resolved::{ResolvedCaseStudy, ResolvedSweep};
 
 /// Parses a case study and checks it against its model.
-pub fn resolve_case_study(
+pub(crate) fn resolve_case_study(
     request: CaseStudyRequest,
     facts: &ModelFacts,
 ) -> Result<ResolvedCaseStudy, Vec<Violation>> {
@@ -34,7 +34,7 @@ pub fn resolve_case_study(
 }
 
 /// Case study of speeds of a sweep that has ended; `critical` are the indices of its critical speeds.
-pub fn histories_of(
+pub(crate) fn histories_of(
     sweep: &ResolvedSweep,
     request: &HistoriesRequest,
     critical: &BTreeSet<u32>,

@@ -7,8 +7,7 @@ use crate::kinds::document::Document;
 #[cfg(feature = "schema")]
 use crate::kinds::kind::Shape;
 use crate::kinds::kind::{
-    self, Asked, GivenModel, Kind, NamedModel, NotStored, Once, Reduction, ResolvedJob, Resolving, ToChoose,
-    Units, Words, Work,
+    self, GivenModel, Kind, OfOneModel, Once, Reduction, ResolvedJob, ToChoose, Units, Words, Work,
 };
 use crate::kinds::modal_analysis::compute::modal_analysis;
 use crate::kinds::plan::{Grounds, Plan};
@@ -26,41 +25,38 @@ pub static MODAL_ANALYSIS: Kind = Kind {
     route: "/v1/modal-analyses",
     operation: "modal_analysis",
     about: "Natural frequencies over speed, and the linear criterion",
-    create: Words::new("Compute natural frequencies over speed and the linear interaction criterion.", ""),
+    create: Words::brief("Compute natural frequencies over speed and the linear interaction criterion."),
     plan: Words::new(
         "Plan a modal analysis: what it would do and cost. Starts nothing.",
         "Takes the body of `POST /v1/modal-analyses` and answers at once.",
     ),
     example: include_str!("example.json"),
     results: &[("campbell", "/campbell"), ("report", "/report")],
-    documents: &[CAMPBELL.name],
     units: Units::Once,
     read: kind::read::<ModalAnalysisRequest>,
-    stored: |text, _| {
-        let written = serde_json::from_str(text)?;
-        Ok(Arc::new(ResolvedModalAnalysis::stored(written).map_err(NotStored::Unsound)?))
-    },
+    stored: |text, _| kind::stored(text, ResolvedModalAnalysis::stored),
     #[cfg(feature = "schema")]
     request: Shape::of::<ModalAnalysisRequest>(),
+    #[cfg(feature = "schema")]
+    resolved: Shape::of::<ModalAnalysisRequest>(),
     #[cfg(feature = "schema")]
     planned: Shape::of::<ModalAnalysisPlan>(),
 };
 
 /// Campbell diagram.
-pub const CAMPBELL: Document = Document::only("campbell");
+pub const CAMPBELL: Document<'static> = Document::only("campbell");
 
-impl Asked for ModalAnalysisRequest {
-    fn kind(&self) -> &'static Kind {
-        &MODAL_ANALYSIS
+impl OfOneModel for ModalAnalysisRequest {
+    const KIND: &'static Kind = &MODAL_ANALYSIS;
+
+    type Job = ResolvedModalAnalysis;
+
+    fn model(&self) -> &str {
+        &self.model
     }
 
-    fn models(&self) -> Vec<NamedModel<'_>> {
-        vec![NamedModel::own(&self.model)]
-    }
-
-    fn resolve(self: Box<Self>, models: Vec<GivenModel>) -> Result<Resolving, Vec<Violation>> {
-        let GivenModel { facts, .. } = kind::only(models)?;
-        Ok(Resolving::Done(Arc::new(resolve_modal_analysis(*self, &facts)?)))
+    fn resolve(self, GivenModel { facts, .. }: GivenModel) -> Result<Self::Job, Vec<Violation>> {
+        resolve_modal_analysis(self, &facts)
     }
 }
 
@@ -103,7 +99,7 @@ impl ResolvedJob for ResolvedModalAnalysis {
         Plan::of(&ModalAnalysisPlan { choice, ..plan }, None)
     }
 
-    fn work(&self) -> Work<'_> {
+    fn work(self: Arc<Self>) -> Work {
         Work::Once(self)
     }
 }
@@ -117,7 +113,7 @@ impl Once for ResolvedModalAnalysis {
         &self,
         reduced: &ReducedSector,
         monitor: &dyn Monitor,
-    ) -> Result<serde_json::Result<Vec<(Document, String)>>, AnalysisError> {
+    ) -> Result<serde_json::Result<Vec<(Document<'static>, String)>>, AnalysisError> {
         let campbell = modal_analysis(reduced, self, monitor)?;
         Ok(kind::text(&campbell).map(|text| vec![(CAMPBELL, text)]))
     }

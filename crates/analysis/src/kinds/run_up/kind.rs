@@ -6,8 +6,7 @@ use crate::error::{AnalysisError, Violation};
 #[cfg(feature = "schema")]
 use crate::kinds::kind::Shape;
 use crate::kinds::kind::{
-    self, Asked, GivenModel, Kind, Leg, LegNames, Legs, NamedModel, NotStored, ResolvedJob, Resolving, Units,
-    Words, Work,
+    self, GivenModel, Kind, Leg, LegNames, Legs, OfOneModel, ResolvedJob, Units, Words, Work,
 };
 use crate::kinds::plan::{Capacity, Grounds, Plan};
 use crate::kinds::run_up::march::run_up_leg;
@@ -15,7 +14,9 @@ use crate::kinds::run_up::plan::{plan_run_ups, run_ups_memory};
 use crate::kinds::run_up::resolve::resolve_run_ups;
 use crate::model::ReducedSector;
 use crate::monitor::Monitor;
-use crate::request::RunUpRequest;
+#[cfg(feature = "schema")]
+use crate::request::RunUpSettings;
+use crate::request::{RunUpRequest, Sensor};
 use crate::resolved::{ResolvedRunUps, ResolvedSweep};
 use crate::result::RunUpPlan;
 
@@ -33,20 +34,18 @@ pub static RUN_UP: Kind = Kind {
     ),
     plan: Words::new(
         "Plan run-ups: what they would do and cost. Starts nothing.",
-        "Takes the body of `POST /v1/run-ups` and answers at once with durations, revolutions and pieces of one speed; if the reduction \
+        "Takes the body of `POST /v1/run-ups` and answers at once with durations, revolutions and segments of one speed; if the reduction \
          is stored, also with steps and their expected times, from a short calibration of this machine.",
     ),
     example: include_str!("example.json"),
     results: &[("run-ups", "/run-ups"), ("spectrogram", "/spectrogram")],
-    documents: &[LEGS.leg, LEGS.course, SPECTRA],
     units: Units::Legs,
     read: kind::read::<RunUpRequest>,
-    stored: |text, _| {
-        let written = serde_json::from_str(text)?;
-        Ok(Arc::new(ResolvedRunUps::stored(written).map_err(NotStored::Unsound)?))
-    },
+    stored: |text, _| kind::stored(text, ResolvedRunUps::stored),
     #[cfg(feature = "schema")]
     request: Shape::of::<RunUpRequest>(),
+    #[cfg(feature = "schema")]
+    resolved: Shape::of::<RunUpSettings>(),
     #[cfg(feature = "schema")]
     planned: Shape::of::<RunUpPlan>(),
 };
@@ -57,23 +56,21 @@ pub const SPECTRA: &str = "run_up_spectra";
 /// Documents of the legs.
 pub const LEGS: LegNames = LegNames { leg: "run_ups", course: "run_up_course", beside: Some(SPECTRA) };
 
-impl Asked for RunUpRequest {
-    fn kind(&self) -> &'static Kind {
-        &RUN_UP
+impl OfOneModel for RunUpRequest {
+    const KIND: &'static Kind = &RUN_UP;
+
+    type Job = ResolvedRunUps;
+
+    fn model(&self) -> &str {
+        &self.model
     }
 
-    fn models(&self) -> Vec<NamedModel<'_>> {
-        vec![NamedModel::own(&self.model)]
-    }
-
-    fn sensors(&self) -> &[crate::request::Sensor] {
+    fn sensors(&self) -> &[Sensor] {
         &self.sensors
     }
 
-    fn resolve(mut self: Box<Self>, models: Vec<GivenModel>) -> Result<Resolving, Vec<Violation>> {
-        let GivenModel { facts, sensors } = kind::only(models)?;
-        self.sensors = sensors;
-        Ok(Resolving::Done(Arc::new(resolve_run_ups(*self, &facts)?)))
+    fn resolve(self, GivenModel { facts, sensors }: GivenModel) -> Result<Self::Job, Vec<Violation>> {
+        resolve_run_ups(Self { sensors, ..self }, &facts)
     }
 }
 
@@ -86,16 +83,8 @@ impl ResolvedJob for ResolvedRunUps {
         kind::text(self)
     }
 
-    fn models(&self) -> Vec<&str> {
-        vec![self.sweep.model()]
-    }
-
     fn speeds(&self) -> u32 {
         self.runs()
-    }
-
-    fn modes_per_speed(&self) -> Option<u32> {
-        self.sweep.modes().given()
     }
 
     fn scenes(&self) -> Vec<&ResolvedSweep> {
@@ -109,7 +98,7 @@ impl ResolvedJob for ResolvedRunUps {
         Plan::of(&plan, plan.estimate.clone())
     }
 
-    fn work(&self) -> Work<'_> {
+    fn work(self: Arc<Self>) -> Work {
         Work::Legs(self)
     }
 }
@@ -137,20 +126,17 @@ impl Legs for ResolvedRunUps {
         course: Option<&str>,
         monitor: &dyn Monitor,
     ) -> Result<serde_json::Result<Leg>, AnalysisError> {
-        let course = match course.map(serde_json::from_str).transpose() {
-            Ok(course) => course,
-            Err(error) => return Ok(Err(error)),
-        };
-        let (leg, course) = run_up_leg(reduced, self, course, monitor)?;
-        let written = || {
-            let course = course.as_ref().map(kind::text).transpose()?;
-            Ok(Leg {
-                text: kind::text(&leg)?,
-                beside: Some(kind::text(&leg.spectra())?),
-                ended: leg.status(),
-                course,
-            })
-        };
-        Ok(written())
+        kind::next_leg(
+            course,
+            |course| run_up_leg(reduced, self, course, monitor),
+            |leg| {
+                Ok(Leg {
+                    text: kind::text(leg)?,
+                    beside: Some(kind::text(&leg.spectra())?),
+                    ended: leg.status(),
+                    course: None,
+                })
+            },
+        )
     }
 }

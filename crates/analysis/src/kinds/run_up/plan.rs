@@ -22,7 +22,7 @@ use crate::wheel::wheel_of;
 use rubmap_wheel::revision::VERSION;
 
 /// Plans resolved run-ups; without `reduced`, as far as the facts allow. The caller adds the measured machine.
-pub fn plan_run_ups(
+pub(crate) fn plan_run_ups(
     asked: &ResolvedRunUps,
     facts: &ModelFacts,
     reduced: Option<&ReducedSector>,
@@ -199,7 +199,7 @@ fn price(
 
 /// Memory that a run takes, in bytes: that of its lowest or its highest speed, the shapes, the samples of a frame, and the amplitudes of a
 /// leg with their text.
-pub fn run_ups_memory(reduced: &ReducedSector, asked: &ResolvedRunUps) -> u64 {
+pub(crate) fn run_ups_memory(reduced: &ReducedSector, asked: &ResolvedRunUps) -> u64 {
     const LEG: u64 = 64 << 20;
     let sweep = asked.sweep();
     let (lowest, highest) = asked.speed.range();

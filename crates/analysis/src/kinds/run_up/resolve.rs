@@ -200,7 +200,7 @@ fn check_runs(found: &mut Findings, asked: &ResolvedRunUps, facts: &ModelFacts) 
         found.require(
             pieces <= PIECES,
             &pointer,
-            format!("{pieces} pieces of one speed with this run; all runs together take at most {PIECES}: {advice}"),
+            format!("{pieces} segments of one speed with this run; all runs together take at most {PIECES}: {advice}"),
         );
         // Runs that cannot be cut take as long to look at as runs that can.
         if !found.0.is_empty() {

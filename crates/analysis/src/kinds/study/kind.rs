@@ -6,14 +6,11 @@ use crate::error::Violation;
 use crate::kinds::document::Document;
 #[cfg(feature = "schema")]
 use crate::kinds::kind::Shape;
-use crate::kinds::kind::{
-    self, Asked, GivenModel, Kind, NamedModel, NotStored, ResolvedJob, Resolving, Units, Words, Work,
-};
+use crate::kinds::kind::{self, GivenModel, Kind, OfOneModel, ResolvedJob, Units, Words, Work};
 use crate::kinds::plan::{Grounds, Plan};
 use crate::kinds::study::resolve::resolve_study;
 use crate::kinds::study::work_precision::plan_study;
-use crate::kinds::sweep::kind::HISTORIES;
-use crate::request::StudyRequest;
+use crate::request::{Sensor, StudyRequest};
 use crate::resolved::ResolvedStudy;
 #[cfg(feature = "schema")]
 use crate::result::StudyPlan;
@@ -36,39 +33,35 @@ pub static STUDY: Kind = Kind {
     ),
     example: include_str!("example.json"),
     results: &[("work-precision", "/work-precision"), ("histories", "/histories")],
-    documents: &[WORK_PRECISION.name, HISTORIES],
     units: Units::Once,
     read: kind::read::<StudyRequest>,
-    stored: |text, _| {
-        let written = serde_json::from_str(text)?;
-        Ok(Arc::new(ResolvedStudy::stored(written).map_err(NotStored::Unsound)?))
-    },
+    stored: |text, _| kind::stored(text, ResolvedStudy::stored),
     #[cfg(feature = "schema")]
     request: Shape::of::<StudyRequest>(),
+    #[cfg(feature = "schema")]
+    resolved: Shape::of::<StudyRequest>(),
     #[cfg(feature = "schema")]
     planned: Shape::of::<StudyPlan>(),
 };
 
 /// Errors and times of every setting.
-pub const WORK_PRECISION: Document = Document::only("work_precision");
+pub const WORK_PRECISION: Document<'static> = Document::only("work_precision");
 
-impl Asked for StudyRequest {
-    fn kind(&self) -> &'static Kind {
-        &STUDY
+impl OfOneModel for StudyRequest {
+    const KIND: &'static Kind = &STUDY;
+
+    type Job = ResolvedStudy;
+
+    fn model(&self) -> &str {
+        &self.model
     }
 
-    fn models(&self) -> Vec<NamedModel<'_>> {
-        vec![NamedModel::own(&self.model)]
-    }
-
-    fn sensors(&self) -> &[crate::request::Sensor] {
+    fn sensors(&self) -> &[Sensor] {
         &self.sensors
     }
 
-    fn resolve(mut self: Box<Self>, models: Vec<GivenModel>) -> Result<Resolving, Vec<Violation>> {
-        let GivenModel { facts, sensors } = kind::only(models)?;
-        self.sensors = sensors;
-        Ok(Resolving::Done(Arc::new(resolve_study(*self, &facts)?)))
+    fn resolve(self, GivenModel { facts, sensors }: GivenModel) -> Result<Self::Job, Vec<Violation>> {
+        resolve_study(Self { sensors, ..self }, &facts)
     }
 }
 
@@ -101,7 +94,7 @@ impl ResolvedJob for ResolvedStudy {
         Plan::of(&plan_study(self, &grounds.models[0].facts), None)
     }
 
-    fn work(&self) -> Work<'_> {
+    fn work(self: Arc<Self>) -> Work {
         Work::Trials(self)
     }
 }

@@ -8,13 +8,12 @@ use crate::kinds::document::Document;
 #[cfg(feature = "schema")]
 use crate::kinds::kind::Shape;
 use crate::kinds::kind::{
-    self, Asked, GivenModel, Kind, NamedModel, NotStored, Recorded, ResolvedJob, Resolving, Speeds, ToChoose,
-    Units, Words, Work,
+    self, GivenModel, Kind, OfOneModel, Recorded, ResolvedJob, Speeds, ToChoose, Units, Words, Work,
 };
 use crate::kinds::plan::{Capacity, Grounds, Plan};
 use crate::plan::plan_sweep;
 use crate::refine::refine;
-use crate::request::SweepRequest;
+use crate::request::{Sensor, SweepRequest};
 use crate::resolve::resolve_sweep;
 use crate::resolved::ResolvedSweep;
 use crate::result::{Chosen, Point, SpeedResult, SweepPlan};
@@ -47,15 +46,13 @@ pub static SWEEP: Kind = Kind {
         ("forces", "/forces"),
         ("report", "/report"),
     ],
-    documents: &[CRITICAL_SPEEDS, WHEEL_CRITICAL_SPEEDS.name, ERRORS.name, HISTORIES, STATES],
     units: Units::Speeds,
     read: kind::read::<SweepRequest>,
-    stored: |text, rounds| {
-        let written = serde_json::from_str(text)?;
-        Ok(Arc::new(ResolvedSweep::stored(written, rounds).map_err(NotStored::Unsound)?))
-    },
+    stored: |text, rounds| kind::stored(text, |written| ResolvedSweep::stored(written, rounds)),
     #[cfg(feature = "schema")]
     request: Shape::of::<SweepRequest>(),
+    #[cfg(feature = "schema")]
+    resolved: Shape::of::<SweepRequest>(),
     #[cfg(feature = "schema")]
     planned: Shape::of::<SweepPlan>(),
 };
@@ -64,10 +61,10 @@ pub static SWEEP: Kind = Kind {
 pub const CRITICAL_SPEEDS: &str = "critical_speeds";
 
 /// Critical speeds of the wheel as a whole.
-pub const WHEEL_CRITICAL_SPEEDS: Document = Document::only("wheel_critical_speeds");
+pub const WHEEL_CRITICAL_SPEEDS: Document<'static> = Document::only("wheel_critical_speeds");
 
 /// Estimated errors of all speeds.
-pub const ERRORS: Document = Document::only("errors");
+pub const ERRORS: Document<'static> = Document::only("errors");
 
 /// Histories at the speed of this index.
 pub const HISTORIES: &str = "histories";
@@ -75,23 +72,21 @@ pub const HISTORIES: &str = "histories";
 /// States of the whole wheel at the speed of this index.
 pub const STATES: &str = "states";
 
-impl Asked for SweepRequest {
-    fn kind(&self) -> &'static Kind {
-        &SWEEP
+impl OfOneModel for SweepRequest {
+    const KIND: &'static Kind = &SWEEP;
+
+    type Job = ResolvedSweep;
+
+    fn model(&self) -> &str {
+        &self.model
     }
 
-    fn models(&self) -> Vec<NamedModel<'_>> {
-        vec![NamedModel::own(&self.model)]
-    }
-
-    fn sensors(&self) -> &[crate::request::Sensor] {
+    fn sensors(&self) -> &[Sensor] {
         &self.sensors
     }
 
-    fn resolve(mut self: Box<Self>, models: Vec<GivenModel>) -> Result<Resolving, Vec<Violation>> {
-        let GivenModel { facts, sensors } = kind::only(models)?;
-        self.sensors = sensors;
-        Ok(Resolving::Done(Arc::new(resolve_sweep(*self, &facts)?)))
+    fn resolve(self, GivenModel { facts, sensors }: GivenModel) -> Result<Self::Job, Vec<Violation>> {
+        resolve_sweep(Self { sensors, ..self }, &facts)
     }
 }
 
@@ -112,16 +107,8 @@ impl ResolvedJob for ResolvedSweep {
         self.speeds().rounds()
     }
 
-    fn models(&self) -> Vec<&str> {
-        vec![self.model()]
-    }
-
     fn speeds(&self) -> u32 {
         self.speeds.count()
-    }
-
-    fn modes_per_speed(&self) -> Option<u32> {
-        self.modes().given()
     }
 
     fn is_of_one_kind(&self) -> bool {
@@ -154,7 +141,7 @@ impl ResolvedJob for ResolvedSweep {
         Plan::of(&plan, plan.estimate.clone())
     }
 
-    fn work(&self) -> Work<'_> {
+    fn work(self: Arc<Self>) -> Work {
         Work::Speeds(self)
     }
 }
@@ -177,6 +164,10 @@ impl Speeds for ResolvedSweep {
 
     fn kept(&self, found: SpeedResult, _index: u32) -> SpeedResult {
         found
+    }
+
+    fn may_grow(&self) -> bool {
+        self.is_refined()
     }
 
     fn more(&self, points: &[Point]) -> Option<Arc<dyn ResolvedJob>> {
