@@ -77,9 +77,9 @@ async fn play(args: &CaseArgs, client: &Client, body: Value) -> anyhow::Result<(
     let histories: SpeedHistories = client.download(path, &out.join("histories.json")).await?;
     client.save(&format!("{path}?format=csv"), &out.join("histories.csv")).await?;
     for (name, what) in DRAWINGS {
-        save(&out.join(format!("{name}.svg")), &plot::speed_histories(&histories, what, 0))?;
+        save(&out.join(format!("{name}.svg")), &plot::speed_histories(&histories, what, 0).svg())?;
     }
-    save(&out.join("trajectories.svg"), &plot::trajectories(&histories))?;
+    save(&out.join("trajectories.svg"), &plot::trajectories(&histories).svg())?;
     tell(&histories);
     println!("\nhistories.json, histories.csv and drawings are in {}", out.display());
     Ok(())

@@ -57,8 +57,7 @@ pub(super) async fn get_branches(
     let bytes = legs.bytes();
     let read = move || Branches::of(legs.read::<BranchLeg>()?).ok_or_else(|| job_not_found(&id));
     let sensor = query.sensor as usize;
-    let dots = marched.clone();
-    let draw = move |branches: &Branches| plot::branches(branches, sensor, &dots);
-    let figure = move |branches: &Branches| plot::figure::branches(branches, sensor, &marched);
-    Forms::drawn_by(draw, figure).answer(&state, download, lasting(&job), READ_MEMORY * bytes, read).await
+    Forms::drawn_by(move |branches: &Branches| plot::branches(branches, sensor, &marched))
+        .answer(&state, download, lasting(&job), READ_MEMORY * bytes, read)
+        .await
 }

@@ -62,9 +62,7 @@ pub(super) async fn get_campaign(
         let points = runtime.block_on(store.points(id))?;
         Ok(Campaign { plan, ..run::campaign(&asked, &units, &points) })
     };
-    let draw = move |campaign: &Campaign| plot::campaign(campaign, parameter);
-    let figure = move |campaign: &Campaign| plot::figure::campaign(campaign, parameter);
-    Forms::drawn_by(draw, figure)
+    Forms::drawn_by(move |campaign: &Campaign| plot::campaign(campaign, parameter))
         .answer(&state, download, lasting(&job), READ_MEMORY * job.stored_bytes, read)
         .await
 }

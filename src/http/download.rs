@@ -18,8 +18,7 @@ use super::state::AppState;
 use super::stream::{self, Leave};
 use crate::analysis::request::SpeedUnit;
 use crate::export::{self, Export};
-use crate::plot::figure::Figure;
-use crate::plot::{self, PngError};
+use crate::plot::{self, Figure, PngError};
 use crate::store::jobs::Job;
 use crate::version;
 

@@ -76,8 +76,7 @@ pub(super) async fn get_forces(
         let row = |point: &_, contact: &_| run::force_row(point, contact);
         Ok(run::force_map(request, &facts.units, runtime.block_on(store.contacts(id, row))?))
     };
-    let figure = move |map: &ForceMap| plot::figure::force_map(map, quantity);
-    Forms::drawn_by(move |map: &ForceMap| plot::force_map(map, quantity), figure)
+    Forms::drawn_by(move |map: &ForceMap| plot::force_map(map, quantity))
         .answer(&state, download, lasting, bytes, read)
         .await
 }

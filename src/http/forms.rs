@@ -3,7 +3,7 @@
 //!
 //! To add a result: implement [`Export`] for it in `src/export`, take [`Download`] as an argument of its handler and
 //! [`DownloadQuery`](super::download::DownloadQuery) as parameters of its route, and answer with
-//! `Forms::drawn_by(draw, figure).of_document(…)` if it is stored as a document, otherwise with `answer`.
+//! `Forms::drawn_by(draw).of_document(…)` if it is stored as a document, otherwise with `answer`.
 
 use axum::response::Response;
 use serde::Serialize;
@@ -20,7 +20,7 @@ use crate::analysis::kinds::document::Document;
 use crate::analysis::kinds::sweep::{CRITICAL_SPEEDS, HISTORIES};
 use crate::analysis::resolved::ResolvedSweep;
 use crate::export::Export;
-use crate::plot::figure::Figure;
+use crate::plot::Drawing;
 use crate::store::jobs::{Job, JobId};
 use crate::store::status::JobStatus;
 
@@ -31,29 +31,23 @@ pub(super) const TEXT_MEMORY: u64 = 2;
 pub(super) const READ_MEMORY: u64 = 6;
 
 /// Makes the drawing of a result.
-type Draw<T> = Box<dyn FnOnce(&T) -> String + Send>;
-
-/// Makes the figure of a result.
-type Show<T> = Box<dyn FnOnce(&T) -> Figure + Send>;
+type Draw<T> = Box<dyn for<'a> FnOnce(&'a T) -> Drawing<'a> + Send>;
 
 /// Changes a result before it is written.
 type Change<T> = Box<dyn FnOnce(&mut T) + Send>;
 
 /// Forms of a result.
 pub(super) struct Forms<T> {
-    /// Drawing and figure of the result; `None` if it is only a table.
-    draw: Option<(Draw<T>, Show<T>)>,
+    /// Drawing of the result; `None` if it is only a table.
+    draw: Option<Draw<T>>,
     /// Change that is made to a stored result before it is written.
     change: Option<Change<T>>,
 }
 
 impl<T: Export + Serialize + Send + 'static> Forms<T> {
-    /// Forms of a result that `draw` draws and `figure` shows.
-    pub(super) fn drawn_by(
-        draw: impl FnOnce(&T) -> String + Send + 'static,
-        figure: impl FnOnce(&T) -> Figure + Send + 'static,
-    ) -> Self {
-        Self { draw: Some((Box::new(draw), Box::new(figure))), change: None }
+    /// Forms of a result that `draw` draws.
+    pub(super) fn drawn_by(draw: impl for<'a> FnOnce(&'a T) -> Drawing<'a> + Send + 'static) -> Self {
+        Self { draw: Some(Box::new(draw)), change: None }
     }
 
     /// Forms of a result that has no drawing.
@@ -90,14 +84,17 @@ impl<T: Export + Serialize + Send + 'static> Forms<T> {
         read: impl FnOnce() -> Result<T, Problem> + Send + 'static,
     ) -> Result<Response, Problem> {
         let leave = state.answers.leave(&state.jobs, bytes + answer.bytes()).await;
-        let (draw, figure) = self.draw.unzip();
-        if let (true, Some(draw)) = (answer.form.is_drawing(), draw) {
-            return answer.drawn(state, leave, move || Ok(draw(&read()?))).await;
-        }
+        let (is_drawing, is_figure) = (answer.form.is_drawing(), answer.form == Form::Plotly);
+        let draw = match self.draw {
+            Some(draw) if is_drawing => {
+                return answer.drawn(state, leave, move || Ok(draw(&read()?).svg())).await;
+            }
+            draw => draw.filter(|_| is_figure),
+        };
         let (result, leave) = stream::blocking(move || Ok::<_, Problem>((read()?, leave))).await??;
-        Ok(match (answer.form, figure) {
-            (Form::Plotly, Some(figure)) => answer.figure(leave, move || figure(&result)),
-            _ => answer.numbers(leave, result),
+        Ok(match draw {
+            Some(draw) => answer.figure(leave, move || draw(&result).figure()),
+            None => answer.numbers(leave, result),
         })
     }
 }

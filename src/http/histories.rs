@@ -107,21 +107,18 @@ pub(super) async fn get_histories(
     if let Some(study) = job.request.get::<ResolvedStudy>() {
         check_speed(&job, speed)?;
         check_sensor(study.sensors(), query.sensor)?;
-        let draw = move |histories: &Histories| plot::histories(histories, sensor);
-        let figure = move |histories: &Histories| plot::figure::histories(histories, sensor);
-        return Forms::drawn_by(draw, figure).of_document(&state, download, &job, document).await;
+        return Forms::drawn_by(move |histories: &Histories| plot::histories(histories, sensor))
+            .of_document(&state, download, &job, document)
+            .await;
     }
     check_drawn(&job, recorded_sweep(&job)?, &query)?;
     let (what, index) = query.what();
-    let draw = move |histories: &SpeedHistories| match what {
+    Forms::drawn_by(move |histories: &SpeedHistories| match what {
         Some(what) => plot::speed_histories(histories, what, index),
         None => plot::trajectories(histories),
-    };
-    let figure = move |histories: &SpeedHistories| match what {
-        Some(what) => plot::figure::speed_histories(histories, what, index),
-        None => plot::figure::trajectories(histories),
-    };
-    Forms::drawn_by(draw, figure).of_document(&state, download, &job, document).await
+    })
+    .of_document(&state, download, &job, document)
+    .await
 }
 
 /// Sweep whose speeds a job records; refuses jobs that record none.

@@ -19,9 +19,9 @@ use super::state::AppState;
 use super::stream;
 use crate::analysis::kinds::document::Document;
 use crate::analysis::kinds::sweep::CRITICAL_SPEEDS;
-use crate::analysis::result::CriticalSpeeds;
+use crate::analysis::result::{CriticalSpeeds, InteractionMap};
 use crate::export::maps::Maps;
-use crate::plot::{self, Frame, LevelColour, VerticalAxis};
+use crate::plot::{self, Drawing, Frame, LevelColour, VerticalAxis, Window};
 use crate::store::jobs::Job;
 use crate::tokens::Principal;
 
@@ -119,28 +119,31 @@ async fn draw(
             critical.map(|critical| serde_json::from_str(&critical)).transpose()?;
         Ok::<_, Problem>((maps, critical))
     };
+    let seen = (axis, colour, frame, sheet);
     if answer.form == Form::Plotly {
         let read = move || Ok::<_, Problem>((read()?, leave));
         let ((maps, critical), leave) = stream::blocking(read).await??;
-        return Ok(answer.figure(leave, move || match (&maps[..], frame) {
-            ([map], Frame::Fixed) => {
-                plot::figure::fixed_frame_map(map, critical.as_ref(), axis, window, colour)
-            }
-            ([map], Frame::Rotating) if !sheet => {
-                plot::figure::interaction_map(map, critical.as_ref(), None, axis, window, colour)
-            }
-            (maps, _) => plot::figure::map_sheet(maps, window, colour),
-        }));
+        return Ok(answer.figure(leave, move || drawing(&maps, critical, seen, window).figure()));
     }
     let draw = move || {
         let (maps, critical) = read()?;
-        Ok(match (&maps[..], frame) {
-            ([map], Frame::Fixed) => plot::fixed_frame_map(map, critical.as_ref(), axis, window, colour),
-            ([map], Frame::Rotating) if !sheet => {
-                plot::interaction_map(map, critical.as_ref(), None, axis, window, colour)
-            }
-            (maps, _) => plot::map_sheet(maps, window, colour),
-        })
+        Ok(drawing(&maps, critical, seen, window).svg())
     };
     answer.drawn(state, leave, draw).await
+}
+
+/// Drawing of one map, or of a sheet of one map per nodal diameter.
+fn drawing(
+    maps: &[InteractionMap],
+    critical: Option<CriticalSpeeds>,
+    (axis, colour, frame, sheet): (VerticalAxis, LevelColour, Frame, bool),
+    window: Window,
+) -> Drawing<'_> {
+    match (maps, frame) {
+        ([map], Frame::Fixed) => plot::fixed_frame_map(map, critical, axis, window, colour),
+        ([map], Frame::Rotating) if !sheet => {
+            plot::interaction_map(map, critical, None, axis, window, colour)
+        }
+        (maps, _) => plot::map_sheet(maps, window, colour),
+    }
 }

@@ -61,10 +61,9 @@ pub(super) async fn get_run_ups(
     let (asked, facts) = (asked.clone(), facts.clone());
     let read = move || run::run_ups(&asked, &facts, legs.read()?).ok_or_else(|| job_not_found(&id));
     let sensor = query.sensor as usize;
-    let dots = steady.clone();
-    let draw = move |run_ups: &RunUps| plot::run_ups(run_ups, sensor, &dots);
-    let figure = move |run_ups: &RunUps| plot::figure::run_ups(run_ups, sensor, &steady);
-    Forms::drawn_by(draw, figure).answer(&state, download, lasting(&job), bytes, read).await
+    Forms::drawn_by(move |run_ups: &RunUps| plot::run_ups(run_ups, sensor, &steady))
+        .answer(&state, download, lasting(&job), bytes, read)
+        .await
 }
 
 /// Spectrogram to download, and its drawing.
@@ -145,9 +144,9 @@ pub(super) async fn get_spectrogram(
         Over::Hz => plot::SpectrogramUnit::Hz,
     };
     let (place, index) = (number as usize, sensor as usize);
-    let draw = move |drawn: &Drawn| plot::spectrogram(&drawn.run_ups, place, index, unit);
-    let figure = move |drawn: &Drawn| plot::figure::spectrogram(&drawn.run_ups, place, index, unit);
-    Forms::drawn_by(draw, figure).answer(&state, download, lasting(&job), bytes, read).await
+    Forms::drawn_by(move |drawn: &Drawn| plot::spectrogram(&drawn.run_ups, place, index, unit))
+        .answer(&state, download, lasting(&job), bytes, read)
+        .await
 }
 
 /// Spectrogram with the run that is drawn beside it.

@@ -77,8 +77,7 @@ pub(super) async fn get_section(
     };
     let path = state.store.package(&id).await?;
     let bytes = NODE_MEMORY * u64::from(model.facts.own_dofs);
-    let figure = move |geometry: &SectorGeometry| plot::figure::section(geometry, view);
-    Forms::drawn_by(move |geometry: &SectorGeometry| plot::section(geometry, view), figure)
+    Forms::drawn_by(move |geometry: &SectorGeometry| plot::section(geometry, view))
         .answer(&state, download, Some(format!("model {id}")), bytes, move || {
             let places = read_places(&path, &Limits::default()).map_err(Box::new)?;
             let positions: Vec<[f64; 3]> =

@@ -146,12 +146,9 @@ pub(super) async fn get_spectra(
     let units = facts.units.clone();
     let frame = FrameWord::frame(query.frame);
     let place = sensors.iter().position(|sensor| *sensor == drawn).unwrap_or(0);
-    let forms = Forms::drawn_by(
-        move |body: &SpectraBody| plot::spectrum(body.known(), &body.point, &body.units, place, frame),
-        move |body: &SpectraBody| {
-            plot::figure::spectrum(body.known(), &body.point, &body.units, place, frame)
-        },
-    );
+    let forms = Forms::drawn_by(move |body: &SpectraBody| {
+        plot::spectrum(body.known(), &body.point, &body.units, place, frame)
+    });
     let (form, orders) = (answer.form, query.orders);
     let bytes = ROW_MEMORY * state.store.largest_spectra(id).await?;
     let read = speed(&state, id, index);
@@ -197,9 +194,7 @@ pub(super) async fn get_wear(
     let units = facts.units.clone();
     let bytes = ROW_MEMORY * state.store.largest_spectra(id).await?;
     let read = speed(&state, id, index);
-    let draw = |body: &WearBody| plot::wear_map(&body.wear, &body.point, &body.units);
-    let figure = |body: &WearBody| plot::figure::wear_map(&body.wear, &body.point, &body.units);
-    Forms::drawn_by(draw, figure)
+    Forms::drawn_by(|body: &WearBody| plot::wear_map(&body.wear, &body.point, &body.units))
         .answer(&state, download, lasting(&job), bytes, move || {
             let SpeedResult { point, wear, .. } = read()?;
             let Some(wear) = wear else { return Err(unavailable(&point, "wear")) };

@@ -80,8 +80,7 @@ pub(super) async fn get_stress(
         let reason = reason.filter(|_| request.stress_outside().is_some());
         recorded(run::sweep_stress(request, facts, &points), speed, job.status, reason)
     };
-    let figure = move |stress: &SweepStress| plot::figure::haigh(stress, by);
-    Forms::drawn_by(move |stress: &SweepStress| plot::haigh(stress, by), figure)
+    Forms::drawn_by(move |stress: &SweepStress| plot::haigh(stress, by))
         .answer(&state, download, lasting, bytes, read)
         .await
 }

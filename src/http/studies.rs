@@ -66,15 +66,12 @@ pub(super) async fn get_work_precision(
     check_speed(&job, query.speed)?;
     let (speed, quantity) = (query.speed as usize, query.quantity.unwrap_or(Quantity::Amplitude));
     let over = query.over.unwrap_or(Over::Time);
-    let draw = move |found: &WorkPrecision| match over {
+    Forms::drawn_by(move |found: &WorkPrecision| match over {
         Over::Time => plot::work_precision(found, speed, quantity),
         Over::Step => plot::error_over_step(found, speed, quantity),
-    };
-    let figure = move |found: &WorkPrecision| match over {
-        Over::Time => plot::figure::work_precision(found, speed, quantity),
-        Over::Step => plot::figure::error_over_step(found, speed, quantity),
-    };
-    Forms::drawn_by(draw, figure).of_document(&state, download, &job, WORK_PRECISION).await
+    })
+    .of_document(&state, download, &job, WORK_PRECISION)
+    .await
 }
 
 /// Request of a study; refuses jobs of other kinds, and a speed that the study does not have.

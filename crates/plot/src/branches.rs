@@ -1,24 +1,22 @@
 //! Branches of periodic responses: amplitude over the continuation parameter, with bifurcations, maxima and ends.
 
-use super::axis::{label, significant, ticks};
+use super::axis::{label, significant};
 use super::branch_line::{Fate, Place, Run, runs};
 use super::cells::rpm;
 use super::colour::DISTINCT;
-use super::diagram::Diagram;
-use super::key::{Key, MARK_WIDTH};
-use super::labels::{Labels, traced};
-use super::marched::Dot;
-use super::svg::{Element, INK, document, group, line, polyline, rectangle};
-use super::{heading, marched, marks, scheme};
+use super::drawing::Drawing;
+use super::layer::{self, Marks, Stroke};
+use super::marched::{self, Dot};
+use super::sketch::{Axis, Panel, Sketch};
+use super::style::{Colour, Dash, Look, Pen, Symbol};
+use super::svg::INK;
+use super::{heading, scheme};
 use rubmap_analysis::request::{BranchParameter, Sensor};
 use rubmap_analysis::result::{
     Bifurcation, BifurcationKind, BranchEnd, BranchMaximum, BranchPoint, BranchTrack, Branches, Point,
     Stability,
 };
-
-const WIDTH: f64 = 1180.0;
-const LEFT: f64 = 92.0;
-const SIZE: (f64, f64) = (800.0, 560.0);
+use serde_json::json;
 
 /// Number of points of all branches together beyond which indistinguishable ones are left out.
 const MANY: usize = 4_000;
@@ -27,25 +25,29 @@ const MANY: usize = 4_000;
 const NEAR: f64 = 5e-4;
 
 /// Message where there is no point.
-pub(super) const NONE: &str = "no point of a branch can be drawn";
+const NONE: &str = "no point of a branch can be drawn";
 
 /// Least part of the requested range that branches must cover for the whole range to be drawn; branches still being followed always show
 /// it.
 const LEAST_PART: f64 = 0.3;
 
-/// Draws the amplitude of a sensor along branches, stable and unstable, with bifurcations and maxima; `marched`: speeds of a sweep, as
-/// dots.
-pub fn branches(branches: &Branches, sensor: usize, marched: &[Point]) -> String {
-    let title = title(branches, sensor);
-    let (heading, bottom) = heading::heading(LEFT, &title, &words(branches));
-    let view = View::new(branches, sensor, marched, bottom + 24.0);
-    let mut content = vec![heading];
-    content.extend(view.draw());
-    document(&title, WIDTH, view.diagram.bottom() + 64.0, content)
+/// Amplitude of a sensor along branches, stable and unstable, with bifurcations and maxima; `marched`: speeds of a sweep, as dots.
+pub fn branches(branches: &Branches, sensor: usize, marched: &[Point]) -> Drawing<'static> {
+    let view = View::new(branches, sensor, marched);
+    let sketch = Sketch::new("branches", title(branches, sensor), words(branches));
+    let sketch = sketch
+        .meta("parameter", branches.head.parameter)
+        .meta("units", json!({"x": view.over.unit(), "y": view.unit}))
+        .meta("complete", branches.complete);
+    if view.is_empty() {
+        return sketch.nothing(if view.sensor.is_none() { "there is no such sensor" } else { NONE }).into();
+    }
+    let panel = view.panel(sketch.top() + 24.0);
+    sketch.with(panel).meta("sensor", view.sensor).into()
 }
 
 /// Title: the parameter of the branches and the sensor.
-pub(super) fn title(branches: &Branches, sensor: usize) -> String {
+fn title(branches: &Branches, sensor: usize) -> String {
     let over = match branches.head.parameter {
         BranchParameter::Speed => "speed",
         BranchParameter::Clearance => "clearance",
@@ -59,7 +61,7 @@ pub(super) fn title(branches: &Branches, sensor: usize) -> String {
 }
 
 /// Paragraphs below the title: numbers of points, branches and bifurcations, and how branches end.
-pub(super) fn words(branches: &Branches) -> Vec<String> {
+fn words(branches: &Branches) -> Vec<String> {
     let head = &branches.head;
     let counted =
         |count: usize, one: &str, many: &str| format!("{count} {}", if count == 1 { one } else { many });
@@ -105,21 +107,21 @@ fn ends(branches: &Branches) -> String {
 
 /// Continuation parameter of the branches, in the unit in which it is drawn.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Over(BranchParameter);
+struct Over(BranchParameter);
 
 impl Over {
     /// Reads the continuation parameter of branches.
-    pub(super) fn of(branches: &Branches) -> Self {
+    fn of(branches: &Branches) -> Self {
         Self(branches.head.parameter)
     }
 
     /// Converts a value, or the error of one, to the unit of the axis.
-    pub(super) fn drawn(self, value: f64) -> f64 {
+    fn drawn(self, value: f64) -> f64 {
         if self.0 == BranchParameter::Speed { rpm(value) } else { value }
     }
 
     /// Title of the parameter axis.
-    pub(super) fn axis(self) -> &'static str {
+    fn axis(self) -> &'static str {
         match self.0 {
             BranchParameter::Speed => "rotational speed Ω, rpm",
             BranchParameter::Clearance => "clearance / that of the scene",
@@ -129,7 +131,7 @@ impl Over {
     }
 
     /// Unit of the parameter axis.
-    pub(super) fn unit(self) -> &'static str {
+    fn unit(self) -> &'static str {
         if self.0 == BranchParameter::Speed { "rpm" } else { "1" }
     }
 
@@ -157,16 +159,10 @@ impl Over {
 
 /// Branch as it is drawn.
 #[derive(Debug)]
-pub(super) struct Curve<'a> {
-    pub(super) branch: &'a BranchTrack,
-    pub(super) name: String,
-    pub(super) runs: Vec<Run>,
-}
-
-impl Curve<'_> {
-    pub(super) fn colour(&self) -> &'static str {
-        colour(self.branch)
-    }
+struct Curve<'a> {
+    branch: &'a BranchTrack,
+    name: String,
+    runs: Vec<Run>,
 }
 
 /// Colour of a branch; no other branch has that of the first.
@@ -179,7 +175,7 @@ fn colour(branch: &BranchTrack) -> &'static str {
 
 /// Mark on a branch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Mark {
+enum Mark {
     Bifurcation(BifurcationKind),
     Maximum,
     End,
@@ -187,7 +183,7 @@ pub(super) enum Mark {
 
 impl Mark {
     /// Marks in the order of a key.
-    pub(super) const ALL: [Self; 6] = [
+    const ALL: [Self; 6] = [
         Self::Bifurcation(BifurcationKind::Fold),
         Self::Bifurcation(BifurcationKind::Flip),
         Self::Bifurcation(BifurcationKind::NeimarkSacker),
@@ -197,7 +193,7 @@ impl Mark {
     ];
 
     /// Name of the mark.
-    pub(super) fn words(self) -> &'static str {
+    fn words(self) -> &'static str {
         match self {
             Self::Bifurcation(BifurcationKind::Fold) => "fold",
             Self::Bifurcation(BifurcationKind::Flip) => "flip",
@@ -220,75 +216,76 @@ impl Mark {
         }
     }
 
-    fn draw(self, (x, y): Place, colour: &str) -> Element {
-        let disc = |radius| Element::new("circle").number("cx", x).number("cy", y).number("r", radius);
-        let solid = |mark: Element| mark.set("fill", INK).set("stroke", "white").set("stroke-width", "1");
+    fn look(self) -> Look {
+        let colour = Colour::neutral(INK);
+        let solid = |symbol, size| Look::filled(symbol, size, colour.clone()).with(INK, "white", 1.0);
         match self {
-            Self::Bifurcation(BifurcationKind::Fold) => {
-                let (top, bottom) = (y - 7.0, y + 4.5);
-                let path = format!("M{x:.2} {top:.2}L{:.2} {bottom:.2}L{:.2} {bottom:.2}Z", x + 6.5, x - 6.5);
-                solid(Element::new("path").set("d", path))
-            }
-            Self::Bifurcation(BifurcationKind::Flip) => marks::diamond((x, y), INK, "white"),
+            Self::Bifurcation(BifurcationKind::Fold) => solid(Symbol::TriangleUp, (5.0, 12.0)),
+            Self::Bifurcation(BifurcationKind::Flip) => solid(Symbol::Diamond, (4.6, 11.0)),
             Self::Bifurcation(BifurcationKind::NeimarkSacker) => {
-                group().child(solid(disc(6.2))).child(disc(2.2).set("fill", "white"))
+                Look::open(Symbol::Target, (6.2, 12.0), colour.clone()).with(INK, "white", 1.0)
             }
-            Self::Bifurcation(BifurcationKind::Branching) => solid(rectangle(x - 5.0, y - 5.0, 10.0, 10.0)),
-            Self::Maximum => disc(4.6).set("fill", "white").set("stroke", colour).set("stroke-width", "1.8"),
-            Self::End => {
-                let stroke = |from, to| line(from, to).set("stroke", colour).set("stroke-width", "2");
-                group()
-                    .child(stroke((x - 5.0, y - 5.0), (x + 5.0, y + 5.0)))
-                    .child(stroke((x - 5.0, y + 5.0), (x + 5.0, y - 5.0)))
-            }
+            Self::Bifurcation(BifurcationKind::Branching) => solid(Symbol::Square, (5.6, 10.0)),
+            Self::Maximum => Look::open(Symbol::Circle, (4.6, 10.0), colour.clone()).with("white", INK, 1.8),
+            Self::End => Look::filled(Symbol::Cross, (5.0, 11.0), colour.clone()).with("none", INK, 2.0),
         }
     }
 }
 
 /// Mark with its position and its words.
 #[derive(Debug)]
-pub(super) struct Marked {
-    pub(super) mark: Mark,
-    pub(super) place: Place,
-    pub(super) colour: &'static str,
-    pub(super) title: String,
+struct Marked {
+    mark: Mark,
+    place: Place,
+    colour: &'static str,
+    title: String,
     label: Option<String>,
 }
 
+impl Marked {
+    fn mark(&self) -> layer::Mark {
+        let mark = layer::Mark::new(self.place, self.title.clone());
+        let label = self.label.clone().unwrap_or_default();
+        let own = matches!(self.mark, Mark::Maximum | Mark::End);
+        layer::Mark { colour: own.then(|| self.colour.to_owned()), ..mark.label(label) }
+    }
+}
+
 /// Branches at one sensor, as the drawing shows them.
-pub(super) struct View<'a> {
-    pub(super) branches: &'a Branches,
-    pub(super) sensor: Option<&'a Sensor>,
-    pub(super) unit: &'a str,
-    pub(super) over: Over,
-    pub(super) diagram: Diagram,
-    pub(super) curves: Vec<Curve<'a>>,
-    pub(super) marked: Vec<Marked>,
-    pub(super) dots: Vec<Dot>,
+struct View<'a> {
+    branches: &'a Branches,
+    sensor: Option<&'a Sensor>,
+    unit: &'a str,
+    over: Over,
+    /// Ranges of the parameter and of the amplitude.
+    x: (f64, f64),
+    y: (f64, f64),
+    curves: Vec<Curve<'a>>,
+    marked: Vec<Marked>,
+    dots: Vec<Dot>,
     index: usize,
 }
 
 impl<'a> View<'a> {
-    /// Lays out the branches in a frame that begins at the height `top`.
-    pub(super) fn new(branches: &'a Branches, index: usize, marched: &[Point], top: f64) -> Self {
+    /// Reads the branches at the sensor of this index.
+    fn new(branches: &'a Branches, index: usize, marched: &[Point]) -> Self {
         let sensor = branches.head.sensors.get(index);
         let unit = sensor.map_or("", |sensor| sensor.unit(&branches.head.units));
         let over = Over::of(branches);
-        let diagram = Diagram::new((LEFT, top), SIZE, (0.0, 1.0), (0.0, 1.0));
+        let (x, y) = ((0.0, 1.0), (0.0, 1.0));
         let (curves, marked, dots) = (Vec::new(), Vec::new(), Vec::new());
-        let mut view = Self { branches, sensor, unit, over, diagram, curves, marked, dots, index };
-        let x = view.range();
+        let mut view = Self { branches, sensor, unit, over, x, y, curves, marked, dots, index };
+        view.x = view.range();
         let beside = sensor.filter(|_| branches.head.parameter == BranchParameter::Speed);
-        view.dots = beside.map_or_else(Vec::new, |sensor| marched::dots(marched, sensor, unit, x));
-        let y = view.heights();
-        view.diagram = Diagram::new((LEFT, top), SIZE, x, y);
+        view.dots = beside.map_or_else(Vec::new, |sensor| marched::dots(marched, sensor, unit, view.x));
+        view.y = view.heights();
         view.curves = view.curves();
         view.marked = view.marked();
         view
     }
 
     /// Whether there is no line to draw.
-    pub(super) fn is_empty(&self) -> bool {
+    fn is_empty(&self) -> bool {
         self.curves.iter().all(|curve| curve.runs.is_empty())
     }
 
@@ -349,7 +346,7 @@ impl<'a> View<'a> {
 
     fn scale(&self) -> (f64, f64) {
         let span = |(low, high): (f64, f64)| high - low;
-        (span(self.diagram.x.values), span(self.diagram.y.values))
+        (span(self.x), span(self.y))
     }
 
     fn curves(&self) -> Vec<Curve<'a>> {
@@ -387,7 +384,7 @@ impl<'a> View<'a> {
     }
 
     /// Words for a point.
-    pub(super) fn point_words(&self, branch: &BranchTrack, point: &BranchPoint) -> String {
+    fn point_words(&self, branch: &BranchTrack, point: &BranchPoint) -> String {
         let amplitude = point.half_peak_to_peak.get(self.index).copied().unwrap_or(f64::NAN);
         let leading = point.multipliers.first();
         let leading =
@@ -439,7 +436,7 @@ impl<'a> View<'a> {
     }
 
     /// Words for a bifurcation.
-    pub(super) fn bifurcation_words(&self, found: &Bifurcation) -> String {
+    fn bifurcation_words(&self, found: &Bifurcation) -> String {
         let mark = Mark::Bifurcation(found.kind);
         let mut words = format!("{} at {}", mark.meaning(), self.over.known(found.value, found.error));
         if let Some(leading) = &found.multiplier {
@@ -482,85 +479,70 @@ impl<'a> View<'a> {
         ended.collect()
     }
 
-    fn draw(&self) -> Vec<Element> {
-        let diagram = &self.diagram;
-        let (x, y) = (ticks(diagram.x.values, 8.0), ticks(diagram.y.values, 8.0));
-        let mut content = vec![diagram.grid(&x, &y)];
-        content.extend(self.dots.iter().filter_map(|dot| {
-            let place = diagram.inside(dot.place.0, dot.place.1)?;
-            Some(marched::mark(place, dot.settled).title(&dot.title))
-        }));
-        // The first branch lies over those that start from it.
-        content.extend(self.curves.iter().rev().map(|curve| self.curve(curve)));
-        content.push(self.marks());
-        let nothing = if self.sensor.is_none() { "there is no such sensor" } else { NONE };
-        content.extend(self.is_empty().then(|| diagram.words(nothing)));
-        content.push(diagram.frame());
-        content.push(diagram.x_axis(&x, self.over.axis()));
-        content.push(diagram.y_axis(&y, &self.height(), 68.0));
-        content.push(self.key());
-        content
-    }
-
     /// Title of the amplitude axis.
-    pub(super) fn height(&self) -> String {
+    fn height(&self) -> String {
         match self.unit {
             "" => "half peak to peak".to_owned(),
             unit => format!("half peak to peak, {unit}"),
         }
     }
 
-    fn curve(&self, curve: &Curve<'_>) -> Element {
-        let drawn = curve.runs.iter().map(|run| {
-            let places = run.corners.iter().map(|((x, y), _)| self.diagram.inside(*x, *y));
-            if let [alone] = run.corners[..] {
-                let (x, y) = self.diagram.point(alone.0.0, alone.0.1);
-                let dot = Element::new("circle").number("cx", x).number("cy", y).number("r", 2.4);
-                return dot.set("fill", curve.colour());
-            }
-            pen(polyline(places).set("class", run.fate.words()), curve.branch, run.fate)
-        });
-        group().set("class", "branch").children(drawn).title(&curve.name)
-    }
-
-    /// Positions in the drawing, close together, along all lines.
-    fn traced(&self) -> Vec<Place> {
-        let runs = self.curves.iter().flat_map(|curve| &curve.runs);
-        let lines = runs.map(|run| run.corners.iter().map(|((x, y), _)| self.diagram.point(*x, *y)));
-        lines.flat_map(traced).collect()
-    }
-
-    fn marks(&self) -> Element {
-        let mut labels = Labels::inside(&self.diagram);
-        let inside = |one: &'_ Marked| self.diagram.inside(one.place.0, one.place.1);
-        for place in self.marked.iter().filter_map(inside) {
-            labels.keep_off(place, 5.0);
+    fn panel(&self, top: f64) -> Panel {
+        let x = match self.over.0 {
+            BranchParameter::Speed => Axis::speeds(self.x, 8.0),
+            _ => Axis::linear(self.over.axis(), self.x, 8.0),
+        };
+        let mut panel = Panel::new((92.0, top), (800.0, 560.0), x, Axis::linear(self.height(), self.y, 8.0));
+        let dots = marched::layers(&self.dots);
+        let samples = dots
+            .each_ref()
+            .map(|dots| (!dots.marks.is_empty()).then(|| (dots.look.sample(), dots.name.clone())));
+        panel.layers.extend(dots.into_iter().filter(|dots| !dots.marks.is_empty()).map(Into::into));
+        // The first branch lies over those that start from it.
+        for curve in self.curves.iter().rev() {
+            panel
+                .layers
+                .extend(Fate::ALL.into_iter().filter_map(|fate| self.line(curve, fate)).map(Into::into));
         }
-        let lines = self.traced();
-        let mut drawn = group();
+        self.key(&mut panel);
+        for mark in Mark::ALL {
+            if self.marked.iter().any(|one| one.mark == mark) {
+                panel.sample(mark.look().sample(), mark.meaning());
+            }
+        }
         // Ends and maxima lie under bifurcations.
-        let is_bifurcation = |one: &&Marked| matches!(one.mark, Mark::Bifurcation(_));
-        let (above, below): (Vec<&Marked>, Vec<&Marked>) = self.marked.iter().partition(is_bifurcation);
-        for one in below.iter().chain(&above) {
-            if let Some(place) = inside(one) {
-                let mark = group().set("class", "mark").child(one.mark.draw(place, one.colour));
-                drawn = drawn.child(mark.title(&one.title));
-            }
+        for mark in Mark::ALL.into_iter().rev() {
+            let here = self.marked.iter().filter(|one| one.mark == mark).map(Marked::mark);
+            panel.push(Marks::new(mark.words(), mark.look(), here).class("mark"));
         }
-        for one in above.into_iter().chain(below) {
-            let (Some(place), Some(words)) = (inside(one), &one.label) else { continue };
-            let label = labels.beside_off(&lines, place, 8.0, words, 11.0);
-            drawn = drawn.children(label.map(|label| label.rimmed("white")));
+        for (sample, words) in samples.into_iter().flatten() {
+            panel.sample(sample, &words);
         }
-        drawn
+        panel
     }
 
-    fn key(&self) -> Element {
+    /// Stretches of a branch with this stability.
+    fn line(&self, curve: &Curve<'_>, fate: Fate) -> Option<layer::Curve> {
+        let group = format!("branch {}", curve.branch.track.branch + 1);
+        let runs: Vec<&Run> = curve.runs.iter().filter(|run| run.fate == fate).collect();
+        let strokes = runs.iter().map(|run| Stroke {
+            places: run.corners.iter().map(|(place, _)| Some(*place)).collect(),
+            title: curve.name.clone(),
+        });
+        let corners = runs.iter().flat_map(|run| &run.corners);
+        let told = corners.map(|(_, point)| {
+            let point = point.and_then(|index| curve.branch.points.get(index));
+            point.map_or_else(String::new, |point| self.point_words(curve.branch, point))
+        });
+        let name = format!("{group}, {}", fate.words());
+        let line = layer::Curve::of(&name, strokes, pen(curve.branch, fate)).each(told.collect());
+        (!runs.is_empty()).then(|| line.class(fate.words()).group(group))
+    }
+
+    /// Adds the rows of branches and stabilities to the key.
+    fn key(&self, panel: &mut Panel) {
         /// Largest number of branches that the key names; more are named under the pointer only.
         const MOST: usize = 10;
-        let middle = (0.5 * MARK_WIDTH, 0.0);
-        let mut key = Key::new(self.diagram.right() + 24.0, self.diagram.top + 8.0);
-        let stroke = || line((0.0, 0.0), (MARK_WIDTH, 0.0));
         let shown: Vec<&Curve<'_>> = self.curves.iter().filter(|curve| !curve.runs.is_empty()).collect();
         for curve in shown.iter().take(MOST) {
             let track = &curve.branch.track;
@@ -568,29 +550,17 @@ impl<'a> View<'a> {
                 None => format!("branch {}", track.branch + 1),
                 Some(lobes) => format!("branch {}, after {lobes} lobes", track.branch + 1),
             };
-            key = key.row(pen(stroke(), curve.branch, Fate::Stable), &words);
+            panel.sample(pen(curve.branch, Fate::Stable).sample(), &words);
         }
         if shown.len() > MOST {
-            key = key.note(&format!("and {} more branches", shown.len() - MOST));
+            panel.note(&format!("and {} more branches", shown.len() - MOST));
         }
         for fate in Fate::ALL {
             let is_drawn = |run: &Run| run.fate == fate && run.corners.len() > 1;
             if shown.iter().any(|curve| curve.runs.iter().any(is_drawn)) {
-                let pen = stroke().set("stroke", INK).set("stroke-width", "1.8");
-                key = key.row(pen.set("stroke-dasharray", dashes(fate)), fate.words());
+                panel.sample(Pen::new(Colour::of(INK), dash(fate), 1.8).sample(), fate.words());
             }
         }
-        for mark in Mark::ALL {
-            if self.marked.iter().any(|one| one.mark == mark) {
-                key = key.row(group().child(mark.draw(middle, INK)), mark.meaning());
-            }
-        }
-        for (settled, words) in marched::KINDS {
-            if self.dots.iter().any(|dot| dot.settled == settled) {
-                key = key.row(marched::mark(middle, settled), words);
-            }
-        }
-        key.draw()
     }
 }
 
@@ -614,25 +584,21 @@ fn thin(corners: &mut Vec<(Place, Option<usize>)>, scale: (f64, f64)) {
     *corners = kept;
 }
 
-fn dashes(fate: Fate) -> &'static str {
+fn dash(fate: Fate) -> Dash {
     match fate {
-        Fate::Stable => "",
-        Fate::Unstable => "7 4",
-        Fate::Undecided => "1.5 3.5",
+        Fate::Stable => Dash::Solid,
+        Fate::Unstable => Dash::Dashed,
+        Fate::Undecided => Dash::Dotted,
     }
 }
 
-fn pen(stroke: Element, branch: &BranchTrack, fate: Fate) -> Element {
-    let width = if branch.track.branch == 0 { "2.2" } else { "1.6" };
-    let stroke = stroke.set("stroke", colour(branch)).set("stroke-width", width);
-    match dashes(fate) {
-        "" => stroke.set("stroke-linejoin", "round"),
-        dashes => stroke.set("stroke-linejoin", "round").set("stroke-dasharray", dashes),
-    }
+fn pen(branch: &BranchTrack, fate: Fate) -> Pen {
+    let width = if branch.track.branch == 0 { 2.2 } else { 1.6 };
+    Pen::new(Colour::of(colour(branch)), dash(fate), width)
 }
 
 /// Words for a stability.
-pub(super) fn stability(stability: Stability) -> &'static str {
+fn stability(stability: Stability) -> &'static str {
     match stability {
         Stability::Stable => "stable",
         Stability::Narrow => "stable against very small disturbances only",

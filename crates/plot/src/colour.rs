@@ -56,9 +56,6 @@ pub(super) fn on_dark(index: usize, count: usize) -> String {
 /// Colours of Okabe and Ito's palette that the colour-blind tell apart as well, those that show as lines on white.
 pub(super) const DISTINCT: [&str; 6] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"];
 
-/// Line styles that are told apart without colours, to be taken in turn.
-pub(super) const DASHES: [&str; 4] = ["", "8 3", "2 3", "9 3 2 3"];
-
 pub(super) fn hex([r, g, b]: [u8; 3]) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }

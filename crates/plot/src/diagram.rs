@@ -23,23 +23,6 @@ impl Diagram {
         Self::with_scales(corner, size, |places| Scale::linear(x, places), |places| Scale::linear(y, places))
     }
 
-    /// Builds a diagram with logarithmic axes; all values must be positive.
-    pub(super) fn logarithmic(corner: (f64, f64), size: (f64, f64), x: (f64, f64), y: (f64, f64)) -> Self {
-        let scale = Scale::logarithmic;
-        Self::with_scales(corner, size, |places| scale(x, places), |places| scale(y, places))
-    }
-
-    /// Builds a diagram with a linear horizontal and a logarithmic vertical axis, whose values must be positive.
-    pub(super) fn upwards_logarithmic(
-        corner: (f64, f64),
-        size: (f64, f64),
-        x: (f64, f64),
-        y: (f64, f64),
-    ) -> Self {
-        let logarithmic = |places| Scale::logarithmic(y, places);
-        Self::with_scales(corner, size, |places| Scale::linear(x, places), logarithmic)
-    }
-
     /// Builds a diagram with a logarithmic horizontal axis, whose values must be positive, and a linear vertical one.
     pub(super) fn rightwards_logarithmic(
         corner: (f64, f64),

@@ -1,30 +1,25 @@
 //! Haigh diagram: alternating over mean stress, and the limits of the materials (Goodman, Mechanics Applied to Engineering, 1899).
 
-use super::axis::{Scale, label, significant, ticks};
+use super::axis::{label, significant};
 use super::cells::rpm;
-use super::colour::{DASHES, level};
-use super::diagram::Diagram;
-use super::key::Flow;
-use super::labels::Labels;
-use super::svg::{Element, document, group, line, polyline};
-use super::{colour, colour_bar, heading};
+use super::colour::{self, level};
+use super::drawing::Drawing;
+use super::heading;
+use super::layer::{Course, Curve, Mark, Marks, Stroke};
+use super::sketch::{Axis, Panel, Sketch};
+use super::style::{Colour, Dash, Look, Pen, Symbol};
+use super::svg::{group, text};
 use rubmap_analysis::result::{SpeedStress, Strengths, StressCycle, SweepStress, drawn_stress_unit};
-
-const WIDTH: f64 = 1180.0;
-const LEFT: f64 = 100.0;
-const PLOT: (f64, f64) = (900.0, 520.0);
+use serde_json::json;
 
 /// Largest number of dots drawn, the most utilised first.
-pub(super) const MOST: usize = 3000;
+const MOST: usize = 3000;
 
 /// Number of dots that are labelled.
 const LABELLED: usize = 5;
 
 /// Utilisations whose lines are drawn beside that of 1.
-pub(super) const LINES: [f64; 3] = [0.25, 0.5, 0.75];
-
-const GOODMAN: &str = "#b01f20";
-const YIELD: &str = "#555555";
+const LINES: [f64; 3] = [0.25, 0.5, 0.75];
 
 /// Quantity that colours the dots of a Haigh diagram.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -35,55 +30,41 @@ pub enum HaighColour {
     Utilisation,
 }
 
-/// Message where no stress was recorded.
-pub(super) const NO_STRESS: &str = "Nothing to draw: no stress was recorded";
-
-/// Draws the cycles of all speeds in the plane of mean and alternating stress, with Goodman's lines of equal utilisation and the yield
-/// line of every material whose strengths are known. Below a mean of 0 only the alternating part counts. The most utilised places are
-/// labelled.
-pub fn haigh(stress: &SweepStress, by: HaighColour) -> String {
-    let title = "Haigh diagram";
+/// Cycles of all speeds in the plane of mean and alternating stress, those of a material under one name, with Goodman's lines of equal
+/// utilisation and the yield line of every material whose strengths are known. Below a mean of 0 only the alternating part counts. The most
+/// utilised places are labelled.
+pub fn haigh(stress: &SweepStress, by: HaighColour) -> Drawing<'static> {
     let (stress, unit) = &drawn(stress);
     let cycles = ranked(stress);
-    let (heading, bottom) = heading::heading(LEFT, title, &words(stress, &cycles, unit));
-    let diagram = diagram(stress, &cycles, bottom + 28.0);
-    let (x, y) = (ticks(diagram.x.values, 9.0), ticks(diagram.y.values, 8.0));
-    let mut content = vec![heading, diagram.grid(&x, &y), diagram.region("cycles")];
-    let lines = group().set("clip-path", "url(#cycles)").children(limits(stress, &diagram));
-    content.push(lines);
-    let (scale, colour) = colours(&cycles, by, &diagram);
+    let mut sketch = Sketch::new("haigh", "Haigh diagram", words(stress, &cycles, unit)).high(620);
+    sketch = sketch.meta("units", json!({"x": unit, "y": unit}));
+    sketch =
+        sketch.meta("speed_indices", stress.speeds.iter().map(|speed| speed.index).collect::<Vec<u32>>());
     if cycles.is_empty() {
-        content.push(diagram.words(NO_STRESS));
+        return sketch.nothing("Nothing to draw: no stress was recorded").into();
     }
-    let all = cycles.iter().take(MOST).rev();
-    content.push(group().children(all.filter_map(|cycle| dot(cycle, &diagram, &scale, by, unit))));
-    content.extend([
-        names(&cycles, &diagram),
-        diagram.frame(),
-        diagram.x_axis(&x, &mean_axis(unit)),
-        diagram.y_axis(&y, &alternating_axis(unit), 72.0),
-        key(stress, &cycles, diagram.bottom() + 66.0),
-    ]);
+    let more = cycles.len().saturating_sub(MOST);
+    let more = (more > 0).then(|| format!("{more} less utilised ones are not drawn"));
+    sketch.more.extend(more.clone());
+    let (x, y) = ranges(stress, &cycles);
+    let x = Axis::linear(format!("mean stress (signed von Mises), {unit}"), x, 9.0);
+    let y = Axis::linear(format!("alternating stress, {unit}"), y, 8.0);
+    let mut panel = Panel::new((92.0, sketch.top() + 28.0), (908.0, 520.0), x, y).key_below();
     if tells_apart(&cycles, by) {
-        let stops = (0..=32).map(|i| f64::from(i) / 32.0).map(|share| (share, level(share)));
-        let bar = ticks(scale.values, 8.0);
-        content.push(colour_bar::draw_colours(stops, &scale, diagram.right() + 26.0, &bar, colour));
+        let (range, title) = colours(&cycles, by);
+        panel = panel.ramp(title, range, level);
     }
-    document(title, WIDTH, diagram.bottom() + 116.0, content)
-}
-
-/// Title of the axis of mean stress.
-pub(super) fn mean_axis(unit: &str) -> String {
-    format!("mean stress (signed von Mises), {unit}")
-}
-
-/// Title of the axis of alternating stress.
-pub(super) fn alternating_axis(unit: &str) -> String {
-    format!("alternating stress, {unit}")
+    let dot =
+        Look::filled(Symbol::Circle, (3.4, 7.0), Colour::neutral("#c8c8c8")).with("#c8c8c8", "#222222", 0.5);
+    panel.sample(dot.sample(), "how the stress of a place goes over a revolution");
+    limits(stress, &mut panel);
+    dots(&cycles[..cycles.len().min(MOST)], by, unit, &mut panel);
+    more.iter().for_each(|words| panel.note(words));
+    sketch.with(panel).into()
 }
 
 /// Converts stresses to the unit in which they are drawn, and names it.
-pub(super) fn drawn(stress: &SweepStress) -> (SweepStress, String) {
+fn drawn(stress: &SweepStress) -> (SweepStress, String) {
     let (unit, factor) = drawn_stress_unit(&stress.units);
     let mut stress = stress.clone();
     for cycle in stress.speeds.iter_mut().flat_map(|speed| &mut speed.stress.cycles) {
@@ -101,7 +82,7 @@ pub(super) fn drawn(stress: &SweepStress) -> (SweepStress, String) {
 }
 
 /// Whether colours distinguish cycles: utilisation where some is known, speeds where there are several.
-pub(super) fn tells_apart(cycles: &[Cycle], by: HaighColour) -> bool {
+fn tells_apart(cycles: &[Cycle], by: HaighColour) -> bool {
     match by {
         HaighColour::Speed => cycles.iter().any(|(speed, _)| speed.index != cycles[0].0.index),
         HaighColour::Utilisation => {
@@ -111,17 +92,17 @@ pub(super) fn tells_apart(cycles: &[Cycle], by: HaighColour) -> bool {
 }
 
 /// Cycle and its speed.
-pub(super) type Cycle<'a> = (&'a SpeedStress, &'a StressCycle);
+type Cycle<'a> = (&'a SpeedStress, &'a StressCycle);
 
 /// Cycles with finite mean and alternating stress, the most utilised first.
-pub(super) fn ranked(stress: &SweepStress) -> Vec<Cycle<'_>> {
+fn ranked(stress: &SweepStress) -> Vec<Cycle<'_>> {
     let mut cycles = stress.ranked();
     cycles.retain(|(_, cycle)| cycle.mean.is_finite() && cycle.alternating.is_finite());
     cycles
 }
 
 /// Paragraphs below the title: number of speeds, the most utilised cycle, and what limits are known.
-pub(super) fn words(stress: &SweepStress, cycles: &[Cycle], unit: &str) -> Vec<String> {
+fn words(stress: &SweepStress, cycles: &[Cycle], unit: &str) -> Vec<String> {
     let mut words = vec![match stress.speeds.len() {
         1 => "1 speed".to_owned(),
         count => format!("{count} speeds"),
@@ -162,8 +143,8 @@ pub(super) fn words(stress: &SweepStress, cycles: &[Cycle], unit: &str) -> Vec<S
     paragraphs
 }
 
-/// Diagram whose axes hold all cycles and the limits of the materials.
-pub(super) fn diagram(stress: &SweepStress, cycles: &[Cycle], top: f64) -> Diagram {
+/// Ranges of mean and alternating stress that hold all cycles and the limits of the materials.
+fn ranges(stress: &SweepStress, cycles: &[Cycle]) -> ((f64, f64), (f64, f64)) {
     let bears = |of: fn(&Strengths) -> Option<f64>| {
         stress.strengths.iter().filter_map(of).filter(|value| value.is_finite()).fold(0.0, f64::max)
     };
@@ -176,78 +157,71 @@ pub(super) fn diagram(stress: &SweepStress, cycles: &[Cycle], top: f64) -> Diagr
     let upwards = ends(|cycle| cycle.alternating).1.max(bears(|set| set.fatigue));
     // An axis from a to b with some room beyond both.
     let about = |low: f64, high: f64| if low < high { (1.08 * low, 1.08 * high) } else { (0.0, 1.0) };
-    Diagram::new((LEFT, top), PLOT, about(low, right), about(0.0, upwards))
+    (about(low, right), about(0.0, upwards))
 }
 
-/// Draws Goodman's lines and the yield lines of all materials.
-fn limits(stress: &SweepStress, diagram: &Diagram) -> Vec<Element> {
-    let mut lines = Vec::new();
-    let left = diagram.x.values.0;
+/// Adds Goodman's lines and the yield lines of all materials.
+fn limits(stress: &SweepStress, panel: &mut Panel) {
+    let left = panel.x.range.0;
+    let stroke =
+        |corners: [(f64, f64); 3], title: String| Stroke { places: corners.map(Some).to_vec(), title };
     for (index, set) in stress.strengths.iter().enumerate() {
-        let dashes = DASHES[index % DASHES.len()];
+        let dash = Dash::nth(index);
+        let red = |width| Pen::new(Colour { paper: "#b01f20".to_owned(), ..Colour::warning() }, dash, width);
         if let (Some(fatigue), Some(ultimate)) = (set.fatigue, set.ultimate) {
-            for used in LINES.into_iter().chain([1.0]) {
-                let corners = goodman(left, used, (fatigue, ultimate));
-                let places = corners.map(|(x, y)| Some(diagram.point(x, y)));
-                let whole = used == 1.0;
-                lines.push(
-                    polyline(places)
-                        .set("class", "goodman")
-                        .set("stroke", GOODMAN)
-                        .set("stroke-width", if whole { "1.8" } else { "0.7" })
-                        .set("stroke-dasharray", dashes)
-                        .title(&format!("{}: utilisation {used}", set.set)),
-                );
-                if !whole && index == 0 {
-                    let (x, y) = diagram.point(0.0, used * fatigue);
-                    let words = super::svg::text(x + 5.0, y - 4.0, "start", &format!("{used}"));
-                    lines.push(words.set("fill", GOODMAN).set("font-size", "11").rimmed("white"));
-                }
+            let line = |used: f64| {
+                stroke(goodman(left, used, (fatigue, ultimate)), format!("{}: utilisation {used}", set.set))
+            };
+            let parts = Curve::of("utilisation 0.25, 0.5, 0.75", LINES.map(line), red(0.7));
+            let whole = Curve::of(&format!("Goodman, utilisation 1: {}", set.set), [line(1.0)], red(1.8));
+            panel.sample(whole.sample(), &whole.name);
+            if index == 0 {
+                panel.sample(parts.sample(), &parts.name);
+                let words = LINES.map(|used| {
+                    let (x, y) = panel.diagram.point(0.0, used * fatigue);
+                    let words = text(x + 5.0, y - 4.0, "start", &format!("{used}"));
+                    words.set("fill", "#b01f20").set("font-size", "11").rimmed("white")
+                });
+                panel.push(group().children(words));
             }
+            panel.push(parts.course(Course::Cut).class("goodman"));
+            panel.push(whole.course(Course::Cut).class("goodman"));
         }
         if let Some(bears) = set.yield_ {
-            let places = yields(bears).map(|(x, y)| Some(diagram.point(x, y)));
-            let drawn =
-                polyline(places).set("class", "yield").set("stroke", YIELD).set("stroke-width", "1.2");
-            lines.push(drawn.set("stroke-dasharray", dashes).title(&format!("{}: yield", set.set)));
+            let pen = Pen::new(Colour::neutral("#555555"), dash, 1.2);
+            let line = stroke(yields(bears), format!("{}: yield", set.set));
+            let curve = Curve::of(&format!("yield: {}", set.set), [line], pen);
+            panel.sample(curve.sample(), &curve.name);
+            panel.push(curve.course(Course::Cut).class("yield"));
         }
     }
-    lines
 }
 
 /// Goodman's line of a utilisation, from the left of the diagram to its foot, for these fatigue and ultimate strengths.
-pub(super) fn goodman(left: f64, used: f64, (fatigue, ultimate): (f64, f64)) -> [(f64, f64); 3] {
+fn goodman(left: f64, used: f64, (fatigue, ultimate): (f64, f64)) -> [(f64, f64); 3] {
     [(left, used * fatigue), (0.0, used * fatigue), (used * ultimate, 0.0)]
 }
 
 /// Yield line: the largest magnitude of mean ± alternating stress equals the yield strength.
-pub(super) fn yields(bears: f64) -> [(f64, f64); 3] {
+fn yields(bears: f64) -> [(f64, f64); 3] {
     [(-bears, 0.0), (0.0, bears), (bears, 0.0)]
 }
 
-/// Colour scale of the dots, as high as the diagram, and its title.
-pub(super) fn colours(cycles: &[Cycle], by: HaighColour, diagram: &Diagram) -> (Scale, &'static str) {
-    let places = (diagram.bottom(), diagram.top);
-    let finite = |values: &mut dyn Iterator<Item = f64>| {
-        values
-            .filter(|value| value.is_finite())
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)))
-    };
+/// Range of the values that colour the dots, and its title.
+fn colours(cycles: &[Cycle], by: HaighColour) -> ((f64, f64), &'static str) {
+    let values = cycles.iter().filter_map(|cycle| value(cycle, by));
+    let (low, high) = values
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));
     match by {
         HaighColour::Speed => {
-            let (slow, fast) = finite(&mut cycles.iter().map(|(speed, _)| rpm(speed.speed_rad_s)));
-            let speeds = if slow < fast { (slow, fast) } else { (0.0, fast.max(1.0)) };
-            (Scale::linear(speeds, places), "rotational speed Ω, rpm")
+            (if low < high { (low, high) } else { (0.0, high.max(1.0)) }, "rotational speed Ω, rpm")
         }
-        HaighColour::Utilisation => {
-            let (_, most) = finite(&mut cycles.iter().filter_map(|(_, cycle)| cycle.utilisation));
-            (Scale::linear((0.0, if most > 0.0 { most } else { 1.0 }), places), "utilisation")
-        }
+        HaighColour::Utilisation => ((0.0, if high > 0.0 { high } else { 1.0 }), "utilisation"),
     }
 }
 
 /// Value that colours a cycle, if it is known.
-pub(super) fn value((speed, cycle): &Cycle, by: HaighColour) -> Option<f64> {
+fn value((speed, cycle): &Cycle, by: HaighColour) -> Option<f64> {
     let value = match by {
         HaighColour::Speed => Some(rpm(speed.speed_rad_s)),
         HaighColour::Utilisation => cycle.utilisation,
@@ -256,7 +230,7 @@ pub(super) fn value((speed, cycle): &Cycle, by: HaighColour) -> Option<f64> {
 }
 
 /// Words for a cycle.
-pub(super) fn told((speed, cycle): &Cycle, unit: &str) -> String {
+fn told((speed, cycle): &Cycle, unit: &str) -> String {
     let used =
         cycle.utilisation.map(|used| format!(", utilisation {}", significant(used))).unwrap_or_default();
     format!(
@@ -270,74 +244,49 @@ pub(super) fn told((speed, cycle): &Cycle, unit: &str) -> String {
     )
 }
 
-fn dot(
-    (speed, cycle): &Cycle,
-    diagram: &Diagram,
-    scale: &Scale,
-    by: HaighColour,
-    unit: &str,
-) -> Option<Element> {
-    let (x, y) = diagram.inside(cycle.mean, cycle.alternating)?;
-    let value = value(&(speed, cycle), by);
-    let fill = value.map_or_else(|| "#c8c8c8".to_owned(), |value| colour::hex(level(scale.share(value))));
-    let words = told(&(speed, cycle), unit);
-    let dot = Element::new("circle").set("class", "cycle").number("cx", x).number("cy", y).number("r", 3.4);
-    let dot = dot.set("fill", fill).set("stroke", "#222222").set("stroke-width", "0.5");
-    Some(dot.title(&words))
-}
-
-/// Labels with node and blade of the most utilised places, each place once.
-fn names(cycles: &[Cycle], diagram: &Diagram) -> Element {
-    let mut labels = Labels::inside(diagram);
-    let mut named: Vec<(u64, u32)> = Vec::new();
-    let mut words = group();
+/// Adds the cycles of every material, the most utilised over the others; those without a known colour value are grey.
+fn dots(cycles: &[Cycle], by: HaighColour, unit: &str, panel: &mut Panel) {
+    let mut sets: Vec<&str> = Vec::new();
     for (_, cycle) in cycles {
-        let place = (cycle.node, cycle.sector);
-        if named.len() == LABELLED {
-            break;
+        if !sets.contains(&cycle.set.as_str()) {
+            sets.push(&cycle.set);
         }
-        let Some(at) = diagram.inside(cycle.mean, cycle.alternating).filter(|_| !named.contains(&place))
-        else {
-            continue;
-        };
-        named.push(place);
-        let name = format!("node {}, blade {}", cycle.node, cycle.sector);
-        words = words.children(labels.beside(at, 4.0, &name, 11.0).map(|label| label.rimmed("white")));
     }
-    words
+    let named = named(cycles);
+    let ramp = panel.ramp.clone();
+    for (index, set) in sets.into_iter().enumerate() {
+        for is_known in [true, false] {
+            let of = |cycle: &&Cycle| cycle.1.set == set && value(cycle, by).is_some() == is_known;
+            let here: Vec<&Cycle> = cycles.iter().rev().filter(of).collect();
+            let values: Vec<f64> = here.iter().filter_map(|cycle| value(cycle, by)).collect();
+            let mark = |cycle: &&Cycle| {
+                let mark = Mark::new((cycle.1.mean, cycle.1.alternating), told(cycle, unit));
+                let is_named = named.iter().any(|other| std::ptr::eq(*other, cycle.1));
+                let name = format!("node {}, blade {}", cycle.1.node, cycle.1.sector);
+                let mark = if is_named { mark.label(name) } else { mark };
+                let colour = ramp.as_ref().zip(value(cycle, by)).map(|(ramp, value)| {
+                    colour::hex(level((value - ramp.range.0) / (ramp.range.1 - ramp.range.0)))
+                });
+                Mark { index: Some(cycle.0.index as usize), colour, ..mark }
+            };
+            let unknown = ramp.as_ref().map_or("", |ramp| ramp.title.as_str());
+            let name = if is_known { set.to_owned() } else { format!("{set}, {unknown} not known") };
+            let look = Look::filled(Symbol::nth(index), (3.4, 7.0), Colour::neutral("#c8c8c8"));
+            let marks = Marks::new(&name, look.with("#c8c8c8", "#222222", 0.5), here.iter().map(mark));
+            let values = if ramp.is_some() { values } else { Vec::new() };
+            panel.push(Marks { values, ..marks.class("cycle") });
+        }
+    }
 }
 
-/// Key of the marks that occur.
-fn key(stress: &SweepStress, cycles: &[Cycle], y: f64) -> Element {
-    let mut flow = Flow::new(LEFT, WIDTH - 20.0, y);
-    let stroke = |colour: &str, width: &str, dashes: &str| {
-        let stroke = line((0.0, 0.0), (30.0, 0.0)).set("stroke", colour).set("stroke-width", width);
-        stroke.set("stroke-dasharray", dashes)
-    };
-    if !cycles.is_empty() {
-        let dot = Element::new("circle").number("cx", 4.0).number("cy", 0.0).number("r", 3.4);
-        let dot = dot.set("fill", "#c8c8c8").set("stroke", "#222222").set("stroke-width", "0.5");
-        flow = flow.entry(dot, 8.0, "how the stress of a place goes over a revolution");
-    }
-    for (index, set) in stress.strengths.iter().enumerate() {
-        let dashes = DASHES[index % DASHES.len()];
-        if set.fatigue.is_some() && set.ultimate.is_some() {
-            flow = flow.entry(
-                stroke(GOODMAN, "1.8", dashes),
-                30.0,
-                &format!("Goodman, utilisation 1: {}", set.set),
-            );
-        }
-        if set.yield_.is_some() {
-            flow = flow.entry(stroke(YIELD, "1.2", dashes), 30.0, &format!("yield: {}", set.set));
+/// Most utilised cycles, each place once.
+fn named<'a>(cycles: &[Cycle<'a>]) -> Vec<&'a StressCycle> {
+    let mut named: Vec<&StressCycle> = Vec::new();
+    for (_, cycle) in cycles {
+        let is_new = named.iter().all(|other| (other.node, other.sector) != (cycle.node, cycle.sector));
+        if is_new && named.len() < LABELLED {
+            named.push(cycle);
         }
     }
-    let lines = stress.strengths.iter().any(|set| set.fatigue.is_some() && set.ultimate.is_some());
-    if lines {
-        flow = flow.entry(stroke(GOODMAN, "0.7", ""), 30.0, "utilisation 0.25, 0.5, 0.75");
-    }
-    if cycles.len() > MOST {
-        flow = flow.entry(group(), 0.0, &format!("{} less utilised ones are not drawn", cycles.len() - MOST));
-    }
-    flow.draw()
+    named
 }

@@ -10,11 +10,22 @@ const COLUMNS: usize = 165;
 /// Draws a title and paragraphs, broken into as many lines as they need, and returns the height at which they end.
 pub(super) fn heading(left: f64, title: &str, paragraphs: &[String]) -> (Element, f64) {
     let title = text(left, 28.0, "start", title).set("font-size", "18").set("font-weight", "bold");
-    let lines: Vec<String> = paragraphs.iter().flat_map(|words| broken(words, COLUMNS)).collect();
-    let height = |line: usize| 48.0 + LINE_HEIGHT * line as f64;
+    let lines = lines(paragraphs);
     let row = |(i, line): (usize, &String)| text(left, height(i), "start", line).set("fill", "#555555");
-    let bottom = height(lines.len().saturating_sub(1));
-    (group().child(title).children(lines.iter().enumerate().map(row)), bottom)
+    (group().child(title).children(lines.iter().enumerate().map(row)), bottom(paragraphs))
+}
+
+/// Height at which a title and paragraphs end.
+pub(super) fn bottom(paragraphs: &[String]) -> f64 {
+    height(lines(paragraphs).len().saturating_sub(1))
+}
+
+fn lines(paragraphs: &[String]) -> Vec<String> {
+    paragraphs.iter().flat_map(|words| broken(words, COLUMNS)).collect()
+}
+
+fn height(line: usize) -> f64 {
+    48.0 + LINE_HEIGHT * line as f64
 }
 
 /// Words for the model and the program version that numbers come from.

@@ -4,11 +4,11 @@ use super::axis::{Scale, logarithmic_ticks, ticks};
 use super::cells::{Cell, cells, rpm};
 use super::colour::on_dark;
 use super::diagram::Diagram;
+use super::frame::Frame;
 use super::key::Flow;
 use super::labels::Labels;
 use super::level::LevelColour;
 use super::map_view::{DRIVEN, VerticalAxis, View, is_missing, lobes};
-use super::spectrum::Frame;
 use super::svg::{Element, INK, document, group, line, rectangle, text, upright};
 use super::window::Window;
 use super::{colour_bar, hatching, heading, heat, level, margin, marks, sectors, settling_strip, validity};
@@ -39,7 +39,7 @@ const WARNING: &str = "#b01f20";
 /// Colour is the single-sided amplitude on a logarithmic scale of three decades below the loudest of the window; the mean is left out.
 /// Each spectral line is drawn at least five units high, the loudest wins. Speeds without result are hatched. Where linear theory is
 /// doubtful or left, a strip says so.
-pub fn interaction_map(
+pub(super) fn interaction_map(
     map: &InteractionMap,
     critical: Option<&CriticalSpeeds>,
     campbell: Option<&Campbell>,
@@ -53,7 +53,7 @@ pub fn interaction_map(
 /// Draws a map whose rows are in the fixed frame (`rubmap_analysis::run::fixed_frame_row`), or a window of it: where lines of the spectra
 /// are seen from beside the wheel, whichever way their waves travel. The level is that of the sensor, which turns with the wheel;
 /// engine orders of the rotating frame and what the linear prediction says of them have no place.
-pub fn fixed_frame_map(
+pub(super) fn fixed_frame_map(
     map: &InteractionMap,
     critical: Option<&CriticalSpeeds>,
     axis: VerticalAxis,

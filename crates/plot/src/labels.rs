@@ -50,18 +50,6 @@ impl Labels {
         self.first(clear.into_iter().chain(covering), words, size)
     }
 
-    /// Label at the height of a mark, right or left of it.
-    pub(super) fn level_with(
-        &mut self,
-        mark: (f64, f64),
-        half: f64,
-        words: &str,
-        size: f64,
-    ) -> Option<Element> {
-        let [[right, left, ..], _] = around(mark, half, size, text_width(words, size));
-        self.first([right, left], words, size)
-    }
-
     fn first(&mut self, places: impl IntoIterator<Item = Place>, words: &str, size: f64) -> Option<Element> {
         let (width, rise) = (text_width(words, size), 0.36 * size);
         places.into_iter().find_map(|Place { x, y, anchor, left }| {

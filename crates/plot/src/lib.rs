@@ -1,5 +1,5 @@
-//! Results as drawings: pure functions from [`rubmap_analysis::result`] to SVG, without files or HTTP, and from SVG to PNG ([`png()`]); and
-//! as figures for Plotly in [`figure`].
+//! Results as drawings: pure functions from [`rubmap_analysis::result`] to [`Drawing`], without files or HTTP, which is written as SVG or
+//! as a figure for Plotly; and from SVG to PNG ([`png()`]).
 //!
 //! Texts name common font families and leave the choice to the viewer; how wide they are is estimated, to keep labels apart. An image
 //! has the font that the program brings, so that it is the same on every machine. Amplitudes are embedded as one small image with a
@@ -25,7 +25,7 @@
 //!     "units": {"length": "mm", "force": "N", "time": "s", "mass": "t"},
 //!     "version": "0.1.0",
 //! }))?;
-//! let drawing = rubmap_plot::histories(&histories, 0);
+//! let drawing = rubmap_plot::histories(&histories, 0).svg();
 //! assert!(drawing.contains("<svg") && drawing.contains("6,000 rpm") && drawing.contains("displacement, mm"));
 //! # Ok::<(), serde_json::Error>(())
 //! ```
@@ -42,9 +42,11 @@ mod colour;
 mod colour_bar;
 mod critical_speeds;
 mod diagram;
+mod drawing;
 mod error_over_step;
-pub mod figure;
+mod figure;
 mod force_map;
+mod frame;
 mod haigh;
 mod hatching;
 mod heading;
@@ -53,6 +55,7 @@ mod histories;
 mod interaction_map;
 mod key;
 mod labels;
+mod layer;
 mod level;
 mod map_sheet;
 mod map_view;
@@ -60,6 +63,7 @@ mod marched;
 mod margin;
 mod marks;
 mod outline;
+mod pen;
 mod pixels;
 mod raster;
 pub mod report;
@@ -72,6 +76,7 @@ mod scheme;
 mod section;
 mod sectors;
 mod settling_strip;
+mod sketch;
 mod spectrogram;
 mod spectrogram_cells;
 mod spectrogram_strips;
@@ -79,12 +84,14 @@ mod spectrogram_view;
 mod spectrum;
 mod speed_histories;
 mod study_runs;
+mod style;
 mod surface;
 mod svg;
 #[cfg(test)]
 mod tests;
 mod trace;
 mod trajectories;
+mod twice;
 mod validity;
 mod wear_map;
 mod window;
@@ -95,23 +102,25 @@ pub use campaign::campaign;
 pub use campbell::campbell;
 pub use campbell_fixed_frame::campbell_fixed_frame;
 pub use critical_speeds::critical_speeds;
+pub use drawing::Drawing;
 pub use error_over_step::error_over_step;
+pub use figure::Figure;
 pub use force_map::{ForceQuantity, force_map};
+pub use frame::Frame;
 pub use haigh::{HaighColour, haigh};
 pub use histories::histories;
-pub use interaction_map::{fixed_frame_map, interaction_map};
 pub use level::LevelColour;
-pub use map_sheet::map_sheet;
 pub use map_view::VerticalAxis;
 pub use raster::{PngError, WIDTHS, png};
 pub use run_ups::run_ups;
 pub use section::{SectionView, section};
 pub use spectrogram::spectrogram;
 pub use spectrogram_view::SpectrogramUnit;
-pub use spectrum::{Frame, spectrum};
+pub use spectrum::spectrum;
 pub use speed_histories::{HistoryQuantity, speed_histories};
 pub use surface::{SurfaceView, surface};
 pub use trajectories::trajectories;
+pub use twice::{fixed_frame_map, interaction_map, map_sheet};
 pub use wear_map::wear_map;
 pub use window::Window;
 pub use work_precision::work_precision;

@@ -2,10 +2,10 @@
 
 use super::axis::{Scale, label, logarithmic_ticks, ticks};
 use super::cells::{cells, range};
+use super::frame::Frame;
 use super::key::Flow;
 use super::level::LevelColour;
 use super::map_view::{End, QUIETEST, VerticalAxis, View, is_missing};
-use super::spectrum::Frame;
 use super::svg::{Element, document, group, text};
 use super::window::Window;
 use super::{colour_bar, hatching, heading, heat, margin};
@@ -26,7 +26,7 @@ pub(super) const NO_MAP: &str = "Nothing to draw: no map is given";
 /// Draws the same window of several maps, a panel each with a common colour scale: maps of one sensor, restricted to nodal diameters.
 ///
 /// With the colours of utilisation there is a strip of them above each map.
-pub fn map_sheet(maps: &[InteractionMap], window: Window, level_colour: LevelColour) -> String {
+pub(super) fn map_sheet(maps: &[InteractionMap], window: Window, level_colour: LevelColour) -> String {
     let title = title(maps);
     let words = words(maps);
     let (heading, bottom) = heading::heading(LEFT, &title, &[words]);

@@ -3,22 +3,21 @@
 use super::axis::{label, significant};
 use super::branch_line::Place;
 use super::cells::rpm;
-use super::svg::Element;
+use super::layer::{Mark, Marks};
+use super::style::{Colour, Look, Symbol};
 use rubmap_analysis::request::Sensor;
 use rubmap_analysis::result::{Point, PointStatus, Verdict};
 
-const COLOUR: &str = "#999999";
-
 /// Flag whether a speed has settled, and the name of its dots.
-pub(super) const KINDS: [(bool, &str); 2] = [(true, "speed of the sweep"), (false, "the same, not settled")];
+const KINDS: [(bool, &str); 2] = [(true, "speed of the sweep"), (false, "the same, not settled")];
 
 /// Dot of a speed of a sweep.
 #[derive(Debug)]
 pub(super) struct Dot {
     /// Speed in rpm, and half the peak-to-peak displacement.
     pub(super) place: Place,
-    pub(super) settled: bool,
-    pub(super) title: String,
+    settled: bool,
+    title: String,
 }
 
 /// Dots of a sensor at the completed speeds within a range in rpm.
@@ -36,8 +35,20 @@ pub(super) fn dots(points: &[Point], sensor: &Sensor, unit: &str, (slow, fast): 
     points.iter().filter(|point| point.status == PointStatus::Completed).filter_map(dot).collect()
 }
 
-/// A dot at a place of the drawing, open if its speed has not settled.
-pub(super) fn mark((x, y): Place, settled: bool) -> Element {
-    let dot = Element::new("circle").number("cx", x).number("cy", y).number("r", 2.8).set("class", "marched");
-    dot.set("stroke", COLOUR).set("fill", if settled { COLOUR } else { "white" })
+/// Layers of the speeds of a sweep: of those that have settled, and of those that have not.
+pub(super) fn layers(dots: &[Dot]) -> [Marks; 2] {
+    KINDS.map(|(settled, name)| {
+        let colour = Colour::neutral("#999999");
+        let look = match settled {
+            true => Look::filled(Symbol::Circle, (2.8, 6.0), colour).with("#999999", "#999999", 1.0),
+            false => Look::open(Symbol::Circle, (2.8, 6.0), colour).with("white", "#999999", 1.0),
+        };
+        let here = dots.iter().filter(|dot| dot.settled == settled);
+        Marks::new(name, look, here.map(|dot| Mark::new(dot.place, dot.title.clone()))).class("marched")
+    })
+}
+
+/// Largest amplitude of the speeds that have settled.
+pub(super) fn highest(dots: &[Dot]) -> Option<f64> {
+    dots.iter().filter(|dot| dot.settled).map(|dot| dot.place.1).reduce(f64::max)
 }

@@ -2,6 +2,7 @@
 
 use super::axis::{logarithmic_ticks, significant, ticks};
 use super::diagram::Diagram;
+use super::marched;
 use super::run_up_line::Line;
 use super::run_ups_view::View;
 use super::svg::{Element, group, line, polyline, text};
@@ -31,7 +32,7 @@ pub(super) fn panel(
     // Some room beside the first and the last.
     let room = (fastest / slowest).powf(0.08);
     let x = (slowest / room, fastest * room);
-    let diagram = Diagram::rightwards_logarithmic(corner, SIZE, x, view.diagram.y.values);
+    let diagram = Diagram::rightwards_logarithmic(corner, SIZE, x, view.y);
     let places: Vec<(f64, f64)> =
         found.iter().map(|(_, rate, height)| diagram.point(*rate, *height)).collect();
     let dots = found.iter().zip(&places).map(|((line, _, height), (x, y))| {
@@ -39,16 +40,15 @@ pub(super) fn panel(
         let words = format!("{}: {} {}", line.title, significant(*height), view.unit);
         dot.set("class", "rate").set("fill", colour(line)).title(&words)
     });
-    let steady =
-        view.dots.iter().filter(|dot| dot.settled).map(|dot| dot.place.1).reduce(f64::max).map(|height| {
-            let y = diagram.y.place(height);
-            let dashes = line((diagram.left, y), (diagram.right(), y)).set("stroke", "#777777");
-            group().set("class", "steady").child(dashes.set("stroke-dasharray", "5 4")).child(
-                text(diagram.right() - 4.0, y + 13.0, "end", "steady")
-                    .set("font-size", "11")
-                    .set("fill", "#777777"),
-            )
-        });
+    let steady = marched::highest(&view.dots).map(|height| {
+        let y = diagram.y.place(height);
+        let dashes = line((diagram.left, y), (diagram.right(), y)).set("stroke", "#777777");
+        group().set("class", "steady").child(dashes.set("stroke-dasharray", "5 4")).child(
+            text(diagram.right() - 4.0, y + 13.0, "end", "steady")
+                .set("font-size", "11")
+                .set("fill", "#777777"),
+        )
+    });
     let (along, y) = (shown(&diagram), ticks(diagram.y.values, 4.0));
     let drawn = group()
         .child(diagram.background("white"))

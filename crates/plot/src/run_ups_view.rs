@@ -1,7 +1,6 @@
-//! Layout of run-ups over the speed.
+//! Contents of run-ups over the speed.
 
 use super::cells::rpm;
-use super::diagram::Diagram;
 use super::marched::{self, Dot};
 use super::run_up_line::Line;
 use rubmap_analysis::request::{RunUpSpeed, Sensor};
@@ -23,20 +22,17 @@ pub(super) const NONE: &str = "no frame of a run can be drawn";
 pub(super) struct View<'a> {
     pub(super) sensor: Option<&'a Sensor>,
     pub(super) unit: &'a str,
-    pub(super) diagram: Diagram,
+    /// Ranges of speeds and amplitudes.
+    pub(super) x: (f64, f64),
+    pub(super) y: (f64, f64),
     /// Lines of the runs, the slowest first.
     pub(super) lines: Vec<Line>,
     pub(super) dots: Vec<Dot>,
 }
 
 impl<'a> View<'a> {
-    /// Lays out the runs in a rectangle of the drawing.
-    pub(super) fn new(
-        run_ups: &'a RunUps,
-        index: usize,
-        swept: &[Point],
-        (corner, size): ((f64, f64), (f64, f64)),
-    ) -> Self {
+    /// Reads the runs at the sensor of this index.
+    pub(super) fn new(run_ups: &'a RunUps, index: usize, swept: &[Point]) -> Self {
         let sensor = run_ups.sensors.get(index);
         let unit = sensor.map_or("", |sensor| sensor.unit(&run_ups.units));
         let mut runs: Vec<&RunUp> = run_ups.runs.iter().collect();
@@ -49,7 +45,7 @@ impl<'a> View<'a> {
         let swings = lines.iter().filter_map(|line| Some(line.largest?.half_peak_to_peak));
         let highest = swings.chain(dots.iter().map(|dot| dot.place.1)).fold(0.0, f64::max);
         let y = (0.0, if highest > 0.0 { (1.1 * highest).min(f64::MAX) } else { 1.0 });
-        Self { sensor, unit, diagram: Diagram::new(corner, size, x, y), lines, dots }
+        Self { sensor, unit, x, y, lines, dots }
     }
 
     /// Whether there is no line to draw.

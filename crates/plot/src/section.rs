@@ -2,16 +2,18 @@
 
 use std::collections::BTreeSet;
 
-use super::axis::{significant, ticks};
+use super::axis::significant;
 use super::diagram::Diagram;
-use super::heading::heading;
-use super::key::{Key, MARK_WIDTH};
-use super::outline;
-use super::svg::{Element, document, group, line, polyline, rectangle, text, text_width};
+use super::drawing::Drawing;
+use super::key::MARK_WIDTH;
+use super::layer::{Course, Curve, Mark, Marks, Stroke};
+use super::outline::outline;
+use super::sketch::{Axis, Panel, Sketch};
+use super::style::{Colour, Dash, Look, Pen, Symbol};
+use super::svg::{Element, group, line, polyline, rectangle, text, text_width};
 use rubmap_analysis::result::{NodeKind, SectorGeometry, SectorNode};
+use serde_json::json;
 
-const WIDTH: f64 = 1180.0;
-const HEIGHT: f64 = 800.0;
 const LEFT: f64 = 92.0;
 const PLOT: (f64, f64) = (790.0, 640.0);
 
@@ -30,60 +32,60 @@ pub enum SectionView {
     Cyclic,
 }
 
-/// Message where no node is known.
-pub(super) const NO_NODES: &str = "Nothing to draw: no node is known";
+/// Kinds of nodes in the order in which they are drawn over each other, with their names.
+const KINDS: [(NodeKind, &str); 5] = [
+    (NodeKind::Internal, "other nodes"),
+    (NodeKind::Low, "low cyclic face"),
+    (NodeKind::High, "high cyclic face"),
+    (NodeKind::Clamped, "clamped"),
+    (NodeKind::Contact, LINE),
+];
 
-/// Colour, size and name of a kind of node.
-pub(super) struct Look {
-    pub(super) kind: NodeKind,
-    words: &'static str,
-    colour: &'static str,
-    radius: f64,
+/// Name of the contact line, and of its nodes.
+const LINE: &str = "contact line";
+
+/// Look of nodes of a kind, distinct without colours too: round on the low face, a diamond on the high one, a square where clamped.
+fn look(kind: NodeKind) -> Look {
+    let (symbol, radius, size, paper, screen) = match kind {
+        NodeKind::Internal => (Symbol::Circle, 1.3, 2.0, "#b4bcc4", "#808080"),
+        NodeKind::Low => (Symbol::Circle, 2.2, 4.0, "#0072b2", "#0072b2"),
+        NodeKind::High => (Symbol::Diamond, 2.5, 5.0, "#e69f00", "#e69f00"),
+        NodeKind::Clamped => (Symbol::Square, 2.7, 5.0, "#222222", "#009e73"),
+        NodeKind::Contact => (Symbol::Circle, 2.6, 6.0, "#d62728", "#d55e00"),
+    };
+    let colour = Colour { paper: paper.to_owned(), screen: screen.to_owned() };
+    Look::filled(symbol, (radius, size), colour).with(paper, "none", 0.0)
 }
 
-impl Look {
-    /// Name of such nodes in a view.
-    pub(super) fn words(&self, view: SectionView) -> &'static str {
-        match (view, self.kind) {
-            (SectionView::Meridional, NodeKind::Low) => "cyclic faces",
-            _ => self.words,
-        }
+/// Class of nodes of a kind in the drawing.
+fn class(kind: NodeKind) -> &'static str {
+    match kind {
+        NodeKind::Internal => "internal",
+        NodeKind::Low => "low",
+        NodeKind::High => "high",
+        NodeKind::Contact => "contact",
+        NodeKind::Clamped => "clamped",
     }
 }
 
-/// Looks of all kinds of nodes, in the order in which they are drawn over each other.
-const LOOKS: [Look; 5] = [
-    Look { kind: NodeKind::Internal, words: "other nodes", colour: "#b4bcc4", radius: 1.3 },
-    Look { kind: NodeKind::Low, words: "low cyclic face", colour: "#0072b2", radius: 2.2 },
-    Look { kind: NodeKind::High, words: "high cyclic face", colour: "#e69f00", radius: 2.2 },
-    Look { kind: NodeKind::Clamped, words: "clamped", colour: "#222222", radius: 2.4 },
-    Look { kind: NodeKind::Contact, words: "contact line", colour: "#d62728", radius: 2.6 },
-];
-
-/// Draws the nodes of the sector as dots, at the same scale in both directions.
-pub fn section(geometry: &SectorGeometry, view: SectionView) -> String {
-    let title = title(geometry, view);
-    let (heading, bottom) = heading(LEFT, &title, &[words(geometry, view)]);
-    let axes = axes(geometry, view);
-    let drawing = Drawing::new(geometry, view, bottom + 24.0);
-    let diagram = &drawing.diagram;
-    let (x, y) = (ticks(diagram.x.values, 9.0), ticks(diagram.y.values, 8.0));
-    let content = vec![
-        heading,
-        diagram.grid(&x, &y),
-        diagram.region("inside"),
-        group().set("clip-path", "url(#inside)").children(drawing.content()),
-        diagram.frame(),
-        diagram.x_axis(&x, &axes[0]),
-        diagram.y_axis(&y, &axes[1], 66.0),
-        drawing.key(),
-    ];
-    let width = (diagram.right() + 290.0).max(LEFT + 1.15 * text_width(&title, 18.0)).min(WIDTH);
-    document(&title, width, diagram.bottom() + 66.0, content)
+/// Nodes of the sector, one of those that cover each other, at the same scale in both directions; across the axis with the contact line and
+/// the casing at its clearance.
+pub fn section(geometry: &SectorGeometry, view: SectionView) -> Drawing<'static> {
+    let mut sketch = Sketch::new("section", title(geometry, view), vec![words(geometry, view)]).high(640);
+    sketch = sketch.meta("units", json!({"x": geometry.units.length, "y": geometry.units.length}));
+    if geometry.nodes.is_empty() && geometry.contact.is_empty() {
+        return sketch.nothing("Nothing to draw: no node is known").into();
+    }
+    let section = Section::new(geometry, view, sketch.top() + 24.0);
+    let has_wall = section.wall().is_some();
+    sketch.more.extend((section.stretch > 1.0 && has_wall).then(|| section.stretch_words()));
+    let panel = section.panel();
+    let wide = (panel.diagram.right() + 290.0).max(LEFT + 1.15 * text_width(&sketch.title, 18.0));
+    Sketch { width: wide.min(sketch.width), ..sketch }.with(panel).into()
 }
 
 /// Title: the section and the name of the model.
-pub(super) fn title(geometry: &SectorGeometry, view: SectionView) -> String {
+fn title(geometry: &SectorGeometry, view: SectionView) -> String {
     let subject = match view {
         SectionView::Meridional => "Meridional section",
         SectionView::Cyclic => "Cyclic faces, seen along the axis",
@@ -93,7 +95,7 @@ pub(super) fn title(geometry: &SectorGeometry, view: SectionView) -> String {
 }
 
 /// Paragraph below the title: numbers of sectors and nodes, and the clearance.
-pub(super) fn words(geometry: &SectorGeometry, view: SectionView) -> String {
+fn words(geometry: &SectorGeometry, view: SectionView) -> String {
     let mut words = format!(
         "one of {} sectors · {} nodes, {} on the contact line",
         geometry.sectors,
@@ -107,7 +109,7 @@ pub(super) fn words(geometry: &SectorGeometry, view: SectionView) -> String {
 }
 
 /// Titles of the axes.
-pub(super) fn axes(geometry: &SectorGeometry, view: SectionView) -> [String; 2] {
+fn axes(geometry: &SectorGeometry, view: SectionView) -> [String; 2] {
     let axes = match view {
         SectionView::Meridional => ["axial coordinate z", "radius r"],
         SectionView::Cyclic => ["x", "y"],
@@ -127,23 +129,22 @@ fn clearances(geometry: &SectorGeometry) -> Option<String> {
     })
 }
 
-/// Section of a sector, and its positions in the drawing.
-pub(super) struct Drawing<'a> {
+/// Section of a sector, and its place in the drawing.
+struct Section<'a> {
     geometry: &'a SectorGeometry,
     view: SectionView,
     diagram: Diagram,
     /// Magnification of the clearance.
-    pub(super) stretch: f64,
+    stretch: f64,
 }
 
-impl<'a> Drawing<'a> {
+impl<'a> Section<'a> {
     /// Lays out a section in a diagram that begins at `top`.
-    pub(super) fn new(geometry: &'a SectorGeometry, view: SectionView, top: f64) -> Self {
+    fn new(geometry: &'a SectorGeometry, view: SectionView, top: f64) -> Self {
         let nodes = geometry.nodes.iter().map(|node| node.position);
         let places = nodes.chain(geometry.contact.iter().map(|place| place.position));
         let places: Vec<(f64, f64)> = places.map(|position| project(view, position)).collect();
-        let diagram =
-            Diagram::of_one_scale(&places, (LEFT, top), (PLOT.0, f64::min(PLOT.1, HEIGHT - 66.0 - top)));
+        let diagram = Diagram::of_one_scale(&places, (LEFT, top), (PLOT.0, f64::min(PLOT.1, 734.0 - top)));
         let scale = diagram.width / (diagram.x.values.1 - diagram.x.values.0);
         let clearance = geometry.contact.iter().filter_map(|place| place.clearance).fold(0.0, f64::max);
         let stretch = if clearance > 0.0 { round_up(VISIBLE / (clearance * scale)) } else { 1.0 };
@@ -155,55 +156,130 @@ impl<'a> Drawing<'a> {
         self.diagram.point(x, y)
     }
 
-    /// Kinds of nodes that a view distinguishes: turned into one plane, both cyclic faces coincide.
-    pub(super) fn looks(&self) -> impl Iterator<Item = &'static Look> {
-        let view = self.view;
-        LOOKS.iter().filter(move |look| view == SectionView::Cyclic || look.kind != NodeKind::High)
-    }
-
-    fn of(&self, kind: NodeKind) -> impl Iterator<Item = &SectorNode> {
-        self.geometry.nodes.iter().filter(move |node| node.kind == kind)
-    }
-
     /// Nodes of one kind; of nodes that cover each other only one.
-    pub(super) fn seen(&self, kind: NodeKind) -> Vec<&SectorNode> {
+    fn seen(&self, kind: NodeKind) -> Vec<&SectorNode> {
         let mut taken = BTreeSet::new();
         let cell = |(x, y): (f64, f64)| ((x / COVERED) as i64, (y / COVERED) as i64);
-        self.of(kind).filter(|node| taken.insert(cell(self.place(node.position)))).collect()
+        let all = self.geometry.nodes.iter().filter(|node| node.kind == kind);
+        all.filter(|node| taken.insert(cell(self.place(node.position)))).collect()
     }
 
-    fn content(&self) -> Vec<Element> {
-        let mut content = Vec::new();
-        if self.geometry.nodes.is_empty() && self.geometry.contact.is_empty() {
-            return vec![self.diagram.words(NO_NODES)];
+    fn panel(&self) -> Panel {
+        let [x, y] = axes(self.geometry, self.view);
+        let Diagram { left, top, width, height, .. } = self.diagram;
+        let x = Axis::linear(x, self.diagram.x.values, 9.0).free();
+        let y = Axis::linear(y, self.diagram.y.values, 8.0).one_scale();
+        let mut panel = Panel::new((left, top), (width, height), x, y);
+        let area = self.area(&mut panel);
+        let wall = self.add_wall(&mut panel);
+        for (kind, words) in KINDS {
+            self.add_nodes(&mut panel, kind, words);
         }
-        content.extend(self.outline());
-        content.extend(self.casing());
-        for look in self.looks() {
-            let dots = self.seen(look.kind).into_iter().map(|node| dot(self.place(node.position), look));
-            content.push(group().set("class", class(look.kind)).set("fill", look.colour).children(dots));
+        self.add_contact_line(&mut panel);
+        if area {
+            let patch = rectangle(2.0, -6.0, MARK_WIDTH - 4.0, 12.0).set("fill", "#e3e8ee");
+            panel.sample(patch.set("stroke", "#5a6672"), COVER);
         }
-        let line = self.geometry.contact.iter().map(|contact| Some(self.place(contact.position)));
-        let line = polyline(line).set("class", "contact-line").set("stroke", "#d62728");
-        content.push(line.set("stroke-width", "2.2").title("contact line"));
-        content.push(self.ends());
-        content
+        if let Some(wall) = wall {
+            panel.sample(wall, "casing at rest");
+            if self.stretch > 1.0 {
+                panel.note(&self.stretch_words());
+            }
+        }
+        panel
     }
 
-    /// Draws the area that the nodes cover, turned into one plane.
-    fn outline(&self) -> Option<Element> {
-        (self.view == SectionView::Meridional).then_some(())?;
-        let places: Vec<(f64, f64)> =
-            self.geometry.nodes.iter().map(|node| self.place(node.position)).collect();
-        let (triangles, edges) = outline::outline(&places);
-        (!edges.is_empty()).then_some(())?;
-        let corners = |[a, b, c]: [(f64, f64); 3]| [Some(a), Some(b), Some(c), Some(a), None];
+    /// Adds the nodes of a kind. Turned into one plane, both cyclic faces coincide.
+    fn add_nodes(&self, panel: &mut Panel, kind: NodeKind, words: &'static str) {
+        let words = match (self.view, kind) {
+            (SectionView::Meridional, NodeKind::High) => return,
+            (SectionView::Meridional, NodeKind::Low) => "cyclic faces",
+            _ => words,
+        };
+        let mark = |node: &SectorNode| {
+            Mark::new(project(self.view, node.position), format!("node {}, {words}", node.id))
+        };
+        let marks = Marks::new(words, look(kind), self.seen(kind).into_iter().map(mark)).class(class(kind));
+        let is_on_line = kind == NodeKind::Contact && !self.geometry.contact.is_empty();
+        if is_on_line || !marks.marks.is_empty() {
+            let stroke = line((2.0, 0.0), (MARK_WIDTH - 2.0, 0.0)).set("stroke", "#d62728");
+            let stroke = is_on_line.then(|| stroke.set("stroke-width", "2.2"));
+            panel.sample(group().children(stroke).child(marks.look.sample()), words);
+        }
+        panel.push(marks);
+    }
+
+    /// Adds the outline of the area that the nodes cover, turned into one plane; in the drawing, the area as well. Returns whether there
+    /// is one.
+    fn area(&self, panel: &mut Panel) -> bool {
+        let places = self.geometry.nodes.iter().map(|node| project(self.view, node.position));
+        let places: Vec<(f64, f64)> = places.filter(|_| self.view == SectionView::Meridional).collect();
+        let (triangles, edges) = outline(&places);
+        if edges.is_empty() {
+            return false;
+        }
+        let point = |(x, y): (f64, f64)| Some(self.diagram.point(x, y));
+        let corners = |[a, b, c]: [(f64, f64); 3]| [point(a), point(b), point(c), point(a), None];
         let area = polyline(triangles.into_iter().flat_map(corners)).set("style", "fill:#e3e8ee");
         // The stroke covers the slits between the triangles.
-        let area = area.set("class", "area").set("stroke", "#e3e8ee").set("stroke-width", "0.8");
-        let rim = polyline(edges.into_iter().flat_map(|[a, b]| [Some(a), Some(b), None]));
-        let rim = rim.set("class", "outline").set("stroke", "#5a6672").set("stroke-width", "1.2");
-        Some(group().child(area).child(rim.set("stroke-linecap", "round")))
+        panel.push(area.set("class", "area").set("stroke", "#e3e8ee").set("stroke-width", "0.8"));
+        let rim = edges.into_iter().flat_map(|[a, b]| [Some(a), Some(b), None]);
+        let pen = Pen::new(Colour::neutral("#5a6672"), Dash::Solid, 1.2);
+        panel.push(Curve::new(COVER, rim, pen).class("outline"));
+        true
+    }
+
+    /// Points of the casing along the normals, before each contact node; none where its clearance is unknown.
+    fn wall(&self) -> Option<Vec<[f64; 3]>> {
+        (self.view == SectionView::Meridional).then_some(())?;
+        let at = |place: &rubmap_analysis::result::ContactPlace| {
+            let [r, theta, z] = place.position;
+            let away = self.stretch * place.clearance?;
+            Some([r + away * place.normal[0], theta, z + away * place.normal[2]])
+        };
+        self.geometry.contact.iter().map(at).collect()
+    }
+
+    /// Adds the casing at its clearance along the normals, in the drawing with the normals. Returns its sample for the key.
+    fn add_wall(&self, panel: &mut Panel) -> Option<Element> {
+        let wall = self.wall()?;
+        let contact = &self.geometry.contact;
+        let every = contact.len().div_ceil(24).max(1);
+        let normals = contact.iter().zip(&wall).step_by(every).map(|(place, wall)| {
+            let normal = line(self.place(place.position), self.place(*wall));
+            normal.set("stroke", "#888888").set("stroke-width", "0.7")
+        });
+        panel.push(group().children(normals));
+        let places = wall.into_iter().map(|place| Some(project(self.view, place)));
+        let curve =
+            Curve::new("casing at rest", places, Pen::new(Colour::neutral("#444444"), Dash::Solid, 3.0));
+        let sample = curve.sample();
+        panel.push(curve.title("casing").class("casing").course(Course::Cut));
+        Some(sample)
+    }
+
+    /// Words for the magnification of the clearance.
+    fn stretch_words(&self) -> String {
+        format!("its clearance drawn {} times as large", self.stretch)
+    }
+
+    /// Adds the contact line, with the clearance of every node where it is known, and labels at its ends.
+    fn add_contact_line(&self, panel: &mut Panel) {
+        let contact = &self.geometry.contact;
+        let told = contact.iter().enumerate().map(|(k, place)| {
+            let length = &self.geometry.units.length;
+            let clearance =
+                place.clearance.map(|known| format!(", clearance {} {length}", significant(known)));
+            format!("contact node {k}: node {}{}", place.id, clearance.unwrap_or_default())
+        });
+        let places = contact.iter().map(|place| Some(project(self.view, place.position)));
+        let stroke = Stroke { places: places.collect(), title: LINE.to_owned() };
+        let colour = Colour { screen: "#d55e00".to_owned(), ..Colour::warning() };
+        let curve = Curve::of(LINE, [stroke], Pen::new(colour, Dash::Solid, 2.2)).class("contact-line");
+        if !contact.is_empty() {
+            panel.push(curve.each(told.collect()));
+            panel.push(self.ends());
+        }
     }
 
     /// Labels the two ends of the contact line.
@@ -224,91 +300,13 @@ impl<'a> Drawing<'a> {
             }
         }
     }
-
-    /// Points of the casing along the normals, before each contact node; none where its clearance is unknown.
-    pub(super) fn wall(&self) -> Option<Vec<[f64; 3]>> {
-        (self.view == SectionView::Meridional).then_some(())?;
-        let at = |place: &rubmap_analysis::result::ContactPlace| {
-            let [r, theta, z] = place.position;
-            let away = self.stretch * place.clearance?;
-            Some([r + away * place.normal[0], theta, z + away * place.normal[2]])
-        };
-        self.geometry.contact.iter().map(at).collect()
-    }
-
-    /// Draws the casing at its clearance along the normals, with the normals.
-    fn casing(&self) -> Option<Element> {
-        let contact = &self.geometry.contact;
-        let wall: Vec<(f64, f64)> = self.wall()?.into_iter().map(|place| self.place(place)).collect();
-        let every = contact.len().div_ceil(24).max(1);
-        let normals = contact.iter().zip(&wall).step_by(every).map(|(place, wall)| {
-            line(self.place(place.position), *wall).set("stroke", "#888888").set("stroke-width", "0.7")
-        });
-        let wall = polyline(wall.iter().copied().map(Some)).set("class", "casing").set("stroke", "#444444");
-        let wall = wall.set("stroke-width", "3").title("casing");
-        Some(group().children(normals).child(wall))
-    }
-
-    /// Words for the magnification of the clearance.
-    pub(super) fn stretch_words(&self) -> String {
-        format!("its clearance drawn {} times as large", self.stretch)
-    }
-
-    fn key(&self) -> Element {
-        let mut key = Key::new(self.diagram.right() + 30.0, self.diagram.top + 8.0);
-        for look in self.looks() {
-            let on_line = look.kind == NodeKind::Contact && !self.geometry.contact.is_empty();
-            if on_line || self.of(look.kind).next().is_some() {
-                let mark = dot((0.5 * MARK_WIDTH, 0.0), look).set("fill", look.colour);
-                let stroke = line((2.0, 0.0), (MARK_WIDTH - 2.0, 0.0)).set("stroke", look.colour);
-                let stroke = on_line.then(|| stroke.set("stroke-width", "2.2"));
-                key = key.row(group().children(stroke).child(mark), look.words(self.view));
-            }
-        }
-        if self.outline().is_some() {
-            let area = rectangle(2.0, -6.0, MARK_WIDTH - 4.0, 12.0).set("fill", "#e3e8ee");
-            key = key.row(area.set("stroke", "#5a6672"), "what the nodes cover");
-        }
-        if self.casing().is_some() {
-            let wall = line((0.0, 0.0), (MARK_WIDTH, 0.0)).set("stroke", "#444444").set("stroke-width", "3");
-            key = key.row(wall, "casing at rest");
-            if self.stretch > 1.0 {
-                key = key.note(&self.stretch_words());
-            }
-        }
-        key.draw()
-    }
 }
 
-fn class(kind: NodeKind) -> &'static str {
-    match kind {
-        NodeKind::Internal => "internal",
-        NodeKind::Low => "low",
-        NodeKind::High => "high",
-        NodeKind::Contact => "contact",
-        NodeKind::Clamped => "clamped",
-    }
-}
-
-/// Dot of a node, distinct without colours too: round on the low face, a diamond on the high one, a square where clamped.
-fn dot((x, y): (f64, f64), look: &Look) -> Element {
-    let r = look.radius;
-    match look.kind {
-        NodeKind::Clamped => rectangle(x - r, y - r, 2.0 * r, 2.0 * r),
-        NodeKind::High => {
-            let r = 1.4 * r;
-            let path =
-                format!("M{:.2} {y:.2}L{x:.2} {:.2}L{:.2} {y:.2}L{x:.2} {:.2}Z", x - r, y - r, x + r, y + r);
-            Element::new("path").set("d", path)
-        }
-        NodeKind::Internal | NodeKind::Low | NodeKind::Contact => {
-            Element::new("circle").number("cx", x).number("cy", y).number("r", r)
-        }
-    }
-}
+/// Name of the area that the nodes cover.
+const COVER: &str = "what the nodes cover";
 
 /// Projects cylindrical coordinates into the plane of a view.
-pub(super) fn project(view: SectionView, [r, theta, z]: [f64; 3]) -> (f64, f64) {
+fn project(view: SectionView, [r, theta, z]: [f64; 3]) -> (f64, f64) {
     match view {
         SectionView::Meridional => (z, r),
         SectionView::Cyclic => (r * theta.cos(), r * theta.sin()),

@@ -1,25 +1,23 @@
 //! Curves above the spectrogram of a run.
 
-use super::axis::{label, ticks};
-use super::diagram::Diagram;
-use super::labels::{Labels, traced};
+use super::axis::label;
+use super::layer::{Curve, Mark, Marks};
 use super::run_up_line::{Line, Step};
+use super::sketch::{Axis, Panel};
 use super::spectrogram_view::{Over, View};
-use super::svg::{Element, group, polyline};
+use super::style::{Colour, Dash, Look, Pen, Symbol};
 use rubmap_analysis::result::RunUps;
 
 /// Number of steps of a curve: what a screen shows.
 const STEPS: usize = 3_000;
 
-const COLOUR: &str = "#1f4e79";
-
 /// Curve above the map.
 pub(super) struct Strip {
-    pub(super) axis: String,
-    pub(super) y: (f64, f64),
-    pub(super) places: Vec<(f64, f64)>,
+    axis: String,
+    y: (f64, f64),
+    places: Vec<(f64, f64)>,
     /// Points that stand out, with words.
-    pub(super) marks: Vec<((f64, f64), String)>,
+    marks: Vec<((f64, f64), String)>,
 }
 
 /// Curves above a spectrogram: the amplitude of the sensor; over time the speed as well.
@@ -44,26 +42,15 @@ pub(super) fn strips(run_ups: &RunUps, view: &View<'_>, sensor: usize) -> Vec<St
 }
 
 impl Strip {
-    /// Draws the curve with its axis to the left.
-    pub(super) fn draw(&self, diagram: &Diagram) -> Element {
-        let y = ticks(diagram.y.values, 3.0);
-        let curve = polyline(self.places.iter().map(|(x, y)| diagram.inside(*x, *y)));
-        let mut labels = Labels::inside(diagram);
-        let line = traced(self.places.iter().filter_map(|(x, y)| diagram.inside(*x, *y)));
-        let marks = self.marks.iter().filter_map(|((x, y), words)| {
-            let at = diagram.inside(*x, *y)?;
-            let dot = Element::new("circle").number("cx", at.0).number("cy", at.1).number("r", 3.2);
-            let label = labels.beside_off(&line, at, 5.0, words, 11.0);
-            let mark = group().set("class", "peak").child(dot.set("fill", COLOUR).title(words));
-            Some(mark.children(label.map(|label| label.rimmed("white"))))
-        });
-        let marks: Vec<Element> = marks.collect();
-        group()
-            .child(diagram.background("white"))
-            .child(diagram.grid(&ticks(diagram.x.values, 9.0), &y))
-            .child(curve.set("class", "curve").set("stroke", COLOUR).set("stroke-width", "1.6"))
-            .children(marks)
-            .child(diagram.frame())
-            .child(diagram.y_axis(&y, &self.axis, 64.0))
+    /// Panel with the curve and its marks.
+    pub(super) fn panel(self, x: Axis, corner: (f64, f64), size: (f64, f64)) -> Panel {
+        let mut panel = Panel::new(corner, size, x, Axis::linear(&self.axis, self.y, 3.0));
+        let pen = Pen::new(Colour::curve(), Dash::Solid, 1.6);
+        let curve = Curve::new(&self.axis, self.places.into_iter().map(Some), pen).class("curve");
+        panel.push(curve.over("", "%{x:.4~g}: %{y:.4~g}").unlisted());
+        let look = Look::filled(Symbol::Circle, (3.2, 8.0), Colour::curve());
+        let marks = self.marks.into_iter().map(|(place, words)| Mark::new(place, words.clone()).label(words));
+        panel.push(Marks::new("largest", look, marks).class("peak").unlisted());
+        panel
     }
 }

@@ -1,68 +1,84 @@
 //! Spectra of one speed: the paper's Fig 9, and Fig 11 in the fixed frame.
 
-use super::axis::{decades, label, significant, ticks};
+use super::axis::{label, significant};
 use super::cells::rpm;
-use super::colour::ordinal;
-use super::diagram::Diagram;
-use super::key::{Key, MARK_WIDTH};
-use super::svg::{Element, INK, document, group, line};
-use super::{heading, marks};
+use super::drawing::Drawing;
+use super::frame::Frame;
+use super::layer::{Mark, Marks};
+use super::marks;
+use super::sketch::{Axis, Panel, Sketch};
+use super::style::{Colour, Dash, Look, Pen, Symbol};
+use super::svg::{INK, group};
 use rubmap_analysis::result::{Point, SensorSpectrum, SpeedSpectra};
 use rubmap_wheel::dynamics::sector::Units;
-
-const WIDTH: f64 = 1180.0;
-const HEIGHT: f64 = 720.0;
-const LEFT: f64 = 96.0;
-const PLOT_WIDTH: f64 = 860.0;
+use serde_json::json;
 
 /// Share of the largest amplitude below which lines are not drawn.
 const QUIETEST: f64 = 1e-4;
 
 /// Largest number of lines drawn; more would be a black area.
-pub(super) const MOST: usize = 4000;
+const MOST: usize = 4000;
 
-/// Frame from which the wheel is observed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Frame {
-    /// Rotating frame, which turns with the wheel.
-    Rotating,
-    /// Fixed frame beside the wheel: a wave of nodal diameter n at engine order k is seen at k + n or k − n, as it travels with the
-    /// rotation or against it.
-    Fixed,
-}
-
-/// Draws the spectra of the sensor of index `sensor` at one speed: in the rotating frame its amplitude above those of the wheel's nodal
-/// diameters, in the fixed frame the latter where they may be seen. Amplitudes are logarithmic over four decades.
-pub fn spectrum(spectra: &SpeedSpectra, point: &Point, units: &Units, sensor: usize, frame: Frame) -> String {
-    let speed = label(rpm(point.speed_rad_s), 0);
+/// Spectra of the sensor of index `sensor` at one speed: in the rotating frame its amplitude above those of the wheel's nodal diameters, in
+/// the fixed frame the latter where they may be seen, a name for each nodal diameter. Amplitudes are logarithmic over four decades.
+pub fn spectrum(
+    spectra: &SpeedSpectra,
+    point: &Point,
+    units: &Units,
+    sensor: usize,
+    frame: Frame,
+) -> Drawing<'static> {
     let Some(found) = spectra.sensors.get(sensor) else {
-        let title = format!("Spectrum, {speed} rpm");
-        let (heading, _) = heading::heading(LEFT, &title, &[format!("there is no sensor of index {sensor}")]);
-        return document(&title, WIDTH, HEIGHT, vec![heading]);
+        let title = format!("Spectrum, {} rpm", label(rpm(point.speed_rad_s), 0));
+        let words = format!("there is no sensor of index {sensor}");
+        return Sketch::new("spectrum", title, Vec::new()).nothing(words).into();
     };
-    let title = title(point, found, frame);
-    let words = words(point, frame);
-    let (heading, bottom) = heading::heading(LEFT, &title, &words);
     let unit = found.sensor.unit(units);
     let lines = Lines::of(spectra, found, frame);
-    let mut content = vec![heading];
-    match frame {
-        Frame::Rotating => {
-            let height = 0.5 * (HEIGHT - 70.0 - bottom - 30.0 - 34.0);
-            let above = ((LEFT, bottom + 22.0), (PLOT_WIDTH, height));
-            content.extend(whole(spectra, found, unit, above));
-            content.extend(lines.draw(unit, ((LEFT, bottom + 56.0 + height), (PLOT_WIDTH, height))));
-        }
-        Frame::Fixed => {
-            let top = bottom + 22.0;
-            content.extend(lines.draw(unit, ((LEFT, top), (PLOT_WIDTH, HEIGHT - 74.0 - top))));
-        }
-    }
-    document(&title, WIDTH, HEIGHT, content)
+    let sketch = Sketch::new("spectrum", title(point, found, frame), words(point, frame));
+    let mut sketch = sketch
+        .high(if frame == Frame::Rotating { 680 } else { 520 })
+        .meta("sensor", found.sensor)
+        .meta("units", json!({"x": "engine_order", "y": unit}))
+        .meta("speed_index", point.index)
+        .meta("speed_rpm", rpm(point.speed_rad_s));
+    let Some(shown) = lines.shown() else {
+        return sketch.nothing("Nothing to draw: no nodal diameter moves").into();
+    };
+    let note = format!("the {} largest lines", label(MOST as f64, 0));
+    let note = (!shown.all).then_some(note);
+    sketch.more.extend(note.clone());
+    let top = sketch.top() + 22.0;
+    let whole = (frame == Frame::Rotating).then(|| whole_lines(spectra, found)).flatten();
+    let height = if frame == Frame::Rotating { 0.5 * (608.0 - top) } else { 646.0 - top };
+    let foot = if frame == Frame::Rotating { top + height + 34.0 } else { top };
+    let x = || Axis::linear(lines.axis(), (0.0, lines.widest() + 0.5), 12.0);
+    let y = Axis::logarithmic(format!("nodal diameters, {unit}"), shown.range, 9);
+    let mut panel = Panel::new((92.0, foot), (864.0, height), x(), y);
+    lines.fill(&mut panel, &shown, (point, unit));
+    note.iter().for_each(|words| panel.note(words));
+    let Some((range, largest)) = whole else { return sketch.with(panel).into() };
+    let y = Axis::logarithmic(format!("amplitude, {unit}"), range, 9);
+    let above = Panel::new((92.0, top), (864.0, height), x(), y);
+    let mut above = above.domain(0.56, 1.0);
+    let mark = |(order, amplitude): &(f64, f64)| {
+        let words = format!("engine order {}: {} {unit}", marks::order(*order), significant(*amplitude));
+        Mark { more: hertz(*order, point), ..Mark::new((*order, *amplitude), words) }
+    };
+    let colour = Colour { paper: INK.to_owned(), ..Colour::curve() };
+    let look = Look::filled(Symbol::Circle, (0.0, 4.0), colour);
+    let stems = Marks::new(&found.sensor.to_string(), look, largest.iter().map(mark));
+    above.push(Marks { stems: Some(Dash::Solid), ..stems.class("whole") });
+    sketch.with(panel.domain(0.0, 0.47)).with(above).into()
+}
+
+/// Frequency of a line seen at this multiple of the rotational frequency, in words that follow others.
+fn hertz(order: f64, point: &Point) -> String {
+    format!(", {} Hz", label(order * rpm(point.speed_rad_s) / 60.0, 1))
 }
 
 /// Title: the frame, the sensor and the speed.
-pub(super) fn title(point: &Point, found: &SensorSpectrum, frame: Frame) -> String {
+fn title(point: &Point, found: &SensorSpectrum, frame: Frame) -> String {
     let where_from = match frame {
         Frame::Rotating => "rotating frame",
         Frame::Fixed => "fixed frame",
@@ -71,7 +87,7 @@ pub(super) fn title(point: &Point, found: &SensorSpectrum, frame: Frame) -> Stri
 }
 
 /// Paragraphs below the title: the verdict on the speed and the basis of the amplitudes.
-pub(super) fn words(point: &Point, frame: Frame) -> Vec<String> {
+fn words(point: &Point, frame: Frame) -> Vec<String> {
     let basis = "amplitudes of nodal diameters are those of the wheel, cosine and sine over all blades together: √N times a blade's";
     let mut words = vec![verdict(point), basis.to_owned()];
     if frame == Frame::Fixed {
@@ -95,38 +111,12 @@ fn verdict(point: &Point) -> String {
     format!("{settled} · amplitudes are single-sided, the mean is left out · rubmap {}", point.version)
 }
 
-/// Draws the spectrum of the sensor.
-fn whole(
-    spectra: &SpeedSpectra,
-    found: &SensorSpectrum,
-    unit: &str,
-    (corner, size): ((f64, f64), (f64, f64)),
-) -> Vec<Element> {
-    let Some((range, shown)) = whole_lines(spectra, found) else {
-        let empty = Diagram::new(corner, size, (0.0, 1.0), (0.0, 1.0));
-        return vec![empty.frame(), empty.words(STILL)];
-    };
-    let diagram = Diagram::upwards_logarithmic(corner, size, (0.0, highest(spectra) + 0.5), range);
-    let stems = shown.into_iter().map(|(order, amplitude)| {
-        let words = whole_words(order, amplitude, unit);
-        stem(&diagram, order, amplitude).set("stroke", INK).set("stroke-width", "1.6").title(&words)
-    });
-    let title = format!("amplitude, {unit}");
-    framed(&diagram, group().set("class", "whole").children(stems), &title, "")
-}
-
-/// Message for a sensor that does not move.
-pub(super) const STILL: &str = "Nothing to draw: the sensor does not move";
-
-/// Message where no nodal diameter has lines.
-pub(super) const ALL_STILL: &str = "Nothing to draw: no nodal diameter moves";
-
 /// Range of amplitudes, and engine orders with amplitudes.
 type WholeLines = ((f64, f64), Vec<(f64, f64)>);
 
 /// Lines of the spectrum of the sensor that are drawn, as engine orders with amplitudes, the largest first, and the range of amplitudes;
 /// none if it does not move.
-pub(super) fn whole_lines(spectra: &SpeedSpectra, found: &SensorSpectrum) -> Option<WholeLines> {
+fn whole_lines(spectra: &SpeedSpectra, found: &SensorSpectrum) -> Option<WholeLines> {
     let lines = spectra.engine_orders.iter().copied().zip(found.amplitude.iter().copied());
     let mut shown: Vec<(f64, f64)> = lines.filter(|(order, _)| *order > 0.0).collect();
     let range = range(shown.iter().map(|line| line.1))?;
@@ -136,13 +126,8 @@ pub(super) fn whole_lines(spectra: &SpeedSpectra, found: &SensorSpectrum) -> Opt
     Some((range, shown))
 }
 
-/// Words for a line of the spectrum of the sensor.
-pub(super) fn whole_words(order: f64, amplitude: f64, unit: &str) -> String {
-    format!("engine order {}: {} {}", marks::order(order), significant(amplitude), unit)
-}
-
 /// Highest engine order of the spectra.
-pub(super) fn highest(spectra: &SpeedSpectra) -> f64 {
+fn highest(spectra: &SpeedSpectra) -> f64 {
     spectra.engine_orders.last().copied().filter(|order| *order > 0.0).unwrap_or(1.0)
 }
 
@@ -152,53 +137,37 @@ fn range(amplitudes: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
     (loudest > 0.0).then_some((QUIETEST * loudest, 1.6 * loudest))
 }
 
-fn stem(diagram: &Diagram, order: f64, amplitude: f64) -> Element {
-    let (x, y) = diagram.point(order, amplitude);
-    line((x, diagram.bottom()), (x, y))
-}
-
-fn framed(diagram: &Diagram, content: Element, y_title: &str, x_title: &str) -> Vec<Element> {
-    let (x, y) = (ticks(diagram.x.values, 12.0), decades(diagram.y.values, 9));
-    vec![
-        diagram.grid(&x, &y),
-        content,
-        diagram.frame(),
-        diagram.x_axis(&x, x_title),
-        diagram.y_axis(&y, y_title, 70.0),
-    ]
-}
-
 /// Line of a nodal diameter.
-pub(super) struct Line {
-    pub(super) nodal_diameter: usize,
+struct Line {
+    nodal_diameter: usize,
     /// Engine order in the rotating frame.
-    pub(super) order: f64,
+    order: f64,
     /// Multiple of the rotational frequency at which the line is seen; in the fixed frame it depends on the direction of travel.
-    pub(super) seen: f64,
-    pub(super) forward: bool,
-    pub(super) amplitude: f64,
+    seen: f64,
+    forward: bool,
+    amplitude: f64,
 }
 
 /// Lines of all nodal diameters.
-pub(super) struct Lines {
+struct Lines {
     frame: Frame,
     highest: f64,
-    pub(super) harmonics: usize,
+    harmonics: usize,
     lines: Vec<Line>,
 }
 
 /// Lines that are drawn.
-pub(super) struct Shown<'a> {
+struct Shown<'a> {
     /// Range of the amplitude axis.
-    pub(super) range: (f64, f64),
+    range: (f64, f64),
     /// Lines, the largest first.
-    pub(super) lines: Vec<&'a Line>,
+    lines: Vec<&'a Line>,
     /// Whether all lines in the range are drawn.
-    pub(super) all: bool,
+    all: bool,
 }
 
 impl Lines {
-    pub(super) fn of(spectra: &SpeedSpectra, found: &SensorSpectrum, frame: Frame) -> Self {
+    fn of(spectra: &SpeedSpectra, found: &SensorSpectrum, frame: Frame) -> Self {
         let mut lines = Vec::new();
         for (nodal_diameter, row) in found.nodal_diameters.iter().enumerate() {
             for (&order, &amplitude) in spectra.engine_orders.iter().zip(row) {
@@ -219,7 +188,7 @@ impl Lines {
     }
 
     /// Highest multiple of the rotational frequency at which a line is seen.
-    pub(super) fn widest(&self) -> f64 {
+    fn widest(&self) -> f64 {
         match self.frame {
             Frame::Rotating => self.highest,
             Frame::Fixed => self.highest + self.harmonics.saturating_sub(1) as f64,
@@ -227,7 +196,7 @@ impl Lines {
     }
 
     /// Title of the horizontal axis.
-    pub(super) fn axis(&self) -> &'static str {
+    fn axis(&self) -> &'static str {
         match self.frame {
             Frame::Rotating => "engine order k in the rotating frame",
             Frame::Fixed => "multiple of the rotational frequency in the fixed frame",
@@ -235,7 +204,7 @@ impl Lines {
     }
 
     /// Lines that are drawn; none if nothing moves.
-    pub(super) fn shown(&self) -> Option<Shown<'_>> {
+    fn shown(&self) -> Option<Shown<'_>> {
         let range = range(self.lines.iter().map(|line| line.amplitude))?;
         let inside = |line: &&Line| (range.0..=range.1).contains(&line.amplitude);
         let mut lines: Vec<&Line> = self.lines.iter().filter(inside).collect();
@@ -245,23 +214,8 @@ impl Lines {
         Some(Shown { range, lines, all })
     }
 
-    fn draw(&self, unit: &str, (corner, size): ((f64, f64), (f64, f64))) -> Vec<Element> {
-        let Some(shown) = self.shown() else {
-            let empty = Diagram::new(corner, size, (0.0, 1.0), (0.0, 1.0));
-            return vec![empty.frame(), empty.words(ALL_STILL)];
-        };
-        let diagram = Diagram::upwards_logarithmic(corner, size, (0.0, self.widest() + 0.5), shown.range);
-        // Smaller lines lie in front of larger ones.
-        let drawn = shown.lines.iter().map(|found| self.line(&diagram, found, unit));
-        let content = group().set("class", "lines").children(drawn);
-        let title = format!("nodal diameters, {unit}");
-        let mut all = framed(&diagram, content, &title, self.axis());
-        all.push(self.key(&diagram, &shown.lines, shown.all));
-        all
-    }
-
     /// Words for a line.
-    pub(super) fn words(&self, found: &Line, unit: &str) -> String {
+    fn words(&self, found: &Line, unit: &str) -> String {
         let direction = match (self.frame, found.nodal_diameter, found.forward) {
             (Frame::Rotating, ..) | (_, 0, _) => "",
             (Frame::Fixed, _, true) => ", if it travels forwards",
@@ -276,56 +230,41 @@ impl Lines {
         )
     }
 
-    fn line(&self, diagram: &Diagram, found: &Line, unit: &str) -> Element {
-        let colour = ordinal(found.nodal_diameter, self.harmonics);
-        let words = self.words(found, unit);
-        let stem =
-            stem(diagram, found.seen, found.amplitude).set("stroke", &colour).set("stroke-width", "1.4");
-        let stem = if found.forward { stem } else { stem.set("stroke-dasharray", "2 2") };
-        let place = diagram.point(found.seen, found.amplitude);
-        group().child(stem).child(symbol(place, &colour, found.nodal_diameter, found.forward)).title(&words)
-    }
-
-    fn key(&self, diagram: &Diagram, shown: &[&Line], all_shown: bool) -> Element {
-        let mut key = Key::new(diagram.right() + 34.0, diagram.top + 8.0).heading("nodal diameter");
-        for nodal_diameter in 0..self.harmonics {
-            if shown.iter().any(|line| line.nodal_diameter == nodal_diameter) {
-                let colour = ordinal(nodal_diameter, self.harmonics);
-                let stem =
-                    line((0.0, 0.0), (MARK_WIDTH, 0.0)).set("stroke", &colour).set("stroke-width", "1.4");
-                let mark = symbol((0.5 * MARK_WIDTH, 0.0), &colour, nodal_diameter, true);
-                key = key.row(group().child(stem).child(mark), &nodal_diameter.to_string());
+    /// Adds the lines of every nodal diameter, one layer for each direction of travel, and their key.
+    fn fill(&self, panel: &mut Panel, shown: &Shown, (point, unit): (&Point, &str)) {
+        let look = |i: usize, is_filled: bool, colour: Colour| {
+            let paper = colour.paper.clone();
+            let (symbol, size) = (Symbol::nth(i), (4.2, 8.0));
+            match is_filled {
+                true => Look::filled(symbol, size, colour).with(&paper, &paper, 1.2),
+                false => Look::open(symbol, size, colour).with("white", &paper, 1.2),
             }
+        };
+        panel.heading("nodal diameter");
+        for (i, forward) in (0..self.harmonics).flat_map(|i| [(i, true), (i, false)]) {
+            let here = shown.lines.iter().filter(|line| line.nodal_diameter == i && line.forward == forward);
+            let mark = |line: &&Line| Mark {
+                more: hertz(line.seen, point),
+                ..Mark::new((line.seen, line.amplitude), self.words(line, unit))
+            };
+            let colour = Colour::ordinal(i, self.harmonics);
+            let way = if forward { "" } else { ", |k−n|" };
+            let marks = Marks::new(
+                &format!("nodal diameter {i}{way}"),
+                look(i, forward, colour.clone()),
+                here.map(mark),
+            );
+            if forward && !marks.marks.is_empty() {
+                let stem = Pen::new(colour, Dash::Solid, 1.4).sample();
+                panel.sample(group().child(stem).child(marks.look.sample()), &i.to_string());
+            }
+            let dash = if forward { Dash::Solid } else { Dash::Dotted };
+            panel.push(Marks { stems: Some(dash), ..marks });
         }
-        if self.frame == Frame::Fixed && shown.iter().any(|line| line.nodal_diameter > 0) {
-            key = key.heading("direction of travel");
-            let middle = (0.5 * MARK_WIDTH, 0.0);
-            key = key.row(group().child(symbol(middle, INK, 1, true)), "k + n: forwards");
-            key = key.row(group().child(symbol(middle, INK, 1, false)), "|k − n|: backwards");
+        if self.frame == Frame::Fixed && shown.lines.iter().any(|line| line.nodal_diameter > 0) {
+            panel.heading("direction of travel");
+            panel.sample(look(1, true, Colour::of(INK)).sample(), "k + n: forwards");
+            panel.sample(look(1, false, Colour::of(INK)).sample(), "|k − n|: backwards");
         }
-        if !all_shown {
-            key = key.note(&format!("the {} largest lines", label(MOST as f64, 0)));
-        }
-        key.draw()
     }
-}
-
-/// Mark whose shape and colour show the nodal diameter; open for waves that travel backwards.
-fn symbol((x, y): (f64, f64), colour: &str, nodal_diameter: usize, filled: bool) -> Element {
-    let corners: &[(f64, f64)] = match nodal_diameter % 6 {
-        0 => &[],
-        1 => &[(-4.0, -4.0), (4.0, -4.0), (4.0, 4.0), (-4.0, 4.0)],
-        2 => &[(0.0, -5.0), (4.8, 4.0), (-4.8, 4.0)],
-        3 => &[(0.0, -5.5), (5.0, 0.0), (0.0, 5.5), (-5.0, 0.0)],
-        4 => &[(-4.8, -4.0), (4.8, -4.0), (0.0, 5.0)],
-        _ => &[(-1.6, -5.0), (1.6, -5.0), (1.6, 5.0), (-1.6, 5.0)],
-    };
-    let shape = if corners.is_empty() {
-        Element::new("circle").number("cx", x).number("cy", y).number("r", 4.2)
-    } else {
-        let place = |(dx, dy): &(f64, f64)| format!("{:.2} {:.2}", x + dx, y + dy);
-        let corners: Vec<String> = corners.iter().map(place).collect();
-        Element::new("path").set("d", format!("M{}Z", corners.join("L")))
-    };
-    shape.set("fill", if filled { colour } else { "white" }).set("stroke", colour).set("stroke-width", "1.2")
 }

@@ -1,21 +1,14 @@
 //! Histories of one speed over its revolutions: the paper's Figs 6 to 8.
 
-use super::axis::{label, ticks};
+use super::axis::label;
 use super::cells::rpm;
-use super::colour::{DASHES, ordinal};
-use super::diagram::Diagram;
-use super::heading::{heading, origin};
-use super::key::Key;
-use super::svg::{Element, document, group};
-use super::trace::{Pen, Trace};
+use super::drawing::Drawing;
+use super::heading::origin;
+use super::layer;
+use super::sketch::{Axis, Panel, Sketch};
+use super::style::{Colour, Dash, Pen};
+use super::trace;
 use rubmap_analysis::result::{ContactHistory, EnergyHistory, SensorHistory, SpeedHistories};
-
-const WIDTH: f64 = 1180.0;
-const HEIGHT: f64 = 640.0;
-const LEFT: f64 = 100.0;
-const PLOT_WIDTH: f64 = 830.0;
-/// Width of a diagram with one curve, which needs no key.
-const WIDE: f64 = 1040.0;
 
 /// Quantity of the histories of a speed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -32,38 +25,41 @@ pub enum HistoryQuantity {
     Energy,
 }
 
-/// Draws histories of one speed over revolutions. `index` counts sensors for displacements and velocities and contact nodes for
-/// forces; the wheel's contact and energy have none.
-pub fn speed_histories(histories: &SpeedHistories, what: HistoryQuantity, index: usize) -> String {
-    let panels = panels(histories, what, index);
-    let title = title(histories, what, index);
-    let (heading, bottom) = heading(LEFT, &title, &[words(histories, what)]);
-    let top = bottom + 24.0;
-    let mut content = vec![heading];
-    let gap = 34.0;
-    let count = panels.len().max(1) as f64;
-    let height = (HEIGHT - 64.0 - top - gap * (count - 1.0)) / count;
-    if panels.is_empty() {
-        let empty = Diagram::new((LEFT, top), (PLOT_WIDTH, height), (0.0, 1.0), (0.0, 1.0));
-        content.extend([empty.frame(), empty.words(NOT_RECORDED)]);
+/// Histories of one speed over revolutions. `index` counts sensors for displacements and velocities and contact nodes for forces; the
+/// wheel's contact and energy have none.
+pub fn speed_histories(histories: &SpeedHistories, what: HistoryQuantity, index: usize) -> Drawing<'static> {
+    let groups = groups(histories, what, index);
+    let sketch = Sketch::new("speed_histories", title(histories, what, index), vec![words(histories, what)]);
+    let sketch = sketch.high(360 + 140 * groups.len());
+    let sketch = sketch.meta("speed_index", histories.index).meta("speed_rpm", rpm(histories.speed_rad_s));
+    if groups.is_empty() {
+        return sketch.nothing("Nothing to draw: this was not recorded").into();
     }
-    for (place, panel) in panels.iter().enumerate() {
-        let corner = (LEFT, top + place as f64 * (height + gap));
-        let last = place + 1 == panels.len();
-        let width = if panels.iter().all(|panel| panel.curves.len() == 1) { WIDE } else { PLOT_WIDTH };
-        content.push(panel.draw(histories, (corner, (width, height)), (place == 0, last)));
-    }
-    document(&title, WIDTH, HEIGHT, content)
+    let (top, gap, count) = (sketch.top() + 24.0, 34.0, groups.len() as f64);
+    let height = (576.0 - top - gap * (count - 1.0)) / count;
+    // A single curve needs no key, unless it is a band.
+    let is_plain =
+        |group: &Group| matches!(&group.curves[..], [alone] if !trace::is_band(alone.values.len(), 830.0));
+    let width = if groups.iter().all(is_plain) { 1040.0 } else { 830.0 };
+    groups
+        .iter()
+        .enumerate()
+        .fold(sketch, |sketch, (place, group)| {
+            let corner = (92.0, top + place as f64 * (height + gap));
+            let mut panel = group.panel(histories, corner, (width, height));
+            if groups.len() > 1 {
+                // Panels stand from the top down, with room between them.
+                let foot = 1.0 - (place + 1) as f64 / count;
+                let room = if place + 1 < groups.len() { 0.05 } else { 0.0 };
+                panel = panel.domain(foot + room, foot + 1.0 / count);
+            }
+            sketch.with(panel)
+        })
+        .into()
 }
 
-/// Message where the quantity was not recorded.
-pub(super) const NOT_RECORDED: &str = "Nothing to draw: this was not recorded";
-
-/// Title of the horizontal axis.
-pub(super) const REVOLUTIONS: &str = "revolutions since the start";
-
 /// Title: the revolutions, the quantity and the speed.
-pub(super) fn title(histories: &SpeedHistories, what: HistoryQuantity, index: usize) -> String {
+fn title(histories: &SpeedHistories, what: HistoryQuantity, index: usize) -> String {
     let [begin, end] = histories.revolutions;
     format!(
         "Revolutions {begin} to {end}: {}, {} rpm",
@@ -73,7 +69,7 @@ pub(super) fn title(histories: &SpeedHistories, what: HistoryQuantity, index: us
 }
 
 /// Paragraphs below the title: origin, and how samples were averaged.
-pub(super) fn words(histories: &SpeedHistories, what: HistoryQuantity) -> String {
+fn words(histories: &SpeedHistories, what: HistoryQuantity) -> String {
     let mut words = vec![origin(&histories.settings.model, &histories.version)];
     if matches!(what, HistoryQuantity::Force | HistoryQuantity::Contact) {
         words.insert(0, "means over the interval between two samples".to_owned());
@@ -95,32 +91,32 @@ fn subject(histories: &SpeedHistories, what: HistoryQuantity, index: usize) -> S
     }
 }
 
-/// Curve of a panel.
-pub(super) struct Curve<'a> {
-    pub(super) words: String,
-    pub(super) values: &'a [f64],
+/// Curve of a group.
+struct Curve<'a> {
+    words: String,
+    values: &'a [f64],
 }
 
 /// Curves over one vertical axis.
-pub(super) struct Panel<'a> {
-    pub(super) axis: String,
-    pub(super) curves: Vec<Curve<'a>>,
+struct Group<'a> {
+    axis: String,
+    curves: Vec<Curve<'a>>,
 }
 
-/// Panels of the quantity that have curves.
-pub(super) fn panels(histories: &SpeedHistories, what: HistoryQuantity, index: usize) -> Vec<Panel<'_>> {
-    let mut panels = all_panels(histories, what, index);
-    panels.retain(|panel| !panel.curves.is_empty());
-    panels
+/// Groups of the quantity that have curves.
+fn groups(histories: &SpeedHistories, what: HistoryQuantity, index: usize) -> Vec<Group<'_>> {
+    let mut groups = all_groups(histories, what, index);
+    groups.retain(|group| !group.curves.is_empty());
+    groups
 }
 
-fn all_panels<'a>(histories: &'a SpeedHistories, quantity: HistoryQuantity, index: usize) -> Vec<Panel<'a>> {
+fn all_groups<'a>(histories: &'a SpeedHistories, quantity: HistoryQuantity, index: usize) -> Vec<Group<'a>> {
     let units = &histories.units;
     let (length, force, time) = (&units.length, &units.force, &units.time);
     let of_sensor = |axis: String, values: fn(&SensorHistory) -> &[f64]| {
         let found = histories.sensors.get(index).map(values).filter(|values| !values.is_empty());
         let curves = found.map(|values| Curve { words: String::new(), values });
-        vec![Panel { axis, curves: curves.into_iter().collect() }]
+        vec![Group { axis, curves: curves.into_iter().collect() }]
     };
     let gauge =
         histories.sensors.get(index).map(|history| &history.sensor).filter(|sensor| sensor.gauge.is_some());
@@ -132,7 +128,7 @@ fn all_panels<'a>(histories: &'a SpeedHistories, quantity: HistoryQuantity, inde
         HistoryQuantity::Velocity => of_sensor(format!("{rate}, {unit}/{time}"), |s| &s.velocity),
         HistoryQuantity::Force => {
             let curves = contact.map_or_else(Vec::new, |contact| forces(contact, index));
-            vec![Panel { axis: format!("force, {force}"), curves }]
+            vec![Group { axis: format!("force, {force}"), curves }]
         }
         HistoryQuantity::Contact => contact.map_or_else(Vec::new, |contact| {
             let curve = |values: &'a Vec<f64>| {
@@ -140,11 +136,11 @@ fn all_panels<'a>(histories: &'a SpeedHistories, quantity: HistoryQuantity, inde
                 values.map(|values| Curve { words: String::new(), values }).into_iter().collect()
             };
             vec![
-                Panel {
+                Group {
                     axis: "contact nodes that touch".to_owned(),
                     curves: curve(&contact.nodes_in_contact),
                 },
-                Panel {
+                Group {
                     axis: format!("length in contact, {length}"),
                     curves: curve(&contact.contact_length),
                 },
@@ -152,7 +148,7 @@ fn all_panels<'a>(histories: &'a SpeedHistories, quantity: HistoryQuantity, inde
         }),
         HistoryQuantity::Energy => {
             let curves = histories.energy.as_ref().map_or_else(Vec::new, energies);
-            vec![Panel { axis: format!("energy, {force}·{length}"), curves }]
+            vec![Group { axis: format!("energy, {force}·{length}"), curves }]
         }
     }
 }
@@ -185,44 +181,8 @@ fn energies(energy: &EnergyHistory) -> Vec<Curve<'_>> {
     there.map(|(words, values)| Curve { words: words.to_owned(), values }).collect()
 }
 
-impl Panel<'_> {
-    fn draw(
-        &self,
-        histories: &SpeedHistories,
-        place: ((f64, f64), (f64, f64)),
-        (first, last): (bool, bool),
-    ) -> Element {
-        let diagram = self.diagram(histories, place);
-        let (x, y) = (ticks(diagram.x.values, 10.0), ticks(diagram.y.values, (place.1.1 / 60.0).max(2.0)));
-        let step = 1.0 / f64::from(histories.samples_per_revolution.max(1));
-        let begin = f64::from(histories.revolutions[0]);
-        let mut bands = false;
-        let mut curves = group();
-        for (index, curve) in self.curves.iter().enumerate() {
-            let at = |(j, value): (usize, &f64)| diagram.point(begin + (j + 1) as f64 * step, *value);
-            let places = curve.values.iter().enumerate().map(at).collect();
-            let trace = Trace::of(places, diagram.x.place(1.0) - diagram.x.place(0.0));
-            bands |= trace.is_band;
-            curves = curves.child(trace.drawn(&self.pen(index)).title(&curve.words));
-        }
-        group()
-            .set("class", "panel")
-            .child(diagram.grid(&x, &y))
-            .child(curves)
-            .child(diagram.frame())
-            .child(diagram.x_axis(&x, if last { REVOLUTIONS } else { "" }))
-            .child(diagram.y_axis(&y, &self.axis, 72.0))
-            .child(self.key(&diagram, bands, first))
-    }
-
-    fn pen(&self, index: usize) -> Pen {
-        let count = self.curves.len();
-        let dashes = if count > 2 * DASHES.len() { "" } else { DASHES[index % DASHES.len()] };
-        let colour = if count == 1 { "#1f4e79".to_owned() } else { ordinal(index, count) };
-        Pen { colour, width: 1.5, dashes, of_many: count > 2 }
-    }
-
-    fn diagram(&self, histories: &SpeedHistories, (corner, size): ((f64, f64), (f64, f64))) -> Diagram {
+impl Group<'_> {
+    fn panel(&self, histories: &SpeedHistories, corner: (f64, f64), size: (f64, f64)) -> Panel {
         let [begin, end] = histories.revolutions.map(f64::from);
         let values = self.curves.iter().flat_map(|curve| curve.values.iter().copied());
         let finite = values.filter(|value| value.is_finite());
@@ -230,26 +190,28 @@ impl Panel<'_> {
         // The axis of a quantity that never changes still needs a height.
         let room = if low < high { 0.06 * (high - low) } else { 1.0 };
         let x = if begin < end { (begin, end) } else { (begin, begin + 1.0) };
-        Diagram::new(corner, size, x, (if low < 0.0 { low - room } else { 0.0 }, high + room))
+        let x = Axis::linear("revolutions since the start", x, 10.0).free();
+        let y = (if low < 0.0 { low - room } else { 0.0 }, high + room);
+        let mut panel =
+            Panel::new(corner, size, x, Axis::linear(&self.axis, y, (size.1 / 60.0).max(2.0)).free());
+        let step = 1.0 / f64::from(histories.samples_per_revolution.max(1));
+        let count = self.curves.len();
+        let history = |(index, curve): (usize, &Curve)| {
+            let at = |(j, value): (usize, &f64)| Some((begin + (j + 1) as f64 * step, *value));
+            let name = if curve.words.is_empty() { &self.axis } else { &curve.words };
+            let drawn = layer::Curve::new(name, curve.values.iter().enumerate().map(at), self.pen(index));
+            let drawn = drawn.title(&curve.words).over(&curve.words, "%{x:.4f} revolutions: %{y:.4~g}");
+            if count > 1 { drawn } else { drawn.unlisted() }
+        };
+        if panel.histories(self.curves.iter().enumerate().map(history).collect()) {
+            panel.note("bands: from lowest to highest");
+        }
+        panel
     }
 
-    fn key(&self, diagram: &Diagram, bands: bool, first: bool) -> Element {
-        /// Largest number of curves that the key names; of more only the first and the last are named.
-        const MOST: usize = 16;
-        let mut key = Key::new(diagram.right() + 28.0, diagram.top + 8.0);
+    fn pen(&self, index: usize) -> Pen {
         let count = self.curves.len();
-        let shown = |index: &usize| count <= MOST || *index == 0 || index + 1 == count;
-        for index in (0..count).filter(|index| count > 1 && shown(index)) {
-            key = key.row(self.pen(index).mark(bands), &self.curves[index].words);
-        }
-        match (bands, count) {
-            // The note stands above the frame of the first panel; below it are the numbers of the axis.
-            (true, 1) if !first => key.draw(),
-            (true, 1) => Key::new(diagram.right() - 190.0, diagram.top - 14.0)
-                .note("band: from lowest to highest")
-                .draw(),
-            (true, _) => key.note("bands: from lowest to highest").draw(),
-            (false, _) => key.draw(),
-        }
+        let colour = if count == 1 { Colour::curve() } else { Colour::ordinal(index, count) };
+        Pen::new(colour, Dash::nth(index), 1.5)
     }
 }

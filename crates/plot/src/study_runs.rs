@@ -1,10 +1,13 @@
 //! Runs of a study, as its drawings need them.
 
 use super::axis::{label, significant};
+use super::cells::rpm;
 use super::scheme;
+use super::sketch::Sketch;
 use rubmap_analysis::request::auto_or::AutoOr;
 use rubmap_analysis::result::{PointStatus, Quantity, SpeedStudy, StudyRun};
 use rubmap_analysis::run::{Setting, WorkPrecision};
+use serde_json::json;
 
 /// Words for a quantity.
 pub(super) fn words(quantity: Quantity, study: &WorkPrecision) -> String {
@@ -19,13 +22,31 @@ pub(super) fn words(quantity: Quantity, study: &WorkPrecision) -> String {
     }
 }
 
+/// Begins a sketch of one speed of a study.
+pub(super) fn begin(
+    kind: &'static str,
+    title: &str,
+    (study, at): (&WorkPrecision, &SpeedStudy),
+    quantity: Quantity,
+) -> Sketch {
+    let title = format!("{title}, {} rpm", label(rpm(at.speed_rad_s), 0));
+    let sketch = Sketch::new(kind, title, vec![at.message.clone(), origin(study, at)]).high(640);
+    let sketch = Sketch { footnote: Some(left_out(at, quantity)), ..sketch };
+    sketch.meta("quantity", quantity).meta("speed_rpm", rpm(at.speed_rad_s)).meta("units", json!({"y": "1"}))
+}
+
+/// Sketch with a message, where a study has no speed of this index.
+pub(super) fn no_speed(kind: &'static str, title: &str, speed: usize) -> Sketch {
+    Sketch::new(kind, title, Vec::new()).nothing(format!("the study has no speed of index {speed}"))
+}
+
 /// Title of the axis of errors.
 pub(super) fn error_axis(quantity: Quantity, study: &WorkPrecision) -> String {
     format!("relative error: {}", words(quantity, study))
 }
 
 /// Words for the reference of the runs, and their origin.
-pub(super) fn origin(study: &WorkPrecision, at: &SpeedStudy) -> String {
+fn origin(study: &WorkPrecision, at: &SpeedStudy) -> String {
     let reference = &at.reference;
     let model: String = study.settings.model.chars().take(12).collect();
     format!(
@@ -83,7 +104,7 @@ impl<'a> Drawn<'a> {
 }
 
 /// Words for the runs that are not drawn.
-pub(super) fn left_out(at: &SpeedStudy, quantity: Quantity) -> String {
+fn left_out(at: &SpeedStudy, quantity: Quantity) -> String {
     let (mut not_completed, mut exact, mut without) = (0, 0, 0);
     for run in &at.runs {
         let error = run.errors.as_ref().and_then(|errors| errors.of(quantity));

@@ -1,6 +1,7 @@
 //! History as a line, or, where its swings do not fit, as the band they fill.
 
 use super::key::MARK_WIDTH;
+use super::style::{Dash, Pen};
 use super::svg::{Element, line, polyline, rectangle};
 
 /// Path of a history.
@@ -21,47 +22,39 @@ impl Trace {
     /// Draws a history through points from left to right; `revolution`: width of a revolution in the drawing.
     pub(super) fn of(places: Vec<(f64, f64)>, revolution: f64) -> Self {
         let width = places.last().map_or(0.0, |last| last.0 - places[0].0);
-        let is_band = places.len() as f64 > MOST_PER_COLUMN * width.max(1.0);
+        let is_band = is_band(places.len(), width);
         // Swings within a narrow revolution cannot be seen beside many others; their bounds can.
         let column = if revolution < NARROW { revolution.max(1.0) } else { 1.0 };
         let points = if is_band { band(&places, column) } else { places };
         Self { path: polyline(points.into_iter().map(Some)).set("stroke-linejoin", "round"), is_band }
     }
 
-    /// Draws the path as a line of this pen, or as the band that goes with it.
-    pub(super) fn drawn(self, pen: &Pen) -> Element {
-        let path = self.path.set("class", "history");
-        pen.of(path, self.is_band)
+    /// Draws the path as a line of this pen, or as the band that goes with it, pale if it is one of many.
+    pub(super) fn drawn(self, pen: &Pen, is_of_many: bool) -> Element {
+        shape(pen, self.path.set("class", "history"), self.is_band, is_of_many)
     }
 }
 
-/// Style of a history: colour, width and dashes.
-#[derive(Debug)]
-pub(super) struct Pen {
-    pub(super) colour: String,
-    pub(super) width: f64,
-    pub(super) dashes: &'static str,
-    /// Whether the band is pale, so that others show through.
-    pub(super) of_many: bool,
+/// Whether so many samples on a stretch of the drawing are too dense for a line.
+pub(super) fn is_band(samples: usize, width: f64) -> bool {
+    samples as f64 > MOST_PER_COLUMN * width.max(1.0)
 }
 
-impl Pen {
-    fn of(&self, shape: Element, is_band: bool) -> Element {
-        let Self { colour, width, dashes, of_many } = self;
-        let shape = shape.set("stroke", colour);
-        if !is_band {
-            return shape.number("stroke-width", *width).set("stroke-dasharray", dashes);
-        }
-        let (width, dashes, opacity) = if *of_many { ("1.1", *dashes, "0.10") } else { ("0.6", "", "0.45") };
-        let fill = format!("fill:{colour};fill-opacity:{opacity}");
-        shape.set("stroke-width", width).set("stroke-dasharray", dashes).set("style", fill)
-    }
+/// Sample of a history in a key.
+pub(super) fn sample(pen: &Pen, is_band: bool, is_of_many: bool) -> Element {
+    let line = || line((0.0, 0.0), (MARK_WIDTH, 0.0));
+    shape(pen, if is_band { rectangle(0.0, -6.0, MARK_WIDTH, 12.0) } else { line() }, is_band, is_of_many)
+}
 
-    /// Mark of the history in a key.
-    pub(super) fn mark(&self, is_band: bool) -> Element {
-        let line = || line((0.0, 0.0), (MARK_WIDTH, 0.0));
-        self.of(if is_band { rectangle(0.0, -6.0, MARK_WIDTH, 12.0) } else { line() }, is_band)
+fn shape(pen: &Pen, shape: Element, is_band: bool, is_of_many: bool) -> Element {
+    if !is_band {
+        return pen.draw(shape);
     }
+    let width = if is_of_many { 1.1 } else { 0.6 };
+    let rim = Pen { width, dash: if is_of_many { pen.dash } else { Dash::Solid }, ..pen.clone() };
+    let opacity = if is_of_many { "0.10" } else { "0.45" };
+    let fill = format!("fill:{};fill-opacity:{opacity}", pen.colour.paper);
+    rim.draw(shape).set("style", fill)
 }
 
 /// Outline of a band: along the highest value of every column of this width to the right, and back along the lowest; in steps, except where

@@ -104,15 +104,6 @@ pub(super) fn point(map: &InteractionMap, index: usize) -> Option<&Point> {
     map.points.iter().find(|point| point.index as usize == index)
 }
 
-/// Ring about a mark of a speed at which linear theory is doubtful or left.
-pub(super) fn ring((x, y): (f64, f64), verdict: Option<ValidityVerdict>, radius: f64) -> Option<Element> {
-    let colour = colour(verdict?)?;
-    let dashes = if verdict == Some(ValidityVerdict::Beyond) { "" } else { "2.5 2" };
-    let ring = Element::new("circle").set("class", "validity").number("cx", x).number("cy", y);
-    let ring = ring.number("r", radius).set("fill", "none").set("stroke", colour).set("stroke-width", "1.8");
-    Some(ring.set("stroke-dasharray", dashes))
-}
-
 /// Strip, `height` high from `top` on, over the speeds at which linear theory is doubtful or left; none if there are none in view.
 pub(super) fn strip(
     map: &InteractionMap,

@@ -29,15 +29,15 @@ pub(super) async fn download(
     let draw = |axis| {
         plot::interaction_map(
             &map,
-            Some(&critical),
+            Some(critical.clone()),
             Some(&campbell),
             axis,
             Window::default(),
             LevelColour::Plain,
         )
     };
-    save(&out.join("interaction-map.svg"), &draw(VerticalAxis::EngineOrder))?;
-    save(&out.join("interaction-map-frequency.svg"), &draw(VerticalAxis::Frequency))?;
-    save(&out.join("campbell.svg"), &plot::campbell(&campbell))?;
+    save(&out.join("interaction-map.svg"), &draw(VerticalAxis::EngineOrder).svg())?;
+    save(&out.join("interaction-map-frequency.svg"), &draw(VerticalAxis::Frequency).svg())?;
+    save(&out.join("campbell.svg"), &plot::campbell(&campbell).svg())?;
     Ok(Results { map, critical })
 }

@@ -70,12 +70,12 @@ pub(super) async fn play(client: &Client, body: Value, model: &str, out: &Path) 
         let speed = name(&found, index);
         for quantity in Quantity::ALL {
             let file = format!("work-precision{speed}-{}.svg", quantity.as_str().replace('_', "-"));
-            save(&out.join(file), &plot::work_precision(&found, index, quantity))?;
+            save(&out.join(file), &plot::work_precision(&found, index, quantity).svg())?;
         }
         let path = format!("{}?speed={index}", job.link("histories")?);
         let histories: Histories =
             client.download(&path, &out.join(format!("histories{speed}.json"))).await?;
-        save(&out.join(format!("histories{speed}.svg")), &plot::histories(&histories, 0))?;
+        save(&out.join(format!("histories{speed}.svg")), &plot::histories(&histories, 0).svg())?;
     }
 
     if let Some(first) = found.speeds.first() {

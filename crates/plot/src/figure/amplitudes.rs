@@ -4,9 +4,9 @@ use super::attributes::Cells;
 use super::cells::{cells, together};
 use super::text::escaped;
 use crate::cells::Cell;
+use crate::frame::Frame;
 use crate::heat::loudest_within;
 use crate::map_view::{VerticalAxis, View};
-use crate::spectrum::Frame;
 use rubmap_analysis::result::InteractionMap;
 
 /// Least height of a spectral line relative to the height of the map: a bin alone would be a pixel high, below the line of its engine

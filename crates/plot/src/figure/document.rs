@@ -105,10 +105,14 @@ impl Figure {
     /// Puts a message in the middle, where there is nothing to draw.
     pub(super) fn empty(self, words: &str) -> Self {
         let hidden = || Axis::default().visible(false);
-        self.axis("xaxis", hidden()).axis("yaxis", hidden()).attribute(
-            "annotations",
-            json!([{"text": broken(words, COLUMNS.0), "xref": "paper", "yref": "paper", "x": 0.5, "y": 0.5, "showarrow": false}]),
-        )
+        self.axis("xaxis", hidden()).axis("yaxis", hidden()).note(words, 0.5)
+    }
+
+    /// Puts a message over the middle, at this share of the height.
+    pub(super) fn note(self, words: &str, height: f64) -> Self {
+        let words = broken(words, COLUMNS.0);
+        let place = json!([{"text": words, "xref": "paper", "yref": "paper", "x": 0.5, "y": height, "showarrow": false}]);
+        self.attribute("annotations", place)
     }
 }
 

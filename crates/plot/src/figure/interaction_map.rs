@@ -10,10 +10,10 @@ use super::level;
 use super::marks::{line, marks, silent, strokes, words};
 use super::palette::{WARNING, colour, dash};
 use crate::cells::{Cell, cells, rpm};
+use crate::frame::Frame;
 use crate::level::{LevelColour, axis as level_axis};
 use crate::map_view::{DRIVEN, OrderLine, QUIETEST, VerticalAxis, View, lobes};
 use crate::marks::{critical_words, driven_words, known_to, linear_words};
-use crate::spectrum::Frame;
 use crate::window::Window;
 use crate::{heat, interaction_map as drawing, validity};
 use rubmap_analysis::result::{Campbell, CriticalSpeed, CriticalSpeeds, InteractionMap, StiffeningVerdict};
@@ -33,7 +33,7 @@ const LEVEL: [f64; 2] = [0.76, 1.0];
 /// The colours of the map are the logarithms of amplitudes to the base of 10; `customdata` holds for every cell the amplitude itself, its
 /// frequency in Hz (with frequencies on the vertical axis: its engine order), and the speed in rad/s. `layout.meta.amplitude` says how to
 /// show it linearly.
-pub fn interaction_map(
+pub(crate) fn interaction_map(
     map: &InteractionMap,
     critical: Option<&CriticalSpeeds>,
     campbell: Option<&Campbell>,
@@ -45,7 +45,7 @@ pub fn interaction_map(
 }
 
 /// Interaction map in the fixed frame, as [`fixed_frame_map`](crate::fixed_frame_map) draws it, with the cells of [`interaction_map`].
-pub fn fixed_frame_map(
+pub(crate) fn fixed_frame_map(
     map: &InteractionMap,
     critical: Option<&CriticalSpeeds>,
     axis_upwards: VerticalAxis,

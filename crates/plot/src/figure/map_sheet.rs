@@ -10,17 +10,17 @@ use super::interaction_map::{engine_orders, upwards};
 use super::level;
 use super::text::escaped;
 use crate::cells::cells;
+use crate::frame::Frame;
 use crate::heat;
 use crate::level::LevelColour;
 use crate::map_sheet::{self as drawing, NO_MAP};
 use crate::map_view::{QUIETEST, VerticalAxis, View};
-use crate::spectrum::Frame;
 use crate::window::Window;
 use rubmap_analysis::result::InteractionMap;
 
 /// Sheet of maps of one sensor restricted to nodal diameters: the same window of each, a panel each with a common colour scale and axes
 /// that move together. With the colours of utilisation there is a strip of them at the top of each map.
-pub fn map_sheet(maps: &[InteractionMap], window: Window, level_colour: LevelColour) -> Figure {
+pub(crate) fn map_sheet(maps: &[InteractionMap], window: Window, level_colour: LevelColour) -> Figure {
     let figure = Figure::new("map_sheet", &drawing::title(maps), &[drawing::words(maps)]);
     let Some(first) = maps.first() else { return figure.empty(NO_MAP) };
     let columns = if maps.len() > 3 { 2 } else { 1 };

@@ -24,16 +24,3 @@ pub(super) fn colour(index: usize, count: usize) -> String {
 pub(super) fn dash(index: usize) -> &'static str {
     ["solid", "dash", "dot", "dashdot"][index % 4]
 }
-
-/// Symbol of the mark with this index, filled or open; symbols repeat.
-pub(super) fn symbol(index: usize, filled: bool) -> &'static str {
-    let (full, open) = [
-        ("circle", "circle-open"),
-        ("square", "square-open"),
-        ("triangle-up", "triangle-up-open"),
-        ("diamond", "diamond-open"),
-        ("triangle-down", "triangle-down-open"),
-        ("hexagon", "hexagon-open"),
-    ][index % 6];
-    if filled { full } else { open }
-}

@@ -1,5 +1,6 @@
 //! Frame of a report: one file that contains its style.
 
+use crate::drawing::Drawing;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use super::head::Head;
@@ -53,8 +54,13 @@ pub(super) fn facts_table(facts: impl IntoIterator<Item = (impl maud::Render, St
     }
 }
 
-/// Embeds a drawing of this crate, whose texts are escaped where they are drawn.
-pub(super) fn drawing(svg: &str) -> Markup {
+/// Embeds a drawing of this crate.
+pub(super) fn drawing(drawing: &Drawing<'_>) -> Markup {
+    picture(&drawing.svg())
+}
+
+/// Embeds an SVG of this crate, whose texts are escaped where they are drawn.
+pub(super) fn picture(svg: &str) -> Markup {
     // An XML declaration belongs to a file of its own only.
     let element = svg.find("<svg").map_or("", |start| &svg[start..]);
     html! { figure { (PreEscaped(element)) } }

@@ -6,7 +6,7 @@ use rubmap_analysis::result::{
     ValidityVerdict, stress_unit,
 };
 
-use super::page::{drawing, facts_table};
+use super::page::{drawing, facts_table, picture};
 use crate::axis::significant;
 use crate::cells::rpm;
 use crate::{HaighColour, SurfaceView, validity};
@@ -201,8 +201,8 @@ pub(super) fn pictures(surfaces: &[(FieldSurface, SurfaceView)]) -> Markup {
         @if !surfaces.is_empty() {
             h2 { "Shapes and stresses" }
             @for (surface, front) in surfaces {
-                (drawing(&crate::surface(surface, *front)))
-                (drawing(&crate::surface(surface, SurfaceView::Meridional)))
+                (picture(&crate::surface(surface, *front)))
+                (picture(&crate::surface(surface, SurfaceView::Meridional)))
             }
         }
     }

@@ -5,8 +5,9 @@ use serde_json::json;
 
 use super::branched::{marched, over_clearance, resonance, way};
 use super::figures::{numbers, trace};
+use super::pens::figure;
+use super::pens::svg::branches;
 use super::{corners, of_class, tick};
-use crate::{branches, figure};
 use rubmap_analysis::result::{Branches, Point, Stability};
 
 /// Changes of a line from solid to dashed are where the bifurcation and its mark are.
@@ -15,12 +16,19 @@ fn lines_change_where_the_bifurcation_is() {
     let of = resonance(true);
     let drawing = branches(&of, 0, &[]);
     let read = Document::parse(&drawing).unwrap();
-    let lines: Vec<_> = of_class(&read, "branch")
-        .last()
-        .unwrap()
-        .children()
-        .filter(|node| node.has_tag_name("path"))
-        .collect();
+    let of_first = |node: &roxmltree::Node| {
+        let title = node.first_element_child().and_then(|title| title.text());
+        node.has_tag_name("path") && title.is_some_and(|title| title.starts_with("branch 1"))
+    };
+    let mut left: Vec<_> = read.descendants().filter(of_first).collect();
+    // The branch begins at the lowest speed; every line goes on where the one before ends.
+    left.sort_by(|a, b| corners(*b)[0].0.total_cmp(&corners(*a)[0].0));
+    let mut lines = vec![left.pop().unwrap()];
+    while let Some(next) =
+        left.iter().position(|line| corners(*lines.last().unwrap()).last() == corners(*line).first())
+    {
+        lines.push(left.remove(next));
+    }
     let kinds: Vec<_> = lines.iter().map(|line| line.attribute("class").unwrap()).collect();
     assert_eq!(
         kinds,
@@ -70,7 +78,7 @@ fn marks_say_how_far_off_they_may_be() {
 #[test]
 fn keys_explain_the_branches_that_are_there() {
     let of = |branches: &Branches, sensor, marched: &[Point]| {
-        super::drawings::key(&crate::branches(branches, sensor, marched))
+        super::drawings::key(&super::pens::svg::branches(branches, sensor, marched))
     };
     let full = of(&resonance(true), 0, &marched());
     for words in [

@@ -9,14 +9,17 @@ use super::branched::{marched, over_clearance, resonance};
 use super::fixtures::{contact, recorded, sector, spectra, worn};
 use super::impeller::{SECTORS, impeller};
 use super::passed::{many_rates, passed, stayed, through_points};
+use super::pens::svg::{
+    branches, campbell, campbell_fixed_frame, critical_speeds, error_over_step, fixed_frame_map, force_map,
+    haigh, histories, interaction_map, map_sheet, run_ups, section, spectrogram, spectrum, speed_histories,
+    trajectories, wear_map, work_precision,
+};
 use super::stresses::{of_sweep, stressed_critical, stressed_map};
 use super::studies::{RUNS, first_revolutions, study};
 use super::{critical, decoded, map, modes, point, units, waves};
 use crate::{
     ForceQuantity, Frame, HaighColour, HistoryQuantity, LevelColour, PngError, SectionView, SpectrogramUnit,
-    SurfaceView, VerticalAxis, Window, branches, campbell, campbell_fixed_frame, critical_speeds,
-    error_over_step, fixed_frame_map, force_map, haigh, histories, interaction_map, map_sheet, png, run_ups,
-    section, spectrogram, spectrum, speed_histories, surface, trajectories, wear_map, work_precision,
+    SurfaceView, VerticalAxis, Window, png, surface,
 };
 
 pub(super) fn credentials() -> Point {

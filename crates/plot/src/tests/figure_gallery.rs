@@ -8,10 +8,11 @@ use super::drawings::{credentials, mm};
 use super::fixtures::{contact, recorded, sector, spectra, worn};
 use super::gallery::read;
 use super::passed::{passed, stayed, through_points};
+use super::pens::figure;
 use super::stresses::{of_sweep, stressed_critical, stressed_map};
 use super::studies::{RUNS, first_revolutions, study};
 use super::{critical, map, modes, waves};
-use crate::figure::{self, Figure};
+use crate::Figure;
 use crate::{
     ForceQuantity, Frame, HaighColour, HistoryQuantity, LevelColour, SectionView, SpectrogramUnit,
     VerticalAxis, Window,

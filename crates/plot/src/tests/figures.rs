@@ -5,10 +5,10 @@ use serde_json::{Value, json};
 use super::drawings::{credentials, mm};
 use super::figure_gallery::all;
 use super::fixtures::{contact, recorded, spectra, worn};
+use super::pens::figure;
 use super::stresses::{of_sweep, stressed_map};
 use super::studies::{RUNS, study};
 use super::{SPEEDS_RPM, critical, map, modes};
-use crate::figure;
 use crate::{ForceQuantity, Frame, HaighColour, HistoryQuantity, LevelColour, VerticalAxis, Window};
 use rubmap_analysis::result::Quantity;
 

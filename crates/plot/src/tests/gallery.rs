@@ -9,13 +9,16 @@ use super::drawings::{credentials, mm};
 use super::fixtures::{contact, recorded, sector, spectra, worn};
 use super::impeller::{SECTORS, impeller};
 use super::passed::{many_rates, passed, stayed, through_points};
+use super::pens::svg::{
+    branches, campbell, campbell_fixed_frame, critical_speeds, error_over_step, force_map, haigh, histories,
+    interaction_map, map_sheet, run_ups, section, spectrogram, spectrum, speed_histories, trajectories,
+    wear_map, work_precision,
+};
 use super::stresses::{of_sweep, stressed_critical, stressed_map};
 use super::studies::{RUNS, first_revolutions, study};
 use crate::{
     ForceQuantity, Frame, HaighColour, HistoryQuantity, LevelColour, SectionView, SpectrogramUnit,
-    SurfaceView, VerticalAxis, Window, branches, campbell, campbell_fixed_frame, critical_speeds,
-    error_over_step, force_map, haigh, histories, interaction_map, map_sheet, png, run_ups, section,
-    spectrogram, spectrum, speed_histories, surface, trajectories, wear_map, work_precision,
+    SurfaceView, VerticalAxis, Window, png, surface,
 };
 use rubmap_analysis::result::{
     Campbell, CriticalSpeeds, InteractionMap, Quantity, SectorGeometry, SpeedSpectra,
@@ -61,7 +64,7 @@ fn gallery() {
         let (map, critical, axis) = (stressed_map(), stressed_critical(), VerticalAxis::EngineOrder);
         save(&folder, name, &interaction_map(&map, Some(&critical), None, axis, Window::default(), by));
     }
-    save(&folder, "campaign", &crate::campaign(&super::campaigns::designs(), 0));
+    save(&folder, "campaign", &super::pens::svg::campaign(&super::campaigns::designs(), 0));
     save(&folder, "critical-speeds-validity", &critical_speeds(&stressed_critical()));
     let zoomed = interaction_map(
         &map,

@@ -10,6 +10,7 @@ mod fixtures;
 mod gallery;
 mod impeller;
 mod passed;
+mod pens;
 mod report;
 mod run_ups;
 mod stresses;
@@ -21,7 +22,8 @@ use std::f64::consts::TAU;
 use roxmltree::{Document, Node};
 use serde_json::{Value, json};
 
-use super::{LevelColour, VerticalAxis, Window, campbell, interaction_map};
+use super::{LevelColour, VerticalAxis, Window};
+use pens::svg::{campbell, interaction_map};
 use rubmap_analysis::result::{Campbell, CriticalSpeeds, InteractionMap, WaveTables};
 
 fn rad_s(rpm: f64) -> f64 {

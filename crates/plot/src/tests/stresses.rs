@@ -6,10 +6,9 @@ use rubmap_analysis::result::{
 };
 use serde_json::{Value, json};
 
+use super::pens::svg::{critical_speeds, haigh, interaction_map, map_sheet};
 use super::{critical, level, map, number, of_class, tick, units};
-use crate::{
-    HaighColour, LevelColour, VerticalAxis, Window, critical_speeds, haigh, interaction_map, map_sheet,
-};
+use crate::{HaighColour, LevelColour, VerticalAxis, Window};
 
 /// Strengths of the blade: fatigue 120 and ultimate 400.
 pub(super) fn strengths() -> Vec<Strengths> {

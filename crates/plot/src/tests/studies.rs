@@ -3,8 +3,8 @@
 use roxmltree::{Document, Node};
 use serde_json::{Value, json};
 
+use super::pens::svg::{histories, work_precision};
 use super::{corners, is_near, level, number, of_class, rad_s, sensor, tick, units};
-use crate::{histories, work_precision};
 use rubmap_analysis::result::Quantity;
 use rubmap_analysis::run::{Histories, WorkPrecision};
 

@@ -1,0 +1,327 @@
+//! Pen that writes a sketch as a figure for Plotly.
+
+use super::attributes::{Axis, Cells as Heat, ColorBar, ErrorBars, Line, Marker, Scatter, Title};
+use super::cells::{MOST, cells, linear, logarithmic, together};
+use super::document::{Figure, axis};
+use super::marks::{bars, scatter, template};
+use super::text::escaped;
+use super::thinned;
+use crate::layer::{Band, Bars, Cells, Course, Curve, Layer, Marks, Place, Told};
+use crate::sketch::{self, Kind, Panel, Sketch, Zoom};
+use crate::style::Look;
+
+/// Writes a sketch as a figure.
+pub(crate) fn figure(sketch: &Sketch) -> Figure {
+    let layers = || sketch.panels.iter().flat_map(|panel| &panel.layers);
+    let sampled = layers().filter_map(|layer| match layer {
+        Layer::Curve(curve) if matches!(curve.told, Told::Template(..)) => Some(curve.strokes.len()),
+        Layer::Curve(_) | Layer::Marks(_) | Layer::Cells(_) | Layer::Drawn(_) => None,
+    });
+    let sampled = sampled.sum();
+    let mut together = 1;
+    let (mut traces, mut grids, mut merged) = (Vec::new(), Vec::new(), Vec::new());
+    for (index, panel) in sketch.panels.iter().enumerate() {
+        for layer in &panel.layers {
+            let trace = match layer {
+                Layer::Curve(found) => curve(found, sampled, &mut together),
+                Layer::Marks(found) => marks(found, panel),
+                Layer::Cells(found) => {
+                    let (grid, words) = grid(found, panel);
+                    grids.push(grid);
+                    merged.extend(words);
+                    continue;
+                }
+                Layer::Drawn(_) => continue,
+            };
+            let trace = if panel.is_apart { trace.xaxis(format!("x{}", index + 1)) } else { trace };
+            traces.push(if index == 0 { trace } else { trace.yaxis(format!("y{}", index + 1)) });
+        }
+    }
+    let words = sketch.paragraphs.iter().chain(&sketch.more).chain(&sketch.footnote).chain(&merged);
+    let words = words.filter(|words| !words.is_empty()).cloned();
+    let words: Vec<String> = words.chain(thinned::words(together)).collect();
+    let figure = Figure::new(sketch.kind, &sketch.title, &words);
+    let figure = sketch.meta.iter().fold(figure, |figure, (name, value)| figure.meta(name, value));
+    if let Some(words) = &sketch.nothing {
+        return figure.empty(words);
+    }
+    let figure = figure.high(sketch.high).with_all(grids).with_all(grouped(layers(), traces));
+    let figure = axes(figure, &sketch.panels);
+    match &sketch.note {
+        Some(words) => figure.note(words, 0.7),
+        None => figure,
+    }
+}
+
+/// Joins traces of one name: shown and hidden together, and named once.
+fn grouped<'a>(layers: impl Iterator<Item = &'a Layer>, traces: Vec<Scatter>) -> Vec<Scatter> {
+    let names = layers.filter_map(|layer| match layer {
+        Layer::Curve(curve) => {
+            Some((&curve.name, curve.group.as_ref().unwrap_or(&curve.name), curve.is_listed))
+        }
+        Layer::Marks(marks) => Some((&marks.name, &marks.name, marks.is_listed)),
+        Layer::Cells(_) | Layer::Drawn(_) => None,
+    });
+    let names: Vec<(&String, &String, bool)> = names.collect();
+    let mut named: Vec<&String> = Vec::new();
+    let grouped = traces.into_iter().zip(&names).map(|(trace, (name, group, is_listed))| {
+        let is_first = *is_listed && !named.contains(name);
+        named.extend(is_first.then_some(*name));
+        let trace = if is_first { trace } else { trace.showlegend(false) };
+        let is_alone = names.iter().filter(|(_, other, _)| other == group).count() == 1;
+        if is_alone { trace } else { trace.legendgroup(escaped(group)) }
+    });
+    grouped.collect()
+}
+
+fn columns(places: &[Option<Place>]) -> (Vec<f64>, Vec<f64>) {
+    places.iter().map(|place| place.unwrap_or((f64::NAN, f64::NAN))).unzip()
+}
+
+/// Trace of a curve, thinned to what a screen shows of so many strokes unless its points have words of their own.
+fn curve(curve: &Curve, sampled: usize, together: &mut usize) -> Scatter {
+    let mut places: Vec<Option<Place>> = Vec::new();
+    for (index, stroke) in curve.strokes.iter().enumerate() {
+        places.extend((index > 0).then_some(None));
+        match &curve.told {
+            Told::Template(..) => {
+                let gap = (f64::NAN, f64::NAN);
+                let all = stroke.places.iter().map(|place| place.unwrap_or(gap)).collect();
+                let (left, here) = thinned::thinned(all, sampled);
+                *together = here.max(*together);
+                places.extend(left.into_iter().map(Some));
+            }
+            Told::Nothing | Told::Each(_) => places.extend(&stroke.places),
+        }
+    }
+    let pen = Line::default().color(curve.pen.colour.screen.as_str());
+    let pen = pen.dash(curve.pen.dash.name()).width(curve.pen.width);
+    let pen = if curve.course == Course::Steps { pen.shape("hv") } else { pen };
+    // A line through one point is invisible.
+    let is_sampled = matches!(curve.told, Told::Template(..));
+    let has_point = !is_sampled && curve.strokes.iter().any(|stroke| stroke.places.len() == 1);
+    let mode = match (&curve.look, curve.labels.is_empty()) {
+        (Some(_), _) => "lines+markers",
+        (None, _) if has_point => "lines+markers",
+        (None, false) => "lines+text",
+        (None, true) => "lines",
+    };
+    let trace = scatter(&curve.name, mode, columns(&places)).line(pen);
+    let trace = match &curve.look {
+        Some(look) => trace.marker(marker(look)),
+        None if has_point => {
+            let marker = Marker::default().size(curve.pen.width.max(5.0));
+            trace.marker(marker.color(curve.pen.colour.screen.as_str()))
+        }
+        None => trace,
+    };
+    let trace = if curve.opacity < 1.0 { trace.opacity(curve.opacity) } else { trace };
+    let trace = match curve.labels.is_empty() {
+        true => trace,
+        false => trace.text(ends(curve)).textposition("bottom left"),
+    };
+    match &curve.told {
+        Told::Nothing => trace.hoverinfo("skip"),
+        Told::Template(words, point) if words.is_empty() => trace.hovertemplate(template(&escaped(point))),
+        Told::Template(words, point) => {
+            trace.hovertemplate(template(&format!("{}<br>{}", escaped(words), escaped(point))))
+        }
+        Told::Each(words) => {
+            let mut words = words.iter().map(|words| escaped(words));
+            let mut told = Vec::new();
+            for (index, stroke) in curve.strokes.iter().enumerate() {
+                told.extend((index > 0).then(String::new));
+                told.extend(words.by_ref().take(stroke.places.len()));
+            }
+            trace.hovertext(told).hoverinfo("text")
+        }
+    }
+}
+
+/// Words at all points of a curve: those of its labels at the last point of every stroke.
+fn ends(curve: &Curve) -> Vec<String> {
+    let mut words = Vec::new();
+    for (index, (stroke, label)) in curve.strokes.iter().zip(&curve.labels).enumerate() {
+        words.extend((index > 0).then(String::new));
+        words.extend(std::iter::repeat_n(String::new(), stroke.places.len().saturating_sub(1)));
+        words.push(escaped(label));
+    }
+    words
+}
+
+fn marker(look: &Look) -> Marker {
+    let marker = Marker::default().symbol(look.symbol.name(look.is_filled)).size(look.size);
+    marker.color(look.colour.screen.as_str())
+}
+
+/// Cells of at most as many columns and rows as a screen shows, and words about those that are merged.
+fn grid(of: &Cells, panel: &Panel) -> (Heat, Option<String>) {
+    let (wide, high) = match of.data.is_empty() {
+        true => (together(of.columns.len(), MOST.0), together(of.rows.len(), MOST.1)),
+        false => (1, 1),
+    };
+    let columns: Vec<&[Band]> = of.columns.chunks(wide).collect();
+    let largest = |rows: &[Vec<Option<f64>>], column: usize| {
+        let all = rows.iter().flat_map(|row| row[column * wide..].iter().take(wide).flatten());
+        all.copied()
+            .filter(|value| value.is_finite())
+            .max_by(f64::total_cmp)
+            .map_or(f32::NAN, |value| value as f32)
+    };
+    let least = panel.ramp.as_ref().filter(|ramp| ramp.is_logarithmic).map(|ramp| ramp.range.0 as f32);
+    let shown = |value: f32| match least {
+        Some(least) if !value.is_nan() => value.max(least).log10(),
+        _ => value,
+    };
+    let row =
+        |rows: &[Vec<Option<f64>>]| (0..columns.len()).map(|column| shown(largest(rows, column))).collect();
+    let values: Vec<Vec<f32>> = of.values.chunks(high).map(row).collect();
+    let middle = |bands: &[Band]| bands[bands.len() / 2].value;
+    let rad_s = |bands: &&[Band]| vec![(middle(bands) * std::f64::consts::TAU / 60.0) as f32];
+    let data = match of.has_speeds {
+        true => values.iter().map(|_| columns.iter().map(rad_s).collect()).collect(),
+        false => of.data.clone(),
+    };
+    let x = match columns[..] {
+        // A single column has its edges: nothing else says how wide it is.
+        [[alone]] => vec![alone.from, alone.to],
+        _ => columns.iter().map(|bands| middle(bands)).collect(),
+    };
+    let y = of.rows.chunks(high).map(middle).collect();
+    let words = (wide * high > 1).then(|| format!("{} {}", wide * high, of.merged));
+    let told: Vec<String> = of.told.iter().map(|line| escaped(line)).collect();
+    (cells((x, y), (values, data), &told.join("<br>"), ("x", "y", "coloraxis")), words)
+}
+
+/// Trace of marks.
+fn marks(marks: &Marks, panel: &Panel) -> Scatter {
+    let places: Vec<Option<Place>> = marks.marks.iter().map(|mark| Some(mark.place)).collect();
+    let words: Vec<String> =
+        marks.marks.iter().map(|mark| escaped(&format!("{}{}", mark.words, mark.more))).collect();
+    let mode = if marks.has_texts { "markers+text" } else { "markers" };
+    let trace = scatter(&marks.name, mode, columns(&places)).hovertext(words).hoverinfo("text");
+    let radii: Option<Vec<f64>> = marks.marks.iter().map(|mark| mark.radius).collect();
+    let marker = match radii {
+        Some(radii) => marker(&marks.look)
+            .size(radii.into_iter().map(|radius| (2.2 * radius).floor()).collect::<Vec<_>>()),
+        None => marker(&marks.look),
+    };
+    let marker = match panel.ramp.as_ref().filter(|_| !marks.values.is_empty()) {
+        Some(ramp) => {
+            let title = Title::default().text(escaped(&ramp.title)).side("right");
+            let bar = ColorBar::default().title(title).thickness(12.0).x(1.01);
+            let marker = marker
+                .color(marks.values.clone())
+                .colorscale("Viridis")
+                .cmin(ramp.range.0)
+                .cmax(ramp.range.1);
+            marker.colorbar(bar).showscale(is_first(panel, marks))
+        }
+        None => marker,
+    };
+    let trace = trace.marker(marker);
+    let indices: Option<Vec<usize>> = marks.marks.iter().map(|mark| mark.index).collect();
+    let trace = match indices {
+        Some(indices) => trace.customdata(indices),
+        None => trace,
+    };
+    let trace = match marks.has_texts {
+        true => {
+            let texts: Vec<String> = marks.marks.iter().map(|mark| escaped(&mark.label)).collect();
+            trace.text(texts).textposition("top right").cliponaxis(false)
+        }
+        false => trace,
+    };
+    let lengths = |of: &Bars| {
+        let bars = bars().array(of.lengths.clone()).color(of.colour.screen.as_str());
+        bars.thickness(1.3).width(4.0)
+    };
+    let trace = match &marks.across {
+        Some(found) => trace.error_x(lengths(found)),
+        None => trace,
+    };
+    match (&marks.bars, marks.stems) {
+        (Some(found), _) => trace.error_y(lengths(found)),
+        (None, Some(_)) => trace.error_y(stems(marks, panel.y.range.0)),
+        (None, None) => trace,
+    }
+}
+
+/// Whether marks are the first of the panel that have values.
+fn is_first(panel: &Panel, marks: &Marks) -> bool {
+    let mut coloured = panel.layers.iter().filter_map(|layer| match layer {
+        Layer::Marks(marks) if !marks.values.is_empty() => Some(marks),
+        _ => None,
+    });
+    coloured.next().is_some_and(|first| std::ptr::eq(first, marks))
+}
+
+/// Stems down to the foot of the axis, as error bars with one end there.
+fn stems(marks: &Marks, foot: f64) -> ErrorBars {
+    let down: Vec<f64> = marks.marks.iter().map(|mark| mark.place.1 - foot).collect();
+    let bars = bars().array(vec![0.0; down.len()]).arrayminus(down).symmetric(false);
+    bars.color(marks.look.colour.screen.as_str()).thickness(1.5).width(0.0)
+}
+
+/// Sets the axes of all panels, which share the horizontal one below the lowest.
+fn axes(figure: Figure, panels: &[Panel]) -> Figure {
+    let Some(first) = panels.first() else { return figure };
+    let name = |index: usize| if index == 0 { String::new() } else { format!("{}", index + 1) };
+    let x = upright(&first.x);
+    let foot = |index: &usize| panels[*index].domain.map_or(0.0, |domain| domain[0]);
+    let shared = (0..panels.len()).filter(|index| !panels[*index].is_apart);
+    let lowest = shared.min_by(|a, b| foot(a).total_cmp(&foot(b))).unwrap_or(0);
+    let x = if panels.len() > 1 { x.anchor(format!("y{}", name(lowest))) } else { x };
+    let has_cells = |panel: &&Panel| panel.layers.iter().any(|layer| matches!(layer, Layer::Cells(_)));
+    let coloured = panels.iter().find(has_cells).and_then(|panel| Some((panel, panel.ramp.as_ref()?)));
+    let figure = match coloured {
+        Some((panel, ramp)) => {
+            let [low, high] = panel.domain.unwrap_or([0.0, 1.0]);
+            let scale = if ramp.is_logarithmic { logarithmic } else { linear };
+            figure.attribute("coloraxis", scale(ramp.range, &ramp.title, (low, high)))
+        }
+        None => figure,
+    };
+    panels.iter().enumerate().fold(figure.axis("xaxis", x), |figure, (index, panel)| {
+        let y = upright(&panel.y);
+        let y = match panel.is_apart {
+            true => y.anchor(format!("x{}", name(index))),
+            false if index == lowest => y,
+            false => y.anchor("x"),
+        };
+        let y = match panel.domain {
+            Some(domain) => y.domain(domain),
+            None => y,
+        };
+        let figure = figure.axis(&format!("yaxis{}", name(index)), y);
+        match panel.is_apart {
+            true => figure.axis(
+                &format!("xaxis{}", name(index)),
+                upright(&panel.x).anchor(format!("y{}", name(index))),
+            ),
+            false => figure,
+        }
+    })
+}
+
+/// Axis of the figure with the title, range and scale of one of the sketch.
+fn upright(of: &sketch::Axis) -> Axis {
+    let (axis, (low, high)) = (axis(&of.title), of.range);
+    let axis = match of.kind {
+        Kind::Logarithmic => return axis.kind("log").range([low.log10(), high.log10()]).exponentformat("e"),
+        Kind::Speeds => axis.exponentformat("none"),
+        Kind::Turn => axis.dtick(45.0).ticksuffix("°"),
+        Kind::Names => {
+            let (values, names): (Vec<f64>, Vec<String>) =
+                of.ticks.iter().map(|(value, name)| (*value, escaped(name))).unzip();
+            axis.tickvals(values).ticktext(names).zeroline(false)
+        }
+        Kind::Linear => axis,
+    };
+    match of.zoom {
+        Zoom::Same => axis.range([low, high]),
+        Zoom::Free => axis,
+        Zoom::OneScale => axis.scaleanchor("x").scaleratio(1.0),
+        Zoom::FromZero => axis.rangemode("tozero"),
+    }
+}
