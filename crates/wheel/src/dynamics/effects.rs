@@ -60,14 +60,4 @@ impl Effects<'_> {
     pub(crate) fn forces_are_known(&self) -> bool {
         !self.excitation.is_empty() || self.euler_force.is_some()
     }
-
-    /// Whether any effect changes the surface that the tips meet.
-    pub(crate) fn change_contact(&self) -> bool {
-        self.friction.is_some()
-            || self.coating.is_some()
-            || self.flexible_casing.is_some()
-            || self.orbit.is_some()
-            || self.clearance_change.is_some()
-            || self.clearance_drift.is_some()
-    }
 }

@@ -1,14 +1,17 @@
 //! Time integration with contact (Eqs 8–10): inputs and results of a run. The loop is in `stepper`.
 
 mod bounds;
+mod contact;
 mod decimation;
 mod detail;
 #[cfg(test)]
 mod digests;
 mod disc;
 mod excursion;
+mod gap_shift;
+mod gaps;
 mod instant;
-mod obstacle;
+mod law;
 mod passage;
 mod passage_error;
 mod recorder;
@@ -23,7 +26,6 @@ mod step_flexibility;
 mod step_range;
 mod stepper;
 mod stretch;
-mod surroundings;
 mod tally;
 mod tips;
 mod trace;

@@ -26,15 +26,14 @@ use super::super::oscillators::driven::Drive;
 use super::super::schemes::Scheme;
 use super::super::statistics::RunStatistics;
 use super::bounds::Bounds;
+use super::contact::Contact;
 use super::instant::Instant;
-use super::obstacle::Obstacle;
 use super::recorder::Recorder;
 use super::repetition::Repetition;
 use super::revolutions::Repeated;
 use super::run::{Outcome, Run};
 use super::simulation::Simulation;
 use super::step_range::{Observer, StepRange};
-use super::surroundings::Surroundings;
 use super::trace::Trace;
 use rubmap_numerics::sector_fourier::SectorFourier;
 
@@ -50,9 +49,7 @@ pub(super) struct Stepper {
     oscillators: Oscillators,
     /// Drive of the wheel by everything but contact.
     drive: Option<Drive>,
-    obstacle: Option<Obstacle>,
-    /// Effects on the obstacle.
-    surroundings: Option<Surroundings>,
+    contact: Option<Contact>,
     /// Whether contact forces act from the instant at which they close a gap, instead of completing its step.
     massless: bool,
     /// Whether modes too fast for the step follow statically.
@@ -98,12 +95,10 @@ impl Stepper {
             follow,
             simulation.initial,
         );
-        let surroundings = Surroundings::new(simulation, &oscillators, &fourier);
-        let obstacle = simulation
-            .casing
-            .map(|casing| Obstacle::new(simulation, casing, &oscillators, &fourier, surroundings.as_ref()));
+        let contact =
+            simulation.casing.map(|casing| Contact::new(simulation, casing, &oscillators, &fourier));
         let bounds = simulation.casing.map(|_| Bounds::new(simulation, &oscillators));
-        let loaded = obstacle.as_ref().map(|obstacle| obstacle.loads(surroundings.as_ref()).rows);
+        let loaded = contact.as_ref().map(|contact| contact.loads().rows);
         let mut drive = Drive::new(
             wheel,
             simulation.contact_nodes.len(),
@@ -116,7 +111,7 @@ impl Stepper {
         if let Some(drive) = &mut drive {
             drive.start(wheel, simulation.initial, &mut oscillators, revolutions);
         }
-        let effects = drive.is_some() || surroundings.is_some();
+        let effects = drive.is_some() || contact.as_ref().is_some_and(Contact::is_affected);
         let repetition = simulation.repeats.map(|repeats| Repetition::new(simulation, repeats, &oscillators));
         Self {
             arch: Arch::new(),
@@ -128,7 +123,7 @@ impl Stepper {
                 simulation,
                 &oscillators,
                 &fourier,
-                obstacle.as_ref().map(|obstacle| obstacle.tally.interval()).unwrap_or_default(),
+                contact.as_ref().map(|contact| contact.tally.interval()).unwrap_or_default(),
             ),
             statistics: RunStatistics::default(),
             energy: EnergyAudit::starting_at(oscillators.energy()),
@@ -136,16 +131,15 @@ impl Stepper {
             fourier,
             oscillators,
             drive,
-            obstacle,
-            surroundings,
+            contact,
             bounds,
         }
     }
 
     #[cfg(test)]
     pub(super) fn replace_restriction(&mut self, restriction: RestrictionTable) {
-        if let Some(obstacle) = &mut self.obstacle {
-            obstacle.restriction = Some(restriction);
+        if let Some(contact) = &mut self.contact {
+            contact.gaps.restriction = Some(restriction);
         }
     }
 
@@ -172,8 +166,8 @@ impl Stepper {
             Err(ended) => *ended,
         };
         self.statistics.casing_amplitude = self.flexible_casing().map(CasingMotion::largest_amplitude);
-        let coating = self.surroundings.as_ref().and_then(Surroundings::coating).cloned();
-        let contact = self.obstacle.as_ref().map(|obstacle| obstacle.tally.record().clone());
+        let coating = self.contact.as_ref().and_then(Contact::coating).cloned();
+        let contact = self.contact.as_ref().map(|contact| contact.tally.record().clone());
         let repeated = match &outcome {
             Outcome::Completed(history) => history.repeated,
             _ => None,
@@ -194,8 +188,8 @@ impl Stepper {
             let (statistics, energy) = (self.statistics, self.energy);
             self.solve(start)?;
             (self.statistics, self.energy) = (statistics, energy);
-            if let Some(obstacle) = &mut self.obstacle {
-                obstacle.tally.sample(|_, _| 0.0, None);
+            if let Some(contact) = &mut self.contact {
+                contact.tally.sample(|_, _| 0.0, None);
             }
         }
         Ok(())
@@ -216,8 +210,8 @@ impl Stepper {
         let mut revolution = 0;
         while revolution < end {
             let windowed = window.contains(&revolution);
-            if windowed && let Some(obstacle) = &mut self.obstacle {
-                obstacle.tally.begin_window();
+            if windowed && let Some(contact) = &mut self.contact {
+                contact.tally.begin_window();
             }
             for before in (0..steps).step_by(sampling) {
                 let range = StepRange { revolution, before, steps: sampling, per_revolution: steps };
@@ -258,9 +252,9 @@ impl Stepper {
     }
 
     /// Tells what the last solution has touch at the end of `step`.
-    fn trace(&mut self, step: usize, trace: &mut Trace) {
-        if let Some(obstacle) = &self.obstacle {
-            obstacle.trace(step, self.surroundings.as_mut(), trace);
+    fn trace(&self, step: usize, trace: &mut Trace) {
+        if let Some(contact) = &self.contact {
+            contact.trace(step, trace);
         }
     }
 
@@ -270,7 +264,7 @@ impl Stepper {
 
     /// Whether effects act on the wheel or on contact.
     fn is_affected(&self) -> bool {
-        self.drive.is_some() || self.surroundings.is_some()
+        self.drive.is_some() || self.contact.as_ref().is_some_and(Contact::is_affected)
     }
 
     /// Stiffness −∂f/∂z of mistuning between the Fourier columns of every family that it couples.
@@ -328,7 +322,7 @@ impl Stepper {
 
     /// Motion that was found to repeat after `revolution`, if the run may end because of it.
     fn repeats(&mut self, revolution: usize) -> Option<Repeated> {
-        let casing = self.surroundings.as_ref().and_then(|surroundings| surroundings.casing.as_ref());
+        let casing = self.contact.as_ref().and_then(Contact::casing);
         self.repetition.as_mut()?.look(revolution, &self.oscillators, casing)
     }
 
@@ -337,11 +331,11 @@ impl Stepper {
     }
 
     pub(super) fn flexible_casing(&self) -> Option<&CasingMotion> {
-        self.surroundings.as_ref()?.casing.as_ref()
+        self.contact.as_ref()?.casing()
     }
 
     pub(super) fn flexible_casing_mut(&mut self) -> Option<&mut CasingMotion> {
-        self.surroundings.as_mut()?.casing.as_mut()
+        self.contact.as_mut()?.casing_mut()
     }
 }
 

@@ -39,7 +39,7 @@ impl Stepper {
 
     #[inline(always)]
     fn read_on<S: Simd>(&mut self, simd: S, windowed: bool) {
-        let force = self.obstacle.as_ref().map(|obstacle| obstacle.force.as_slice());
+        let force = self.contact.as_ref().map(|contact| contact.force.as_slice());
         let step = self.statistics.steps;
         self.recorder.read(simd, &self.oscillators, &self.fourier, force, step, windowed);
     }
@@ -51,7 +51,7 @@ impl Stepper {
         energy: f64,
         revolutions: f64,
     ) -> Result<(), Box<Outcome>> {
-        let force = self.obstacle.as_ref().map_or(&[][..], |obstacle| obstacle.force.as_slice());
+        let force = self.contact.as_ref().map_or(&[][..], |contact| contact.force.as_slice());
         let tip = match &mut self.bounds {
             Some(bounds) => bounds.exceeded(simd, &self.oscillators, &self.fourier, energy, force),
             None => None,
@@ -78,15 +78,14 @@ impl WithSimd for Solve<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
         let Self { stepper, now } = self;
-        let Stepper { fourier, oscillators, drive, obstacle: Some(obstacle), surroundings, .. } = stepper
-        else {
+        let Stepper { fourier, oscillators, drive, contact: Some(contact), .. } = stepper else {
             return Ok(());
         };
         let swing = drive.as_ref().map_or(oscillators.swung(), Drive::swung);
         let read = |rows: &Rows, out: &mut [f64]| oscillators.project_of(simd, swing, rows, out);
         let (statistics, work) = (&mut stepper.statistics, stepper.energy.effects_mut());
-        obstacle
-            .solve(fourier, now, surroundings.as_mut(), read, statistics, work)
+        contact
+            .solve(fourier, now, read, statistics, work)
             .map_err(|error| Box::new(Outcome::ContactFailed { revolutions: now.revolutions, error }))
     }
 }
@@ -102,9 +101,8 @@ impl WithSimd for Look<'_> {
     /// Whether all gaps are open.
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> bool {
-        let Stepper { oscillators, fourier, obstacle, surroundings, .. } = self.stepper;
-        let (now, surroundings) = (self.now, surroundings.as_mut());
-        obstacle.as_mut().is_none_or(|obstacle| obstacle.look(simd, oscillators, fourier, now, surroundings))
+        let Stepper { oscillators, fourier, contact, .. } = self.stepper;
+        contact.as_mut().is_none_or(|contact| contact.look(simd, oscillators, fourier, self.now))
     }
 }
 
@@ -134,17 +132,17 @@ impl WithSimd for Record<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
         let Self { stepper, now, windowed } = self;
-        let Stepper { oscillators, fourier, obstacle, surroundings, statistics, recorder, .. } = stepper;
-        if let Some(obstacle) = obstacle {
-            let left = obstacle.penetration(simd, oscillators, fourier, now, surroundings.as_mut());
+        let Stepper { oscillators, fourier, contact, statistics, recorder, .. } = stepper;
+        if let Some(contact) = contact {
+            let left = contact.penetration(simd, oscillators, fourier, now);
             statistics.largest_penetration = statistics.largest_penetration.max(left);
-            obstacle.end_interval(fourier, recorder.contact_interval(statistics.steps));
+            contact.end_interval(fourier, recorder.contact_interval(statistics.steps));
         }
         let energy = stepper.mechanical_energy();
         stepper.energy.check(energy);
         stepper.read_on(simd, windowed);
-        let Stepper { oscillators, fourier, obstacle, statistics, recorder, .. } = stepper;
-        let force = obstacle.as_ref().map(|obstacle| obstacle.force.as_slice());
+        let Stepper { oscillators, fourier, contact, statistics, recorder, .. } = stepper;
+        let force = contact.as_ref().map(|contact| contact.force.as_slice());
         if windowed {
             recorder.look_at_tips(simd, oscillators, fourier, force);
         }

@@ -8,7 +8,6 @@ use pulp::{Simd, WithSimd};
 use super::super::instant::Instant;
 use super::super::run::Outcome;
 use super::super::step_range::{Observer, StepRange};
-use super::super::surroundings::Surroundings;
 use super::Stepper;
 
 /// Steps between two looks for motion that has decayed to nothing.
@@ -28,7 +27,7 @@ impl Stepper {
         range: StepRange,
         observer: Observer<'_>,
     ) -> Result<(), Box<Outcome>> {
-        match &self.obstacle {
+        match &self.contact {
             _ if self.is_affected() => self.take_by::<S, Affected>(simd, range, observer),
             None => self.take_by::<S, Free>(simd, range, observer),
             Some(_) if self.massless => self.take_by::<S, Massless>(simd, range, observer),
@@ -75,11 +74,8 @@ impl Stepper {
     /// Predicts the gaps (Eq. 9); whether all are open.
     #[inline(always)]
     fn gaps<S: Simd, M: Motion>(&mut self, simd: S, now: Instant) -> bool {
-        match &mut self.obstacle {
-            Some(obstacle) if M::TOUCHES => {
-                let surroundings = M::surroundings(&mut self.surroundings);
-                obstacle.predict_gaps(simd, &self.fourier, now, surroundings) >= 0.0
-            }
+        match &mut self.contact {
+            Some(contact) if M::TOUCHES => contact.gaps.predict(simd, &self.fourier, now) >= 0.0,
             _ => true,
         }
     }
@@ -89,8 +85,9 @@ impl Stepper {
     fn quench<M: Motion>(&mut self) {
         if self.decays && self.statistics.steps.is_multiple_of(QUENCHED_STEPS) {
             self.oscillators.quench();
-            let surroundings = M::surroundings(&mut self.surroundings);
-            if let Some(casing) = surroundings.and_then(|surroundings| surroundings.casing.as_mut()) {
+            if M::EFFECTS
+                && let Some(casing) = self.flexible_casing_mut()
+            {
                 casing.quench();
             }
         }
@@ -126,12 +123,6 @@ trait Motion {
 
     /// Applies the forces that complete the step (Eq. 10) at once, instead of with the next prediction.
     fn apply<S: Simd>(stepper: &mut Stepper, simd: S);
-
-    /// Effects on contact that the loop asks for.
-    #[inline(always)]
-    fn surroundings(of: &mut Option<Surroundings>) -> Option<&mut Surroundings> {
-        if Self::EFFECTS { of.as_mut() } else { None }
-    }
 }
 
 /// Nothing to touch.
@@ -155,18 +146,18 @@ struct Completing;
 impl Motion for Completing {
     #[inline(always)]
     fn predict<S: Simd>(stepper: &mut Stepper, simd: S, _: Instant) {
-        let Stepper { fourier, oscillators, obstacle: Some(obstacle), energy, .. } = stepper else { return };
-        let (loads, reading) = obstacle.loads_and_reading(None);
+        let Stepper { fourier, oscillators, contact: Some(contact), energy, .. } = stepper else { return };
+        let (loads, reading) = contact.loads_and_reading();
         energy.add(oscillators.complete_and_predict(simd, loads, reading));
-        obstacle.clear_forces(fourier);
+        contact.clear_forces(fourier);
     }
 
     #[inline(always)]
     fn apply<S: Simd>(stepper: &mut Stepper, simd: S) {
-        let Stepper { fourier, oscillators, obstacle: Some(obstacle), energy, .. } = stepper else { return };
-        let loads = obstacle.loads(None);
+        let Stepper { fourier, oscillators, contact: Some(contact), energy, .. } = stepper else { return };
+        let loads = contact.loads();
         energy.add(oscillators.complete(simd, loads));
-        obstacle.clear_forces(fourier);
+        contact.clear_forces(fourier);
     }
 }
 
@@ -176,10 +167,10 @@ struct Massless;
 impl Motion for Massless {
     #[inline(always)]
     fn predict<S: Simd>(stepper: &mut Stepper, simd: S, _: Instant) {
-        let Stepper { fourier, oscillators, obstacle: Some(obstacle), energy, .. } = stepper else { return };
-        let (loads, reading) = obstacle.loads_and_reading(None);
+        let Stepper { fourier, oscillators, contact: Some(contact), energy, .. } = stepper else { return };
+        let (loads, reading) = contact.loads_and_reading();
         energy.add(oscillators.advance_loaded(simd, loads, reading));
-        obstacle.clear_forces(fourier);
+        contact.clear_forces(fourier);
     }
 
     #[inline(always)]
@@ -194,16 +185,16 @@ impl Motion for Affected {
 
     #[inline(always)]
     fn predict<S: Simd>(stepper: &mut Stepper, simd: S, now: Instant) {
-        let Stepper { fourier, oscillators, drive, obstacle, surroundings, energy, massless, .. } = stepper;
+        let Stepper { fourier, oscillators, drive, contact, energy, massless, .. } = stepper;
         let work = energy.effects_mut();
-        let Some(obstacle) = obstacle else {
+        let Some(contact) = contact else {
             let exchange = match drive {
                 Some(drive) => oscillators.advance_driven(simd, drive, None, now.before, None, work),
                 None => oscillators.advance(simd),
             };
             return energy.add(exchange);
         };
-        let (loads, reading) = obstacle.loads_and_reading(surroundings.as_ref());
+        let (loads, reading) = contact.loads_and_reading();
         let exchange = match drive {
             None if *massless => oscillators.advance_loaded(simd, loads, reading),
             None => oscillators.complete_and_predict(simd, loads, reading),
@@ -215,26 +206,26 @@ impl Motion for Affected {
             }
         };
         energy.add(exchange);
-        if let Some(casing) = surroundings.as_mut().and_then(|surroundings| surroundings.casing.as_mut()) {
+        if let Some(casing) = contact.casing_mut() {
             energy.add_casing(casing.complete());
             casing.predict();
         }
-        obstacle.clear_forces(fourier);
+        contact.clear_forces(fourier);
     }
 
     #[inline(always)]
     fn apply<S: Simd>(stepper: &mut Stepper, simd: S) {
-        let Stepper { fourier, oscillators, drive, obstacle, surroundings, energy, massless, .. } = stepper;
-        let Some(obstacle) = obstacle.as_mut().filter(|_| !*massless) else { return };
-        let loads = obstacle.loads(surroundings.as_ref());
+        let Stepper { fourier, oscillators, drive, contact, energy, massless, .. } = stepper;
+        let Some(contact) = contact.as_mut().filter(|_| !*massless) else { return };
+        let loads = contact.loads();
         let exchange = match drive {
             Some(drive) => oscillators.complete_driven(simd, drive, loads, energy.effects_mut()),
             None => oscillators.complete(simd, loads),
         };
         energy.add(exchange);
-        if let Some(casing) = surroundings.as_mut().and_then(|surroundings| surroundings.casing.as_mut()) {
+        if let Some(casing) = contact.casing_mut() {
             energy.add_casing(casing.complete());
         }
-        obstacle.clear_forces(fourier);
+        contact.clear_forces(fourier);
     }
 }

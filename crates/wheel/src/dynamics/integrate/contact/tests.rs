@@ -58,23 +58,23 @@ fn simulation<'a>(wheel: &'a ModalWheel, nodes: &'a [ContactNode], casing: &'a C
     }
 }
 
-/// Obstacle of a simulation with its oscillators and Fourier basis.
-fn obstacle(simulation: &Simulation<'_>, initial: &[InitialMode]) -> (Obstacle, Oscillators, SectorFourier) {
+/// Contact of a simulation with its oscillators and Fourier basis.
+fn contact(simulation: &Simulation<'_>, initial: &[InitialMode]) -> (Contact, Oscillators, SectorFourier) {
     let fourier = SectorFourier::new(SECTORS);
     let (scheme, step) = (simulation.scheme, simulation.step_s());
     let oscillators = Oscillators::new(simulation.wheel, scheme, step, None, true, true, initial);
     let casing = simulation.casing.expect("all have one");
-    let obstacle = Obstacle::new(simulation, casing, &oscillators, &fourier, None);
-    (obstacle, oscillators, fourier)
+    let contact = Contact::new(simulation, casing, &oscillators, &fourier);
+    (contact, oscillators, fourier)
 }
 
 /// Gap c − p − nᵀu of a contact node, term by term.
-fn gap(obstacle: &Obstacle, fourier: &SectorFourier, step: usize, sector: usize, node: usize) -> f64 {
-    let stride = obstacle.rows.stride;
-    let columns = obstacle.harmonic.chunks_exact(stride);
+fn gap(contact: &Contact, fourier: &SectorFourier, step: usize, sector: usize, node: usize) -> f64 {
+    let stride = contact.rows.stride;
+    let columns = contact.gaps.harmonic.chunks_exact(stride);
     let u: f64 = fourier.row(sector).iter().zip(columns).map(|(f, column)| f * column[node]).sum();
-    let table = obstacle.restriction.as_ref().expect("there are lobes");
-    obstacle.clearance[node] - table.at(step, sector)[node] - u
+    let table = contact.gaps.restriction.as_ref().expect("there are lobes");
+    contact.gaps.clearance[node] - table.at(step, sector)[node] - u
 }
 
 #[test]
@@ -103,16 +103,16 @@ fn far_sectors_have_bounds_of_their_gaps_and_all_others_their_gaps() {
         };
         let initial: Vec<_> =
             (0..=SECTORS / 2).flat_map(|h| [mode(h, 0, &mut numbers), mode(h, 3, &mut numbers)]).collect();
-        let (mut obstacle, oscillators, fourier) = obstacle(&simulation, &initial);
+        let (mut contact, oscillators, fourier) = contact(&simulation, &initial);
         let now = Instant::new(3, 1 + 8 * turn, STEPS);
-        let open = obstacle.look(pulp::Scalar, &oscillators, &fourier, now, None);
-        let mut gaps = (0..SECTORS * NODES).map(|i| gap(&obstacle, &fourier, now.step, i / NODES, i % NODES));
+        let open = contact.look(pulp::Scalar, &oscillators, &fourier, now);
+        let mut gaps = (0..SECTORS * NODES).map(|i| gap(&contact, &fourier, now.step, i / NODES, i % NODES));
         assert_eq!(open, gaps.all(|gap| gap >= 0.0));
-        let holds = |obstacle: &Obstacle, exactly: bool| {
-            for (sector, gaps) in obstacle.predicted_gap.chunks_exact(obstacle.rows.stride).enumerate() {
+        let holds = |contact: &Contact, exactly: bool| {
+            for (sector, gaps) in contact.gaps.predicted.chunks_exact(contact.rows.stride).enumerate() {
                 for (node, &kept) in gaps[..NODES].iter().enumerate() {
-                    let gap = gap(obstacle, &fourier, now.step, sector, node);
-                    if obstacle.is_far[sector] {
+                    let gap = gap(contact, &fourier, now.step, sector, node);
+                    if contact.gaps.is_far[sector] {
                         assert!(!exactly && 0.0 <= kept && kept <= gap + 1e-14, "{turn}: {kept} {gap}");
                     } else {
                         assert!((kept - gap).abs() < 1e-14, "{turn}: {kept} {gap}");
@@ -120,11 +120,11 @@ fn far_sectors_have_bounds_of_their_gaps_and_all_others_their_gaps() {
                 }
             }
         };
-        holds(&obstacle, false);
-        let these = obstacle.is_far.iter().filter(|far| **far).count();
+        holds(&contact, false);
+        let these = contact.gaps.is_far.iter().filter(|far| **far).count();
         (far, near) = (far + these, near + SECTORS - these);
-        obstacle.complete_gaps(&fourier, now, None);
-        holds(&obstacle, true);
+        contact.gaps.complete(&fourier, now);
+        holds(&contact, true);
     }
     assert!(far > 200 && near > 50, "{far} {near}");
 }
@@ -149,28 +149,28 @@ fn forces_that_close_a_far_gap_are_those_of_all_gaps() {
         displacement: c64::new(4e-4, 3e-4),
         velocity: c64::new(0.0, 0.0),
     };
-    let (mut obstacle, oscillators, fourier) = obstacle(&simulation, &[mode(1), mode(4)]);
+    let (mut contact, oscillators, fourier) = contact(&simulation, &[mode(1), mode(4)]);
     let now = Instant::beginning(1);
-    assert!(!obstacle.look(pulp::Scalar, &oscillators, &fourier, now, None));
-    let was_far = obstacle.is_far.clone();
-    let mut q = vec![f64::INFINITY; obstacle.predicted_gap.len()];
+    assert!(!contact.look(pulp::Scalar, &oscillators, &fourier, now));
+    let was_far = contact.gaps.is_far.clone();
+    let mut q = vec![f64::INFINITY; contact.gaps.predicted.len()];
     for sector in 0..SECTORS {
         for node in 0..NODES {
-            q[sector * obstacle.rows.stride + node] = gap(&obstacle, &fourier, now.step, sector, node);
+            q[sector * contact.rows.stride + node] = gap(&contact, &fourier, now.step, sector, node);
         }
     }
-    let bounds = obstacle.predicted_gap.clone();
+    let bounds = contact.gaps.predicted.clone();
     let (mut statistics, mut work) = (RunStatistics::default(), EffectWork::default());
-    obstacle
-        .solve(&fourier, now, None, |_: &Rows, _: &mut [f64]| (), &mut statistics, &mut work)
+    contact
+        .solve(&fourier, now, |_: &Rows, _: &mut [f64]| (), &mut statistics, &mut work)
         .expect("W is positive definite");
-    let (active, lambda) = (obstacle.solver.active(), obstacle.solver.lambda());
-    let sector = |index: usize| obstacle.delassus.place(index).0;
+    let (active, lambda) = (contact.law.solution().active, contact.law.solution().lambda);
+    let sector = |index: usize| contact.delassus.place(index).0;
     let was_bound = |&&index: &&usize| was_far[sector(index)] && bounds[index] < q[index] - 0.01 * clearance;
     assert!(active.iter().filter(was_bound).count() > 2, "{active:?} {was_far:?}");
-    assert!(!obstacle.is_far.contains(&true));
+    assert!(!contact.gaps.is_far.contains(&true));
     for (i, q) in q.iter().enumerate().filter(|(_, q)| q.is_finite()) {
-        let moved: f64 = active.iter().zip(lambda).map(|(&j, f)| obstacle.delassus.entry(i, j) * f).sum();
+        let moved: f64 = active.iter().zip(lambda).map(|(&j, f)| contact.delassus.entry(i, j) * f).sum();
         match active.iter().position(|&index| index == i) {
             Some(at) => assert!(lambda[at] > 0.0 && (q + moved).abs() < 1e-9, "{i}: {}", q + moved),
             None => assert!(q + moved > -1e-9, "{i}: {}", q + moved),
