@@ -7,6 +7,7 @@ use crate::request::AutoOr;
 use crate::resolved::ResolvedSweep;
 
 /// Time steps and recorded samples of a revolution.
+#[derive(Debug, Clone)]
 pub(super) struct Discretisation {
     /// Steps per revolution S.
     pub(super) per_revolution: usize,

@@ -1,7 +1,9 @@
 //! Histories of one speed of a sweep, which is simulated again to record them.
 
+use std::borrow::Cow;
+
 use crate::component::{along, direction};
-use crate::effects::casing::convert::{heights_before, lasting_clearance};
+use crate::effects::casing::convert::heights_before;
 use crate::end_state::EndState;
 use crate::error::AnalysisError;
 use crate::model::ReducedSector;
@@ -14,8 +16,8 @@ use crate::resolved::{ResolvedCaseStudy, ResolvedSensor, ResolvedSweep};
 use crate::result::{
     ContactHistory, EnergyHistory, Point, PointStatus, SensorHistory, SpeedHistories, TipPlace,
 };
-use crate::speed::{Recording, Start, empty_point, ready, run_speed, simulate};
-use crate::steady::{Simulated, marched};
+use crate::speed::{empty_point, run_speed};
+use crate::speed_scene::{Recording, SpeedScene, Start};
 use crate::summary::critical_indices;
 use rubmap_wheel::dynamics::energy::{EffectWork, EnergyAudit};
 use rubmap_wheel::dynamics::integrate::{Detail, DetailHistory, History, Outcome};
@@ -59,11 +61,11 @@ pub fn speed_histories(
         !monitor.is_cancelled()
     };
     let from_where = start.as_ref().map_or(Start::Scene, Start::After);
-    let ran = ready(reduced, sweep, point.speed_rad_s).and_then(|(wheel, stepping)| {
+    let scene = SpeedScene::new(reduced, Cow::Borrowed(sweep), point.speed_rad_s);
+    let ran = scene.and_then(|scene| {
         let states = record.wants(RecordedQuantity::State).then_some(detail.revolutions);
-        let recording = Recording { detail: Some(detail), states };
-        let simulated = simulate(reduced, &wheel, sweep, &stepping, from_where, recording, &watch)?;
-        Ok((wheel, stepping, simulated))
+        let simulated = scene.simulate(from_where, Recording { detail: Some(detail), states }, &watch)?;
+        Ok((scene, simulated))
     });
     let mut histories = SpeedHistories {
         index: index as u32,
@@ -81,24 +83,20 @@ pub fn speed_histories(
     };
     match ran {
         Err(reason) => point.message = Some(reason.to_string()),
-        Ok((wheel, stepping, Simulated { run, steady })) => {
-            (point.march, point.steady) = (marched(sweep, &run, steady.as_ref()), steady);
-            record_run(&mut point, &run, sweep, &wheel, &stepping, reduced)?;
-            if let (PointStatus::Completed, Outcome::Completed(history)) = (point.status, &run.outcome) {
-                let samples = stepping.discretisation.samples;
+        Ok((scene, simulated)) => {
+            record_run(&mut point, &simulated, &scene)?;
+            let wheel = &scene.wheel;
+            if let (PointStatus::Completed, Outcome::Completed(history)) =
+                (point.status, &simulated.run.outcome)
+            {
+                let samples = scene.stepping.discretisation.samples;
                 histories.samples_per_revolution = samples as u32;
                 let (from, to) = asked.of(sweep.integration.revolutions() as usize, history.repeated);
                 histories.revolutions = whole((from, to));
-                histories.sensors = sensors(
-                    (reduced, point.speed_rad_s),
-                    history,
-                    sweep,
-                    record,
-                    samples * from..samples * to,
-                );
+                histories.sensors = sensors(&scene, history, record, samples * from..samples * to);
                 if let Some(states) = &history.states {
                     let stiffening = sweep.scene.centrifugal_stiffening;
-                    let states = WheelStates::of(states, &wheel, &reduced.wheel, stiffening);
+                    let states = WheelStates::of(states, wheel, &reduced.wheel, stiffening);
                     // This cannot fail: the wheel was made of the same data a moment ago.
                     histories.states = states.ok().map(Box::new);
                 }
@@ -133,34 +131,30 @@ fn state_before(
 }
 
 fn sensors(
-    (reduced, speed_rad_s): (&ReducedSector, f64),
+    scene: &SpeedScene<'_>,
     history: &History,
-    sweep: &ResolvedSweep,
     record: &Recorded,
     samples: std::ops::Range<usize>,
 ) -> Vec<SensorHistory> {
     let velocity = history.detail.as_ref().map_or(&[][..], |detail| &detail.velocity);
     let of = |(sensor, &at): (usize, &ResolvedSensor)| SensorHistory {
         sensor: at.into(),
-        tip: tip((reduced, speed_rad_s), sweep, at),
+        tip: tip(scene, at),
         displacement: match record.wants(RecordedQuantity::Displacement) {
             true => history.displacement[sensor][samples.clone()].to_vec(),
             false => Vec::new(),
         },
         velocity: velocity.get(sensor).cloned().unwrap_or_default(),
     };
-    sweep.sensors.iter().enumerate().map(of).collect()
+    scene.request.sensors.iter().enumerate().map(of).collect()
 }
 
 /// Least cosine of the angle to the contact normal at which a sensor measures the distance to the casing: eight degrees.
 const OUTWARD: f64 = 0.99;
 
 /// Position of a sensor on the contact line relative to the casing, if there is one and the sensor measures towards it.
-fn tip(
-    (reduced, speed_rad_s): (&ReducedSector, f64),
-    sweep: &ResolvedSweep,
-    sensor: ResolvedSensor,
-) -> Option<TipPlace> {
+fn tip(scene: &SpeedScene<'_>, sensor: ResolvedSensor) -> Option<TipPlace> {
+    let reduced = scene.sector;
     let contact = &reduced.wheel.contact;
     let node = match sensor.place {
         Place::Contact(node) => node as usize,
@@ -179,8 +173,8 @@ fn tip(
     let turn = f64::from(sensor.sector) * std::f64::consts::TAU / reduced.wheel.sectors as f64;
     Some(TipPlace {
         angle_rad: contact[node].position[1] + turn,
-        clearance: lasting_clearance(reduced, sweep, speed_rad_s)?[node],
-        heights: heights_before(contact, node, sweep),
+        clearance: scene.lasting_clearance()?[node],
+        heights: heights_before(contact, node, &scene.request),
     })
 }
 

@@ -42,6 +42,7 @@ pub mod result;
 pub mod run;
 mod sensed;
 mod speed;
+mod speed_scene;
 mod start;
 mod steady;
 mod stepping;

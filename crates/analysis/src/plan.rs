@@ -1,5 +1,6 @@
 //! Plans of jobs: work and cost, before they run.
 
+use std::borrow::Cow;
 use std::time::Instant;
 
 use crate::accuracy::rung::pilot_speeds;
@@ -7,10 +8,10 @@ use crate::calibration::Calibration;
 use crate::calibration::effects::EffectSizes;
 use crate::calibration::size::StepSize;
 use crate::diagram::FrequencyDiagram;
-use crate::effects::casing::convert::{casing, check_table, clearance_given, running_clearance};
+use crate::effects::casing::convert::{clearance_given, running_clearance};
 use crate::effects::symmetry::repeats::repeats;
 use crate::effects::symmetry::request::Symmetry;
-use crate::effects::table::{check_at_speed, planned};
+use crate::effects::table::planned;
 use crate::model::{ModelFacts, ReducedSector};
 use crate::request::{HistorySpeeds, Recorded, SweepDirection};
 use crate::resolve::recorded::{lines, revolutions};
@@ -19,8 +20,7 @@ use crate::result::{
     CostRange, Estimate, FoundShape, FoundSymmetry, ModalAnalysisPlan, PlannedPoint, ReductionState,
     SweepPlan,
 };
-use crate::speed::ready;
-use crate::start::initial;
+use crate::speed_scene::SpeedScene;
 use crate::steady::{self, revolutions_taken};
 use crate::stepping::Stepping;
 use rubmap_numerics::sector_fourier::harmonic_count;
@@ -270,20 +270,16 @@ fn plan_point(
     places: u64,
 ) -> PlannedPoint {
     let start = Instant::now();
-    let chosen = ready(reduced, request, speed_rad_s).and_then(|(wheel, stepping)| {
-        let contact = &reduced.wheel.contact;
-        let steps = stepping.discretisation.per_revolution;
-        check_at_speed(&stepping.of(request, &wheel, contact))?;
+    let ready = SpeedScene::new(reduced, Cow::Borrowed(request), speed_rad_s).and_then(|scene| {
+        scene.check()?;
         // While the growth of the tips has still to be solved for, as they are given.
         let clearance = match reduced.growth {
             Some(_) => running_clearance(reduced, request, speed_rad_s)?,
-            None => clearance_given(contact, request),
+            None => clearance_given(&reduced.wheel.contact, request),
         };
-        let ramp = request.integration.ramp_revolutions;
-        let casing = clearance.and_then(|clearance| casing(&reduced.wheel, request, clearance, ramp));
-        check_table(&reduced.wheel, casing.as_ref(), steps)?;
-        initial(request, &wheel, contact, casing.as_ref(), &stepping)?;
-        Ok((wheel, stepping))
+        let casing = scene.casing(clearance, request.integration.ramp_revolutions)?;
+        scene.initial(casing.as_ref())?;
+        Ok(scene)
     });
     let set_up = start.elapsed().as_secs_f64();
     let planned = PlannedPoint {
@@ -297,23 +293,22 @@ fn plan_point(
         computing_time_s: None,
         memory_bytes: 0,
     };
-    let (wheel, stepping) = match chosen {
-        Ok(chosen) => chosen,
+    let scene = match ready {
+        Ok(scene) => scene,
         Err(reason) => return PlannedPoint { message: Some(reason.to_string()), ..planned },
     };
-    let unknowns = stepping.scheme.integrated_unknowns(&wheel);
+    let SpeedScene { wheel, stepping, .. } = &scene;
+    let unknowns = stepping.scheme.integrated_unknowns(wheel);
     let per_revolution = stepping.discretisation.per_revolution as u64;
     let [least, most] = revolutions_taken(request).map(|revolutions| per_revolution * revolutions);
-    let nodes = touching(reduced, request);
+    let nodes = scene.touching();
     let size = StepSize { sectors: wheel.sectors, nodes, unknowns };
-    let effects = EffectSizes::of(&request.scene, &wheel, stepping.scheme, nodes);
+    let effects = EffectSizes::of(&request.scene, wheel, stepping.scheme, nodes);
     let (free, contact) = calibration.step_seconds(size, &effects);
-    let histories = request
-        .histories()
-        .map_or(0, |asked| recorded_bytes(&asked.recorded(), request, &wheel, &stepping, nodes));
+    let histories = request.histories().map_or(0, |asked| recorded_bytes(&asked.recorded(), &scene));
     let windowed = per_revolution * u64::from(request.integration.window_revolutions);
     let spectra = windowed as f64 * calibration.spectra_seconds(size, request.sensors.len());
-    let stress = calibration.stress_seconds(stress_numbers(places, modes(&wheel)));
+    let stress = calibration.stress_seconds(stress_numbers(places, modes(wheel)));
     PlannedPoint {
         integrated_unknowns: unknowns as u32,
         steps_per_revolution: stepping.discretisation.per_revolution as u32,
@@ -322,28 +317,20 @@ fn plan_point(
             free: set_up + stress + least as f64 * free + spectra,
             contact: set_up + stress + most as f64 * contact + spectra,
         }),
-        memory_bytes: running_bytes(&wheel, request, &stepping, nodes)
-            + stress_memory(places, &wheel, &stepping)
-            + histories,
-        scheme: Some(stepping.report),
+        memory_bytes: scene.running_bytes() + stress_memory(places, wheel, stepping) + histories,
+        scheme: Some(scene.stepping.report),
         ..planned
     }
-}
-
-/// Number of contact nodes of a sector that may touch.
-pub(crate) fn touching(reduced: &ReducedSector, request: &ResolvedSweep) -> usize {
-    if request.scene.contact.is_some() { reduced.wheel.contact.len() } else { 0 }
 }
 
 /// Memory that a trial takes while it runs, in bytes; 0 where its speed cannot be integrated.
 pub fn trial_memory(reduced: &ReducedSector, request: &TrialRequest) -> u64 {
     let sweep = &request.sweep;
-    let Ok((wheel, stepping)) = ready(reduced, sweep, request.speed_rad_s()) else { return 0 };
+    let Ok(scene) = SpeedScene::new(reduced, Cow::Borrowed(sweep), request.speed_rad_s()) else { return 0 };
     // A twin has a history of its own.
     let runs = 1 + u64::from(request.twin);
     let places = reduced.stress.as_ref().map_or(0, |stress| stress.places() as u64);
-    runs * running_bytes(&wheel, sweep, &stepping, touching(reduced, sweep))
-        + stress_memory(places, &wheel, &stepping)
+    runs * scene.running_bytes() + stress_memory(places, &scene.wheel, &scene.stepping)
 }
 
 /// Memory that speed `place` of a case study takes while it is recorded, in bytes: its run, and its histories twice, as numbers and as
@@ -351,67 +338,61 @@ pub fn trial_memory(reduced: &ReducedSector, request: &TrialRequest) -> u64 {
 pub fn histories_memory(reduced: &ReducedSector, case: &ResolvedCaseStudy, place: usize) -> u64 {
     let sweep = &case.sweep;
     let speed = sweep.speeds.rad_s()[case.speeds[place] as usize];
-    let Ok((wheel, stepping)) = ready(reduced, sweep, speed) else { return 0 };
-    let nodes = touching(reduced, sweep);
-    let recorded = recorded_bytes(&case.record, sweep, &wheel, &stepping, nodes);
-    recorded + running_bytes(&wheel, sweep, &stepping, nodes)
+    let Ok(scene) = SpeedScene::new(reduced, Cow::Borrowed(sweep), speed) else { return 0 };
+    recorded_bytes(&case.record, &scene) + scene.running_bytes()
 }
 
 /// Memory of histories, in bytes: twice, as numbers and as text.
-fn recorded_bytes(
-    record: &Recorded,
-    sweep: &ResolvedSweep,
-    wheel: &ModalWheel,
-    stepping: &Stepping,
-    nodes: usize,
-) -> u64 {
+fn recorded_bytes(record: &Recorded, scene: &SpeedScene<'_>) -> u64 {
     /// Bytes of a number as numbers and as text.
     const NUMBER: usize = 8 + 24;
+    let SpeedScene { request: sweep, wheel, stepping, .. } = scene;
     let (from, to) = revolutions(record, sweep);
     let state = wheel.harmonics.iter().map(|harmonic| 2 * harmonic.omega.len()).sum();
-    let lines = lines(record, sweep, wheel.sectors * nodes, state);
+    let lines = lines(record, sweep, wheel.sectors * scene.touching(), state);
     (NUMBER * lines * stepping.discretisation.samples * (to - from)) as u64
 }
 
-/// Memory that a speed takes while it runs, in bytes: its modes with the work space of their eigenproblems, the table of the casing, the
-/// histories, the work space of a spectrum, and the spectra, as they are and on their way into the database.
-pub(crate) fn running_bytes(
-    wheel: &ModalWheel,
-    request: &ResolvedSweep,
-    stepping: &Stepping,
-    nodes: usize,
-) -> u64 {
-    const REAL: usize = size_of::<f64>();
-    const COMPLEX: usize = 2 * REAL;
-    let steps = &stepping.discretisation;
-    let (revolutions, window) =
-        (request.integration.revolutions() as usize, request.integration.window_revolutions as usize);
-    let sizes = wheel.harmonics.iter().map(|h| h.omega.len());
-    let eigen = COMPLEX * 6 * sizes.clone().max().unwrap_or(0).pow(2);
-    let shapes: usize = wheel.harmonics.iter().map(|h| COMPLEX * h.contact.nrows() * h.contact.ncols()).sum();
-    let stride = nodes.next_multiple_of(8);
-    let casing = request.scene.casing.as_ref().filter(|_| nodes > 0);
-    let shaped = casing.is_some_and(|casing| !casing.shape.is_circular() || casing.may_press());
-    // Points, heights and bends of measured curves, of the casing and of what is made of it.
-    let measured = casing.and_then(|casing| casing.shape.measured.as_ref());
-    let points = measured.map_or(0, |measured| measured.angles_rad.len() * measured.heights.len());
-    let table = 6 * REAL * points
-        + if shaped {
-            REAL * RestrictionTable::size(steps.per_revolution, wheel.around(), stride)
-        } else {
-            0
-        };
-    // Rows of the sensor nodes in the reduced coordinates and in the modes.
-    let read = 2 * COMPLEX * 3 * request.sensor_nodes().len() * sizes.clone().sum::<usize>();
-    // Normals, tips in three components, sensors.
-    let rows = 2 * REAL * (4 * nodes + request.sensors.len()) * sizes.sum::<usize>() + read;
-    let history =
-        REAL * steps.samples * request.sensors.len() * (revolutions + (2 * wheel.sectors + 1) * window);
-    let spectrum = 4 * COMPLEX * steps.samples * window;
-    let bins = request.max_engine_order as usize * window + 1;
-    let spectra = 4 * REAL * request.sensors.len() * (1 + wheel.harmonics.len()) * bins;
-    let search = steady::memory(request, stepping.scheme.integrated_unknowns(wheel), wheel.sectors * nodes);
-    (eigen + shapes + table + rows + history + spectrum + spectra) as u64 + search
+impl SpeedScene<'_> {
+    /// Memory that a speed takes while it runs, in bytes: its modes with the work space of their eigenproblems, the table of the casing, the
+    /// histories, the work space of a spectrum, and the spectra, as they are and on their way into the database.
+    pub(crate) fn running_bytes(&self) -> u64 {
+        const REAL: usize = size_of::<f64>();
+        const COMPLEX: usize = 2 * REAL;
+        let Self { request, wheel, stepping, .. } = self;
+        let nodes = self.touching();
+        let steps = &stepping.discretisation;
+        let (revolutions, window) =
+            (request.integration.revolutions() as usize, request.integration.window_revolutions as usize);
+        let sizes = wheel.harmonics.iter().map(|h| h.omega.len());
+        let eigen = COMPLEX * 6 * sizes.clone().max().unwrap_or(0).pow(2);
+        let shapes: usize =
+            wheel.harmonics.iter().map(|h| COMPLEX * h.contact.nrows() * h.contact.ncols()).sum();
+        let stride = nodes.next_multiple_of(8);
+        let casing = request.scene.casing.as_ref().filter(|_| nodes > 0);
+        let shaped = casing.is_some_and(|casing| !casing.shape.is_circular() || casing.may_press());
+        // Points, heights and bends of measured curves, of the casing and of what is made of it.
+        let measured = casing.and_then(|casing| casing.shape.measured.as_ref());
+        let points = measured.map_or(0, |measured| measured.angles_rad.len() * measured.heights.len());
+        let table = 6 * REAL * points
+            + if shaped {
+                REAL * RestrictionTable::size(steps.per_revolution, wheel.around(), stride)
+            } else {
+                0
+            };
+        // Rows of the sensor nodes in the reduced coordinates and in the modes.
+        let read = 2 * COMPLEX * 3 * request.sensor_nodes().len() * sizes.clone().sum::<usize>();
+        // Normals, tips in three components, sensors.
+        let rows = 2 * REAL * (4 * nodes + request.sensors.len()) * sizes.sum::<usize>() + read;
+        let history =
+            REAL * steps.samples * request.sensors.len() * (revolutions + (2 * wheel.sectors + 1) * window);
+        let spectrum = 4 * COMPLEX * steps.samples * window;
+        let bins = request.max_engine_order as usize * window + 1;
+        let spectra = 4 * REAL * request.sensors.len() * (1 + wheel.harmonics.len()) * bins;
+        let search =
+            steady::memory(request, stepping.scheme.integrated_unknowns(wheel), wheel.sectors * nodes);
+        (eigen + shapes + table + rows + history + spectrum + spectra) as u64 + search
+    }
 }
 
 /// Memory of mass and stiffness of every nodal diameter, in bytes.

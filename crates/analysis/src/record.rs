@@ -1,19 +1,18 @@
 //! Results of a run: credentials, spectra and steady response of one speed.
 
 use crate::contact::ContactOf;
-use crate::effects::casing::convert::lasting_clearance;
 use crate::effects::casing::shape::Shape;
 use crate::effects::effect::Ran;
 use crate::effects::symmetry::repeats::repeats;
 use crate::effects::table::named;
 use crate::error::AnalysisError;
-use crate::model::ReducedSector;
 use crate::resolved::{ResolvedSensor, ResolvedSweep};
 use crate::result::{
     ContactForces, ContactSummary, EnergyReport, Point, PointStatus, SensorResponse, SensorSpectrum,
     SpeedSpectra,
 };
-use crate::stepping::Stepping;
+use crate::speed_scene::SpeedScene;
+use crate::steady::{Simulated, marched};
 use crate::tips::largest_tip;
 use rubmap_numerics::sector_fourier::{SectorFourier, harmonic_count};
 use rubmap_numerics::spectrum::amplitudes;
@@ -34,12 +33,12 @@ pub(super) struct Recorded {
 /// wheel: sums over the wheel are multiplied here.
 pub(super) fn record_run(
     point: &mut Point,
-    run: &Run,
-    request: &ResolvedSweep,
-    wheel: &ModalWheel,
-    stepping: &Stepping,
-    sector: &ReducedSector,
+    simulated: &Simulated,
+    scene: &SpeedScene<'_>,
 ) -> Result<Option<Recorded>, AnalysisError> {
+    let Simulated { run, steady } = simulated;
+    let SpeedScene { sector, request, wheel, stepping } = scene;
+    (point.march, point.steady) = (marched(request, run, steady.as_ref()), steady.clone());
     let parts = wheel.repeats as f64;
     let steps = &stepping.discretisation;
     point.smallest_stable_steps_per_revolution = stepping.smallest as u32;
@@ -55,7 +54,7 @@ pub(super) fn record_run(
     point.energy_residual = finite(run.energy.residual());
     point.energy = EnergyReport::of(&run.energy, parts);
     point.largest_energy = finite(parts * run.energy.largest_energy());
-    let clearance = lasting_clearance(sector, request, wheel.speed_rad_s);
+    let clearance = scene.lasting_clearance();
     if let Some(clearance) = clearance.as_ref().filter(|_| request.has_cold_clearances()) {
         point.running_clearance.clone_from(clearance);
     }
@@ -71,7 +70,7 @@ pub(super) fn record_run(
             let judged = history.repeated.map_or(window, |repeated| window.max(2 * repeated.period));
             let settling = judge(&history.displacement, steps.samples, judged, lobes);
             point.settling = Some(settling.beside(strongest_side_bands(&point.responses)));
-            let contact = contact(run, request, wheel, stepping, clearance.as_deref());
+            let contact = contact(run, scene, clearance.as_deref());
             let (summary, forces) = contact.unzip();
             point.contact = summary;
             point.tip = largest_tip(history, clearance.as_deref(), &sector.wheel.contact);
@@ -99,11 +98,10 @@ fn searched(point: &Point, steps_per_revolution: usize) -> u64 {
 /// Contact over the window, as a summary and in full; none for a scene without contact.
 fn contact(
     run: &Run,
-    request: &ResolvedSweep,
-    wheel: &ModalWheel,
-    stepping: &Stepping,
+    scene: &SpeedScene<'_>,
     clearance: Option<&[f64]>,
 ) -> Option<(ContactSummary, ContactForces)> {
+    let SpeedScene { request, wheel, stepping, .. } = scene;
     let of = ContactOf {
         record: run.contact.as_ref()?,
         wheel,

@@ -1,11 +1,8 @@
 //! One speed of a sweep: from the reduced sector to spectra with credentials.
 
+use std::borrow::Cow;
 use std::time::Instant;
 
-use crate::effects::casing::convert::{casing, check_table, running_clearance};
-use crate::effects::damping::convert::modal_damping;
-use crate::effects::physics::Surroundings;
-use crate::effects::table::{SceneEffects, check_at_speed};
 use crate::end_state::{EndState, Shapes};
 use crate::error::AnalysisError;
 use crate::model::ReducedSector;
@@ -15,16 +12,10 @@ use crate::record::{Recorded, record_run};
 use crate::request::SweepDirection;
 use crate::resolved::ResolvedSweep;
 use crate::result::{Point, PointStatus, SpeedResult, WearMap};
-use crate::sensed::sensed;
-use crate::start::{initial, perturbed};
-use crate::steady::{Simulated, marched, repeats, run_steady};
-use crate::stepping::Stepping;
+use crate::speed_scene::{Recording, SpeedScene, Start};
 use crate::stress::{Course, stress_of};
 use crate::validity;
-use crate::wheel::wheel_of;
-use rubmap_wheel::dynamics::integrate::{Detail, Outcome, Revolutions, Run, Simulation};
-use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
-use rubmap_wheel::dynamics::reduction::ReducedWheel;
+use rubmap_wheel::dynamics::integrate::{Outcome, Run};
 use rubmap_wheel::dynamics::states::WheelStates;
 use rubmap_wheel::revision::VERSION;
 use rubmap_wheel::vectors::vectors;
@@ -47,21 +38,21 @@ pub fn run_speed(
         !monitor.is_cancelled()
     };
     let from = start.map_or(Start::Scene, Start::After);
-    let ran = ready(reduced, request, point.speed_rad_s).and_then(|(wheel, stepping)| {
+    let scene = SpeedScene::new(reduced, Cow::Borrowed(request), point.speed_rad_s);
+    let ran = scene.and_then(|scene| {
         if request.stress_outside().is_some_and(|radius| !reduced.tells_stress(radius)) {
             return Err(NotRunnable::UnreadStress);
         }
-        let simulated = simulate(reduced, &wheel, request, &stepping, from, Recording::of(request), &watch)?;
-        Ok((wheel, stepping, simulated))
+        let simulated = scene.simulate(from, Recording::of(request), &watch)?;
+        Ok((scene, simulated))
     });
     match ran {
         Err(reason) => point.message = Some(reason.to_string()),
-        Ok((wheel, stepping, Simulated { run, steady })) => {
-            (point.march, point.steady) = (marched(request, &run, steady.as_ref()), steady);
-            recorded = record_run(&mut point, &run, request, &wheel, &stepping, reduced)?;
-            judge_run(&mut point, &run, reduced, request, &wheel);
-            end_state = end_state_of(&run, &reduced.wheel, &wheel, request);
-            wear = run.coating.as_ref().map(WearMap::of);
+        Ok((scene, simulated)) => {
+            recorded = record_run(&mut point, &simulated, &scene)?;
+            judge_run(&mut point, &simulated.run, &scene);
+            end_state = end_state_of(&simulated.run, &scene);
+            wear = simulated.run.coating.as_ref().map(WearMap::of);
         }
     }
     if start.is_none() && follows_another(request, index) {
@@ -74,14 +65,9 @@ pub fn run_speed(
 }
 
 /// Writes the stress and the validity of linear theory into `point`, from a complete run.
-pub(super) fn judge_run(
-    point: &mut Point,
-    run: &Run,
-    reduced: &ReducedSector,
-    request: &ResolvedSweep,
-    wheel: &ModalWheel,
-) {
+pub(super) fn judge_run(point: &mut Point, run: &Run, scene: &SpeedScene<'_>) {
     let Outcome::Completed(history) = &run.outcome else { return };
+    let SpeedScene { sector: reduced, request, wheel, .. } = scene;
     let stiffening = request.scene.centrifugal_stiffening;
     if let (Some(modes), Some(stress)) = (&history.states, &reduced.stress) {
         let found = WheelStates::of(modes, wheel, &reduced.wheel, stiffening)
@@ -104,40 +90,14 @@ pub(super) fn judge_run(
     point.validity = Some(validity::judge(&history.excursion, point.stress.as_ref(), reduced, request));
 }
 
-/// Wheel of a scene at a speed, with its stepping; or why it cannot be run.
-pub(super) fn ready(
-    reduced: &ReducedSector,
-    request: &ResolvedSweep,
-    speed_rad_s: f64,
-) -> Result<(ModalWheel, Stepping), NotRunnable> {
-    let wheel = wheel_of(&request.scene, &reduced.wheel, speed_rad_s)?;
-    let stepping = Stepping::choose(&wheel, &reduced.wheel.contact, request)?;
-    Ok((wheel, stepping))
-}
-
-/// State from which a run starts.
-#[derive(Debug, Clone, Copy)]
-pub(super) enum Start<'a> {
-    /// Initial state of the scene: rest, or the initial mode.
-    Scene,
-    /// Initial state of the scene with a tiny perturbation of every nodal diameter.
-    Perturbed,
-    /// End of the neighbouring speed.
-    After(&'a EndState),
-}
-
 /// State from which the next speed of a chain starts, if the sweep is a chain and this speed was integrated to its end.
-fn end_state_of(
-    run: &Run,
-    reduced: &ReducedWheel,
-    wheel: &ModalWheel,
-    request: &ResolvedSweep,
-) -> Option<EndState> {
+fn end_state_of(run: &Run, scene: &SpeedScene<'_>) -> Option<EndState> {
+    let SpeedScene { sector, request, wheel, .. } = scene;
     let Outcome::Completed(history) = &run.outcome else { return None };
     if request.sweep == SweepDirection::Independent {
         return None;
     }
-    let shapes = Shapes::of(wheel, reduced, request.scene.centrifugal_stiffening).ok()?;
+    let shapes = Shapes::of(wheel, &sector.wheel, request.scene.centrifugal_stiffening).ok()?;
     Some(EndState::new(&history.end, &shapes))
 }
 
@@ -193,106 +153,4 @@ pub(super) fn empty_point(
         version: VERSION.to_owned(),
         vectors: Some(vectors()),
     }
-}
-
-/// Additional recording of a run.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Recording {
-    /// Details of chosen revolutions.
-    pub(super) detail: Option<Detail>,
-    /// Revolutions of which all modes are recorded.
-    pub(super) states: Option<Revolutions>,
-}
-
-impl Recording {
-    /// Recording at every speed of a sweep: the last revolution, if stress is asked for.
-    pub(super) fn of(request: &ResolvedSweep) -> Self {
-        Self { detail: None, states: request.stress_outside().map(|_| Revolutions::Last(1)) }
-    }
-}
-
-/// Runs a scene on `wheel`; or says why it cannot be run.
-pub(super) fn simulate(
-    sector: &ReducedSector,
-    wheel: &ModalWheel,
-    request: &ResolvedSweep,
-    stepping: &Stepping,
-    start: Start<'_>,
-    recording: Recording,
-    watch: &dyn Fn(f64) -> bool,
-) -> Result<Simulated, NotRunnable> {
-    let reduced = &*sector.wheel;
-    // A wheel that comes from another speed is in contact with a casing that is there.
-    let ramp_revolutions = match start {
-        Start::After(_) => 0.0,
-        Start::Scene | Start::Perturbed => request.integration.ramp_revolutions,
-    };
-    staged(sector, wheel, request, stepping, ramp_revolutions, |staged| {
-        let casing = staged.casing;
-        let mut initial = match start {
-            Start::After(state) => {
-                let shapes = Shapes::of(wheel, reduced, request.scene.centrifugal_stiffening)?;
-                let modes = state.modes(wheel, &shapes, reduced, stepping.scheme);
-                modes.ok_or(NotRunnable::OtherReduction)?
-            }
-            Start::Scene | Start::Perturbed => initial(request, wheel, &reduced.contact, casing, stepping)?,
-        };
-        let repeats = repeats(request, recording.detail, wheel.around());
-        if matches!(start, Start::Perturbed) {
-            initial = perturbed(initial, wheel, casing);
-        }
-        // Where a march ends early, a motion that breaks the symmetry must not have to grow out of round-off first.
-        let aside = (casing.is_some() && repeats.is_some_and(|repeats| repeats.symmetry > 1))
-            .then(|| perturbed(initial.clone(), wheel, casing));
-        let Recording { detail, states } = recording;
-        let simulation = Simulation { initial: &initial, repeats, detail, states, ..staged };
-        if let Some(aside) = aside {
-            let simulated = run_steady(&Simulation { initial: &aside, ..simulation }, request, watch);
-            // A run without contact breaks no symmetry, and would show only its initial perturbation.
-            if simulated.run.statistics.contact_share() > 0.0 {
-                return Ok(simulated);
-            }
-        }
-        Ok(run_steady(&simulation, request, watch))
-    })?
-}
-
-/// Calls `act` with the simulation of a scene from rest that records only its sensors and returns its result; or says why the scene cannot
-/// be run.
-pub(super) fn staged<T>(
-    sector: &ReducedSector,
-    wheel: &ModalWheel,
-    request: &ResolvedSweep,
-    stepping: &Stepping,
-    ramp_revolutions: f64,
-    act: impl FnOnce(Simulation<'_>) -> T,
-) -> Result<T, NotRunnable> {
-    let (scene, reduced) = (&request.scene, &*sector.wheel);
-    let Stepping { scheme, discretisation: steps, .. } = stepping;
-    check_at_speed(&stepping.of(request, wheel, &reduced.contact))?;
-    let damping = modal_damping(request);
-    let clearance = running_clearance(sector, request, wheel.speed_rad_s)?;
-    let casing = clearance.and_then(|clearance| casing(reduced, request, clearance, ramp_revolutions));
-    check_table(reduced, casing.as_ref(), steps.per_revolution)?;
-    let surroundings =
-        Surroundings { contact_nodes: &reduced.contact, sectors: wheel.around(), ramp_revolutions };
-    let effects = SceneEffects::of(scene, &surroundings)?;
-    let (wheel, sensors) = sensed(sector, wheel, request)?;
-    Ok(act(Simulation {
-        wheel: &wheel,
-        contact_nodes: &reduced.contact,
-        damping: damping.as_ref(),
-        casing: casing.as_ref(),
-        effects: effects.borrow(),
-        initial: &[],
-        scheme: *scheme,
-        sensors: &sensors,
-        steps_per_revolution: steps.per_revolution,
-        samples_per_revolution: steps.samples,
-        revolutions: request.integration.revolutions() as usize,
-        repeats: None,
-        window_revolutions: request.integration.window_revolutions as usize,
-        detail: None,
-        states: None,
-    }))
 }

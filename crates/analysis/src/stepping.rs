@@ -16,6 +16,7 @@ use rubmap_wheel::dynamics::schemes::{Scheme, central_differences, exact_modal, 
 use rubmap_wheel::dynamics::sector::ContactNode;
 
 /// Scheme and steps of one speed.
+#[derive(Debug, Clone)]
 pub(super) struct Stepping {
     pub(super) scheme: Scheme,
     /// Smallest stable number of steps per revolution.

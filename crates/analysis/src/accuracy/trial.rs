@@ -1,5 +1,6 @@
 //! Trials: one speed at one setting, run to be compared with others, with its cost.
 
+use std::borrow::Cow;
 use std::cell::Cell;
 use std::time::Duration;
 
@@ -13,12 +14,11 @@ use crate::record::{Recorded, record_run};
 use crate::request::Setting;
 use crate::request::auto_or::MOST_STEPS;
 use crate::resolved::{ResolvedSweep, TrialRequest};
-use crate::result::{Cost, SpeedSpectra, SteadyReport, Trial};
-use crate::speed::{Recording, Start, empty_point, judge_run, ready, simulate};
-use crate::steady::{Simulated, marched};
-use crate::stepping::Stepping;
+use crate::result::{Cost, SpeedSpectra, Trial};
+use crate::speed::{empty_point, judge_run};
+use crate::speed_scene::{Recording, SpeedScene, Start};
+use crate::steady::Simulated;
 use rubmap_wheel::dynamics::integrate::{Outcome, Run};
-use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
 use rubmap_wheel::response::sensitivity;
 
 impl Setting {
@@ -76,10 +76,9 @@ pub fn run_trial(
             }
             watch(fraction)
         };
-        let ran = ready(reduced, sweep, speed_rad_s).and_then(|(wheel, stepping)| {
-            let Simulated { run, steady } =
-                simulate(reduced, &wheel, sweep, &stepping, Start::Scene, Recording::of(sweep), &marked)?;
-            Ok((wheel, stepping, run, steady))
+        let ran = SpeedScene::new(reduced, Cow::Borrowed(sweep), speed_rad_s).and_then(|scene| {
+            let simulated = scene.simulate(Start::Scene, Recording::of(sweep), &marked)?;
+            Ok((scene, simulated))
         });
         let whole = clock.elapsed();
         if monitor.is_cancelled() {
@@ -89,11 +88,13 @@ pub fn run_trial(
         // One that was never set up ran no revolution.
         let set_up = set_up.get().unwrap_or(whole);
         // A run that diverged made fewer than were asked for; one that was solved for is as dear as the march in whose place it is.
-        let made =
-            |(_, stepping, run, steady): &(ModalWheel, Stepping, Run, Option<SteadyReport>)| match steady {
-                Some(_) => f64::from(sweep.integration.revolutions()),
-                None => run.statistics.steps as f64 / stepping.discretisation.per_revolution as f64,
-            };
+        let made = |(scene, simulated): &(SpeedScene<'_>, Simulated)| match simulated.steady {
+            Some(_) => f64::from(sweep.integration.revolutions()),
+            None => {
+                let per_revolution = scene.stepping.discretisation.per_revolution;
+                simulated.run.statistics.steps as f64 / per_revolution as f64
+            }
+        };
         let revolutions = ran.as_ref().map_or(0.0, made);
         let running = (whole - set_up).as_secs_f64();
         let per_revolution = if revolutions > 0.0 { running / revolutions } else { 0.0 };
@@ -104,13 +105,13 @@ pub fn run_trial(
         }
     }
     trial.cost = Cost::of(repetitions);
-    let Some((wheel, stepping, run, steady)) = first else { return Ok(trial) };
-    (trial.point.march, trial.point.steady) = (marched(sweep, &run, steady.as_ref()), steady);
-    trial.unknowns = stepping.scheme.integrated_unknowns(&wheel) as u32;
-    let samples = stepping.discretisation.samples;
+    let Some((scene, simulated)) = first else { return Ok(trial) };
+    let run = &simulated.run;
+    trial.unknowns = scene.stepping.scheme.integrated_unknowns(&scene.wheel) as u32;
+    let samples = scene.stepping.discretisation.samples;
     trial.samples_per_revolution = samples as u32;
-    let recorded = record_run(&mut trial.point, &run, sweep, &wheel, &stepping, reduced)?;
-    judge_run(&mut trial.point, &run, reduced, sweep, &wheel);
+    let recorded = record_run(&mut trial.point, &simulated, &scene)?;
+    judge_run(&mut trial.point, run, &scene);
     if let (Outcome::Completed(history), Some(Recorded { spectra, .. })) = (&run.outcome, &recorded) {
         let kept = samples * request.history_revolutions.min(sweep.integration.revolutions()) as usize;
         trial.history = history.displacement.iter().map(|line| line[..kept].to_vec()).collect();
@@ -120,8 +121,7 @@ pub fn run_trial(
         trial.lines = lines(spectra, sweep);
         // A response that was solved for has no history that a perturbation could have changed.
         if request.twin && !trial.point.is_solved() {
-            let twin =
-                simulate(reduced, &wheel, sweep, &stepping, Start::Perturbed, Recording::default(), &watch);
+            let twin = scene.simulate(Start::Perturbed, Recording::default(), &watch);
             if let Ok(Simulated { run: Run { outcome: Outcome::Completed(twin), .. }, .. }) = twin {
                 let from = sweep.integration.ramp_revolutions.ceil() as usize;
                 let (run, twin) = (&history.displacement, &twin.displacement);

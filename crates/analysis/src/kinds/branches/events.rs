@@ -34,12 +34,12 @@ pub(super) struct Event {
 }
 
 /// Search for events on a branch.
-pub(super) struct Events<'a> {
-    pub(super) scenes: &'a Scenes<'a>,
-    pub(super) branch: &'a Branch<'a>,
+pub(super) struct Events<'b, 's> {
+    pub(super) scenes: &'b Scenes<'s>,
+    pub(super) branch: &'b Branch<'b>,
 }
 
-impl Events<'_> {
+impl Events<'_, '_> {
     /// Fold at the middle one of three points, if the branch turns back there.
     pub(super) fn fold(&self, [a, b, c]: [&Motion; 3]) -> Result<Option<(Bifurcation, Motion)>, Lost> {
         let up = (b.value - a.value).signum();

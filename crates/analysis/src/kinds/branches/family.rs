@@ -1,5 +1,6 @@
 //! Scenes along a branch, as the continuation takes them.
 
+use std::borrow::Cow;
 use std::cell::{OnceCell, RefCell};
 use std::rc::Rc;
 
@@ -10,14 +11,12 @@ use crate::not_runnable::NotRunnable;
 use crate::request::{AutoOr, BranchParameter, Setting};
 use crate::resolved::{ResolvedBranches, ResolvedSpeeds, ResolvedSweep};
 use crate::result::SchemeReport;
-use crate::speed::{ready, staged};
-use crate::start::initial;
+use crate::speed_scene::SpeedScene;
 use crate::steady::most_revolutions;
 use crate::stepping::Stepping;
 use rubmap_wheel::dynamics::initial::{InitialMode, Stepped, SteppedMode};
 use rubmap_wheel::dynamics::integrate::{Passage, Simulation};
 use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
-use rubmap_wheel::dynamics::reduction::ReducedWheel;
 use rubmap_wheel::dynamics::schemes::Scheme;
 use rubmap_wheel::dynamics::steady::branch::{Family, Lap, Unreachable};
 use rubmap_wheel::dynamics::steady::response::{Sought, seek};
@@ -33,24 +32,23 @@ pub(super) struct Scenes<'a> {
     report: SchemeReport,
     /// Resolved sweep at the starting value, with the chosen setting.
     sweep: ResolvedSweep,
-    kept: RefCell<Vec<(f64, Rc<Scene>)>>,
+    kept: RefCell<Vec<(f64, Rc<Scene<'a>>)>>,
 }
 
 /// Scene at one value of the parameter.
-pub(super) struct Scene {
-    pub(super) request: ResolvedSweep,
-    pub(super) wheel: ModalWheel,
-    pub(super) stepping: Stepping,
+pub(super) struct Scene<'a> {
+    pub(super) at_speed: SpeedScene<'a>,
     /// Mode shapes of the wheel, once a state has been carried to it or from it.
     shapes: OnceCell<Shapes>,
 }
 
-impl Scene {
-    fn shapes(&self, reduced: &ReducedWheel) -> Result<&Shapes, Unreachable> {
+impl Scene<'_> {
+    fn shapes(&self) -> Result<&Shapes, Unreachable> {
         if let Some(shapes) = self.shapes.get() {
             return Ok(shapes);
         }
-        let shapes = Shapes::of(&self.wheel, reduced, self.request.scene.centrifugal_stiffening)
+        let SpeedScene { sector, request, wheel, .. } = &self.at_speed;
+        let shapes = Shapes::of(wheel, &sector.wheel, request.scene.centrifugal_stiffening)
             .map_err(|error| Unreachable(error.to_string()))?;
         Ok(self.shapes.get_or_init(|| shapes))
     }
@@ -65,8 +63,8 @@ impl<'a> Scenes<'a> {
         let slowest = values.into_iter().map(|value| speed(asked, value)).fold(f64::INFINITY, f64::min);
         let sweep = ResolvedSweep { speeds: ResolvedSpeeds::one(slowest), ..asked.sweep.clone() };
         let chosen = |value: f64| {
-            let ready = ready(sector, &changed(&sweep, asked, value), speed(asked, value));
-            ready.map(|(_, stepping)| stepping)
+            let changed = changed(&sweep, asked, value);
+            SpeedScene::new(sector, Cow::Owned(changed), speed(asked, value)).map(|scene| scene.stepping)
         };
         let choices = [chosen(asked.start())?, chosen(along.from)?, chosen(along.to)?];
         let kept_modes = choices.iter().filter_map(|stepping| match stepping.scheme {
@@ -125,32 +123,28 @@ impl<'a> Scenes<'a> {
         ramp_revolutions: f64,
         act: impl FnOnce(Simulation<'_>, &ModalWheel) -> T,
     ) -> Result<T, NotRunnable> {
-        let scene = self.at(value)?;
-        let Scene { request, wheel, stepping, .. } = &*scene;
-        staged(self.sector, wheel, request, stepping, ramp_revolutions, |simulation| act(simulation, wheel))
+        let scene = &self.at(value)?.at_speed;
+        scene.staged(ramp_revolutions, |simulation| act(simulation, &scene.wheel))
     }
 
     /// Seeks the periodic response at the start, from the initial state of the scene.
     pub(super) fn seek(&self, go_on: &dyn Fn() -> bool) -> Result<Sought, NotRunnable> {
-        let start = self.asked.start();
-        let scene = self.at(start)?;
-        let Scene { request, stepping, .. } = &*scene;
-        let contact_nodes = &self.sector.wheel.contact;
-        self.simulation(start, request.integration.ramp_revolutions, |simulation, wheel| {
-            let initial = initial(request, wheel, contact_nodes, simulation.casing, stepping)?;
+        let scene = &self.at(self.asked.start())?.at_speed;
+        scene.staged(scene.request.integration.ramp_revolutions, |simulation| {
+            let initial = scene.initial(simulation.casing)?;
             let simulation = Simulation { initial: &initial, ..simulation };
-            Ok(seek(&simulation, most_revolutions(request), false, go_on))
+            Ok(seek(&simulation, most_revolutions(&scene.request), false, go_on))
         })?
     }
 
-    pub(super) fn at(&self, value: f64) -> Result<Rc<Scene>, NotRunnable> {
+    pub(super) fn at(&self, value: f64) -> Result<Rc<Scene<'a>>, NotRunnable> {
         let kept = self.kept.borrow().iter().position(|(at, _)| *at == value);
         let scene = match kept {
             Some(index) => self.kept.borrow_mut().remove(index).1,
             None => {
-                let request = changed(&self.sweep, self.asked, value);
-                let (wheel, stepping) = ready(self.sector, &request, self.speed(value))?;
-                Rc::new(Scene { request, wheel, stepping, shapes: OnceCell::new() })
+                let request = Cow::Owned(changed(&self.sweep, self.asked, value));
+                let at_speed = SpeedScene::new(self.sector, request, self.speed(value))?;
+                Rc::new(Scene { at_speed, shapes: OnceCell::new() })
             }
         };
         // The last one asked for is last.
@@ -194,8 +188,9 @@ impl Family for Scenes<'_> {
             increment: mode.velocity,
         };
         let modes: Vec<InitialMode> = state.modes.iter().map(as_initial).collect();
-        let modes = EndState::new(&modes, before.shapes(reduced)?)
-            .modes(&after.wheel, after.shapes(reduced)?, reduced, after.stepping.scheme)
+        let SpeedScene { wheel, stepping, .. } = &after.at_speed;
+        let modes = EndState::new(&modes, before.shapes()?)
+            .modes(wheel, after.shapes()?, reduced, stepping.scheme)
             .ok_or_else(|| unreachable(NotRunnable::OtherReduction))?;
         let mut casing = state.casing.clone();
         casing.iter_mut().flat_map(|wave| &mut wave.increment).for_each(|increment| *increment *= longer);

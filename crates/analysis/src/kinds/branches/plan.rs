@@ -1,5 +1,6 @@
 //! Plan of a branch job: work and cost, before it starts.
 
+use std::borrow::Cow;
 use std::ops::RangeInclusive;
 use std::time::Instant;
 
@@ -12,12 +13,10 @@ use crate::effects::table::planned;
 use crate::end_state::Shapes;
 use crate::model::{ModelFacts, ReducedSector};
 use crate::not_runnable::NotRunnable;
-use crate::plan::{
-    basis_bytes, contact_pairs, reduced_bytes, reduced_unknowns, running_bytes, state, touching, warnings,
-};
+use crate::plan::{basis_bytes, contact_pairs, reduced_bytes, reduced_unknowns, state, warnings};
 use crate::resolved::ResolvedBranches;
 use crate::result::{BranchesPlan, CostRange, Estimate, PlannedResponse};
-use crate::speed::ready;
+use crate::speed_scene::SpeedScene;
 use rubmap_wheel::dynamics::steady::branch::follow::MOST_OF_SPAN;
 use rubmap_wheel::dynamics::steady::response;
 use rubmap_wheel::revision::VERSION;
@@ -102,11 +101,11 @@ fn priced_point(
     let clock = Instant::now();
     let scene = scenes.at(asked.start())?;
     let set_up = clock.elapsed().as_secs_f64();
-    let (wheel, stepping) = (&scene.wheel, &scene.stepping);
-    let nodes = touching(reduced, &scene.request);
+    let SpeedScene { request, wheel, stepping, .. } = &scene.at_speed;
+    let nodes = scene.at_speed.touching();
     let unknowns = stepping.scheme.integrated_unknowns(wheel);
     let size = StepSize { sectors: wheel.sectors, nodes, unknowns };
-    let effects = EffectSizes::of(&scene.request.scene, wheel, stepping.scheme, nodes);
+    let effects = EffectSizes::of(&request.scene, wheel, stepping.scheme, nodes);
     let (free, contact) = calibration.step_seconds(size, &effects);
     let steps_per_revolution = stepping.discretisation.per_revolution;
     let steps = |revolutions: &u64| (revolutions * steps_per_revolution as u64) as f64;
@@ -125,9 +124,9 @@ fn priced_point(
 /// Memory that branches take while they are followed, in bytes: a run of the scene at the start, the search for its response, and the modes
 /// of the other values that are kept.
 pub(crate) fn branches_memory(reduced: &ReducedSector, asked: &ResolvedBranches) -> u64 {
-    let sweep = asked.sweep();
-    let Ok((wheel, stepping)) = ready(reduced, sweep, asked.speed_rad_s()) else { return 0 };
-    let nodes = touching(reduced, sweep);
-    let search = response::memory(wheel.unknowns(), wheel.sectors * nodes) as u64;
-    KEPT as u64 * (running_bytes(&wheel, sweep, &stepping, nodes) + Shapes::bytes(&wheel)) + search
+    let sweep = Cow::Borrowed(asked.sweep());
+    let Ok(scene) = SpeedScene::new(reduced, sweep, asked.speed_rad_s()) else { return 0 };
+    let wheel = &scene.wheel;
+    let search = response::memory(wheel.unknowns(), wheel.sectors * scene.touching()) as u64;
+    KEPT as u64 * (scene.running_bytes() + Shapes::bytes(wheel)) + search
 }

@@ -1,5 +1,6 @@
 //! Legs of run-ups: each takes a run some frames further.
 
+use std::borrow::Cow;
 use std::time::Instant;
 
 use serde::{Deserialize, Serialize};
@@ -17,8 +18,7 @@ use crate::record::cut_short;
 use crate::request::{AutoOr, SchemeChoice};
 use crate::resolved::{ResolvedRunUps, ResolvedSweep};
 use crate::result::{LargestOfRun, PointStatus, RunUpEnd, RunUpFrame, RunUpLeg, SchemeReport};
-use crate::speed::staged;
-use crate::start::initial;
+use crate::speed_scene::SpeedScene;
 use crate::stepping::Stepping;
 use crate::wheel::{rotation, wheel_of};
 use rubmap_wheel::dynamics::clearance_drift::ClearanceDrift;
@@ -124,9 +124,9 @@ impl Steppings {
     }
 }
 
-/// Wheel at the speed of a segment.
-struct Wheel {
-    modal: ModalWheel,
+/// Scene at the speed of a segment, with the mode shapes of its wheel.
+struct SegmentScene<'a> {
+    at_speed: SpeedScene<'a>,
     shapes: Shapes,
 }
 
@@ -197,7 +197,8 @@ impl<'a> March<'a> {
     pub(super) fn begin(&self, sector: &ReducedSector, stepping: &Stepping) -> Result<(), NotRunnable> {
         let Some(first) = self.segments.first() else { return Ok(()) };
         let first = Segment { samples: 1, ..*first };
-        self.take(sector, &first, (None, None), stepping, &mut SoFar::default(), &|_| true).map(|_| ())
+        let scene = self.scene(sector, &first, stepping, None)?;
+        self.take(&scene, &first, None, &mut SoFar::default(), &|_| true).map(|_| ())
     }
 
     /// Takes the run some frames further; `watch` receives the finished share of the run, and the speed.
@@ -217,7 +218,7 @@ impl<'a> March<'a> {
             end: None,
             vectors: vectors(),
         };
-        let mut last: Option<Wheel> = None;
+        let mut last: Option<SegmentScene<'_>> = None;
         let mut steppings = Steppings(Vec::new());
         let of_frame =
             |segment: &Segment| segment.first_sample / (self.samples as u64 * self.frame_revolutions);
@@ -240,22 +241,24 @@ impl<'a> March<'a> {
                     if so_far.scheme.as_ref().is_none_or(|(band, _)| segment.band < *band) {
                         so_far.scheme = Some((segment.band, stepping.report.clone()));
                     }
-                    self.take(sector, segment, (state.as_ref(), last.take()), stepping, &mut so_far, &share)
+                    let scene = self.scene(sector, segment, stepping, last.take())?;
+                    let stretch = self.take(&scene, segment, state.as_ref(), &mut so_far, &share)?;
+                    Ok((scene, stretch))
                 });
                 let failed = match taken {
-                    Ok((wheel, stretch)) => {
+                    Ok((scene, stretch)) => {
                         so_far.steps += stretch.statistics.steps;
                         so_far.gather(&reached(segment, &stretch, &self.profile));
                         so_far.contact_steps += stretch.statistics.contact_steps;
                         match stretch.ended.as_ref().map(cut_short) {
-                            None => Ok((wheel, stretch)),
+                            None => Ok((scene, stretch)),
                             Some(None) => return Err(AnalysisError::Cancelled),
                             Some(Some(reason)) => Err(reason),
                         }
                     }
                     Err(reason) => Err((PointStatus::Failed, reason.to_string())),
                 };
-                let (wheel, stretch) = match failed {
+                let (scene, stretch) = match failed {
                     Ok(taken) => taken,
                     Err((status, message)) => {
                         let told = (self.samples, self.frame_revolutions);
@@ -268,9 +271,9 @@ impl<'a> March<'a> {
                 };
                 frame.add(segment, &stretch, &self.profile);
                 so_far.count(&stretch);
-                state = Some(EndState::new(&stretch.end, &wheel.shapes));
-                so_far.last_energy = Some(modal_energy(&wheel.modal, &stretch.end));
-                last = Some(wheel);
+                state = Some(EndState::new(&stretch.end, &scene.shapes));
+                so_far.last_energy = Some(modal_energy(&scene.at_speed.wheel, &stretch.end));
+                last = Some(scene);
                 done += 1;
             }
             let told = (self.samples, self.frame_revolutions);
@@ -288,49 +291,60 @@ impl<'a> March<'a> {
         Ok((leg, None))
     }
 
-    /// Simulates a segment from `state`, which belongs to the `last` wheel.
+    /// Scene at the speed of a segment; the `last` one if its speed is the same.
+    fn scene<'s>(
+        &self,
+        sector: &'s ReducedSector,
+        segment: &Segment,
+        stepping: &Stepping,
+        last: Option<SegmentScene<'s>>,
+    ) -> Result<SegmentScene<'s>, NotRunnable>
+    where
+        'a: 's,
+    {
+        let (request, speed) = (self.request(), segment.speed_rad_s);
+        let stepping = stepping.clone();
+        if let Some(SegmentScene { at_speed, shapes }) = last
+            && at_speed.wheel.speed_rad_s == speed
+        {
+            return Ok(SegmentScene { at_speed: SpeedScene { stepping, ..at_speed }, shapes });
+        }
+        let (wheel, shapes) = ModalWheel::with_shapes(&sector.wheel, speed, rotation(&request.scene))?;
+        let at_speed = SpeedScene { sector, request: Cow::Borrowed(request), wheel, stepping };
+        Ok(SegmentScene { at_speed, shapes: Shapes::found(shapes) })
+    }
+
+    /// Simulates a segment from the state at its beginning, or from the initial state of the scene.
     fn take(
         &self,
-        sector: &ReducedSector,
+        scene: &SegmentScene<'_>,
         segment: &Segment,
-        (state, last): (Option<&EndState>, Option<Wheel>),
-        stepping: &Stepping,
+        state: Option<&EndState>,
         so_far: &mut SoFar,
         watch: &dyn Fn(f64) -> bool,
-    ) -> Result<(Wheel, Stretch), NotRunnable> {
-        let (request, reduced) = (self.request(), &*sector.wheel);
-        let wheel = match last {
-            Some(wheel) if wheel.modal.speed_rad_s == segment.speed_rad_s => wheel,
-            _ => {
-                let (modal, shapes) =
-                    ModalWheel::with_shapes(reduced, segment.speed_rad_s, rotation(&request.scene))?;
-                Wheel { modal, shapes: Shapes::found(shapes) }
-            }
-        };
+    ) -> Result<Stretch, NotRunnable> {
+        let SpeedScene { sector, request, wheel, stepping } = &scene.at_speed;
         let handed = state.map(|state| {
-            let all = state.modes(&wheel.modal, &wheel.shapes, reduced, Scheme::ExactModal);
+            let all = state.modes(wheel, &scene.shapes, &sector.wheel, Scheme::ExactModal);
             all.ok_or(NotRunnable::OtherReduction)
         });
         let handed = handed.transpose()?;
         let drift = self.drift(sector, segment)?;
-        let euler = self.euler_force(sector, segment, &wheel)?;
-        let ramp = request.integration.ramp_revolutions;
-        let stretch = staged(sector, &wheel.modal, request, stepping, ramp, |staged| {
+        let euler = self.euler_force(scene, segment)?;
+        scene.at_speed.staged(request.integration.ramp_revolutions, |staged| {
             let modes = match handed {
                 Some(all) => {
                     let kept = |mode: &InitialMode| {
-                        mode.family
-                            < stepping
-                                .scheme
-                                .integrated_modes(wheel.modal.harmonics[mode.harmonic].omega.len())
+                        let modes = wheel.harmonics[mode.harmonic].omega.len();
+                        mode.family < stepping.scheme.integrated_modes(modes)
                     };
-                    let energy = modal_energy(&wheel.modal, &all);
+                    let energy = modal_energy(wheel, &all);
                     let kept: Vec<InitialMode> = all.into_iter().filter(kept).collect();
                     so_far.stiffening_work += so_far.last_energy.map_or(0.0, |before| energy - before);
-                    so_far.transfer_loss += (energy - modal_energy(&wheel.modal, &kept)).max(0.0);
+                    so_far.transfer_loss += (energy - modal_energy(wheel, &kept)).max(0.0);
                     kept
                 }
-                None => initial(request, &wheel.modal, &reduced.contact, staged.casing, stepping)?,
+                None => scene.at_speed.initial(staged.casing)?,
             };
             let simulation = Simulation {
                 initial: &modes,
@@ -344,9 +358,8 @@ impl<'a> March<'a> {
                 ..staged
             };
             let part = Part { first_sample: segment.first_sample, samples: segment.samples };
-            Ok::<_, NotRunnable>(simulation.stretch(part, watch))
-        })??;
-        Ok((wheel, stretch))
+            Ok(simulation.stretch(part, watch))
+        })?
     }
 
     /// Change of cold clearances with speed within a segment, whose casing has those of its mean speed; none without cold clearances.
@@ -372,19 +385,16 @@ impl<'a> March<'a> {
     /// Euler force within a segment, where it is asked for.
     fn euler_force(
         &self,
-        sector: &ReducedSector,
+        scene: &SegmentScene<'_>,
         segment: &Segment,
-        wheel: &Wheel,
     ) -> Result<Option<EulerForce>, NotRunnable> {
         if !self.asked.euler_force {
             return Ok(None);
         }
+        let SpeedScene { sector, wheel, .. } = &scene.at_speed;
         let load = sector.euler_load.as_ref().ok_or(NotRunnable::UnreadEulerForce)?.of_unknowns();
         let rate = self.profile.rates(segment.times_s);
-        Ok(Some(EulerForce {
-            rate,
-            load: modal_load(load, wheel.shapes.of_harmonic(0), wheel.modal.sectors),
-        }))
+        Ok(Some(EulerForce { rate, load: modal_load(load, scene.shapes.of_harmonic(0), wheel.sectors) }))
     }
 
     /// Revolutions at which a segment begins and ends.

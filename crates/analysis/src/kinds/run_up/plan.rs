@@ -1,5 +1,6 @@
 //! Plan of run-ups: work and cost, before they begin.
 
+use std::borrow::Cow;
 use std::collections::hash_map::Entry;
 use std::collections::{BTreeMap, HashMap};
 use std::time::Instant;
@@ -14,10 +15,11 @@ use crate::effects::table::planned;
 use crate::end_state::Shapes;
 use crate::model::{ModelFacts, ReducedSector};
 use crate::not_runnable::NotRunnable;
-use crate::plan::{contact_pairs, reduced_bytes, reduced_unknowns, running_bytes, state, touching, warnings};
+use crate::plan::{contact_pairs, reduced_bytes, reduced_unknowns, state, warnings};
 use crate::resolved::ResolvedRunUps;
 use crate::result::{CostRange, Estimate, PlannedEffect, PlannedRunUp, RunUpPlan, SchemeReport};
-use crate::speed::ready;
+use crate::speed_scene::SpeedScene;
+use crate::stepping::touching;
 use crate::wheel::wheel_of;
 use rubmap_wheel::revision::VERSION;
 
@@ -178,7 +180,7 @@ fn price(
     band: u32,
 ) -> Result<BandPrice, NotRunnable> {
     let request = march.request();
-    let nodes = touching(reduced, request);
+    let nodes = touching(&reduced.wheel.contact, request).len();
     let stepping = march.stepping(reduced, band)?;
     let wheel = wheel_of(&request.scene, &reduced.wheel, march.lowest_of(band))?;
     let unknowns = stepping.scheme.integrated_unknowns(&wheel);
@@ -204,13 +206,10 @@ pub(crate) fn run_ups_memory(reduced: &ReducedSector, asked: &ResolvedRunUps) ->
     let sweep = asked.sweep();
     let (lowest, highest) = asked.speed.range();
     let of = |speed: f64| {
-        let (wheel, stepping) = ready(reduced, sweep, speed).ok()?;
+        let scene = SpeedScene::new(reduced, Cow::Borrowed(sweep), speed).ok()?;
         // With Coriolis forces two wheels' gyroscopic matrices, what they make of a step, and the Euler force by them.
         let matrices = 2 + if sweep.scene.coriolis { 4 } else { 0 };
-        Some(
-            running_bytes(&wheel, sweep, &stepping, touching(reduced, sweep))
-                + matrices * Shapes::bytes(&wheel),
-        )
+        Some(scene.running_bytes() + matrices * Shapes::bytes(&scene.wheel))
     };
     let running = [lowest, highest].into_iter().filter_map(of).max().unwrap_or(0);
     let frame = |run: u32| {
