@@ -1,9 +1,12 @@
 //! The contract as a document: what the routes say of themselves, and what follows from their bodies, paths and parameters.
 
+use std::collections::BTreeSet;
+
 use utoipa::openapi::path::{Operation, Parameter, ParameterIn};
+use utoipa::openapi::schema::SchemaType;
 use utoipa::openapi::{
-    ArrayBuilder, ContentBuilder, HeaderBuilder, Object, ObjectBuilder, OpenApi, Ref, RefOr, Response,
-    ResponseBuilder, Schema, Type,
+    ArrayBuilder, ContentBuilder, Header, HeaderBuilder, Object, ObjectBuilder, OpenApi, Ref, RefOr,
+    Response, ResponseBuilder, Schema, Type,
 };
 
 use super::form::Form;
@@ -22,31 +25,7 @@ struct Common {
 }
 
 /// Problems in the order in which a route gets them, unless it describes the status itself.
-const COMMON: [Common; 17] = [
-    Common {
-        name: "NotJson",
-        status: "400",
-        description: "The body is not JSON; `errors` has line and column.",
-        is_of: |_, operation| takes_json(operation),
-    },
-    Common {
-        name: "InvalidParameter",
-        status: "400",
-        description: "A parameter is not valid.",
-        is_of: |_, _| true,
-    },
-    Common {
-        name: "NoToken",
-        status: "401",
-        description: "The service wants a token, and the request has none that it knows.",
-        is_of: |_, _| true,
-    },
-    Common {
-        name: "NotAllowed",
-        status: "403",
-        description: "The token may only read, or a page of another site asks a service without tokens for a change.",
-        is_of: |_, _| true,
-    },
+const COMMON: [Common; 5] = [
     Common {
         name: "NoSuchJob",
         status: "404",
@@ -66,30 +45,6 @@ const COMMON: [Common; 17] = [
         is_of: |_, operation| operation.parameters.iter().flatten().any(is_form),
     },
     Common {
-        name: "BodyStopped",
-        status: "408",
-        description: "The client stopped sending the body.",
-        is_of: |_, operation| operation.request_body.is_some(),
-    },
-    Common {
-        name: "BodyTooLarge",
-        status: "413",
-        description: "The body is too large.",
-        is_of: |_, operation| operation.request_body.is_some(),
-    },
-    Common {
-        name: "NotDeclaredJson",
-        status: "415",
-        description: "The body is not declared as application/json.",
-        is_of: |_, operation| takes_json(operation),
-    },
-    Common {
-        name: "WrongHost",
-        status: "421",
-        description: "The service does not go by the name in the Host header.",
-        is_of: |_, _| true,
-    },
-    Common {
         name: "ImpossibleJob",
         status: "422",
         description: "A field is unknown, missing or impossible, the model is unknown (`errors` points at each), or the idempotency key \
@@ -102,32 +57,37 @@ const COMMON: [Common; 17] = [
         description: "A field is unknown, missing or impossible, or the model is unknown: `errors` points at each.",
         is_of: |_, operation| takes_json(operation),
     },
-    Common {
-        name: "LimitReached",
-        status: "429",
-        description: "The owner has too many models, bytes, waiting speeds, or requests that are being planned; Retry-After says when to \
-                      try again.",
-        is_of: |_, _| true,
-    },
-    Common {
-        name: "Defect",
-        status: "500",
-        description: "A defect, or the storage failed: the service's log says more.",
-        is_of: |_, _| true,
-    },
-    Common {
-        name: "StorageUnavailable",
-        status: "503",
-        description: "The storage cannot be used for the moment; Retry-After says when to try again.",
-        is_of: |_, _| true,
-    },
-    Common {
-        name: "StorageFull",
-        status: "507",
-        description: "The storage is full; Retry-After says when to try again.",
-        is_of: |_, _| true,
-    },
 ];
+
+/// Problems that any route may answer, by status; said once, as the answer of every other status.
+const EVERYWHERE: [(&str, &str); 11] = [
+    ("400", "A parameter is not valid, or the body is not JSON; `errors` has line and column."),
+    ("401", "The service wants a token, and the request has none that it knows."),
+    ("403", "The token may only read, or a page of another site asks a service without tokens for a change."),
+    ("408", "The client stopped sending the body."),
+    ("413", "The body is too large."),
+    ("415", "The body is not declared as application/json."),
+    ("421", "The service does not go by the name in the Host header."),
+    (
+        "429",
+        "The owner has too many models, bytes, waiting speeds, or requests that are being planned; Retry-After says when to try again.",
+    ),
+    ("500", "A defect, or the storage failed: the service's log says more."),
+    ("503", "The storage cannot be used for the moment; Retry-After says when to try again."),
+    ("507", "The storage is full; Retry-After says when to try again."),
+];
+
+/// Name of the answer of every status that a route does not describe.
+const REFUSED: &str = "Refused";
+
+/// Name of the problem that routes describe themselves.
+const PROBLEM: &str = "Problem";
+
+/// Name of the header that identifies a result.
+const TAG: &str = "ETag";
+
+/// Name of the schema of a figure.
+const FIGURE: &str = "Figure";
 
 /// Name of the answer to a client that has the result already.
 const UNCHANGED: &str = "Unchanged";
@@ -153,12 +113,30 @@ pub fn document() -> OpenApi {
             let answers = &mut operation.responses.responses;
             answers.entry((*status).to_owned()).or_insert_with(|| Ref::from_response_name(*name).into());
         }
+        let answers = &mut operation.responses.responses;
+        answers.values_mut().for_each(refer_to_problem);
+        answers.insert("default".to_owned(), Ref::from_response_name(REFUSED).into());
     }
+    let asked = asked(&document);
     let shared = shared_parameters(&mut document);
     let components = document.components.get_or_insert_default();
     label_requests(components);
     for Common { name, description, .. } in COMMON {
         components.responses.insert(name.to_owned(), problem(description).into());
+    }
+    let of_status = |(status, words): &(&str, &str)| format!("\n- {status}: {words}");
+    let refused: String = EVERYWHERE.iter().map(of_status).collect();
+    components.responses.insert(
+        REFUSED.to_owned(),
+        problem(&format!("Problem that any route may answer:\n{refused}")).into(),
+    );
+    components.responses.insert(PROBLEM.to_owned(), problem("The request cannot be answered.").into());
+    components.headers.insert(TAG.to_owned(), tag().into());
+    components.schemas.insert(FIGURE.to_owned(), figure().into());
+    for (name, schema) in &mut components.schemas {
+        if let (RefOr::T(Schema::Object(schema)), false) = (schema, asked.contains(name)) {
+            absent_rather_than_null(schema);
+        }
     }
     components.responses.insert(ACCEPTED.to_owned(), accepted().into());
     let unchanged =
@@ -243,6 +221,80 @@ fn component(parameter: &Parameter) -> String {
         .collect()
 }
 
+/// Names of the schemas of which requests are made.
+fn asked(document: &OpenApi) -> BTreeSet<String> {
+    let mut names = BTreeSet::new();
+    let mut open: Vec<serde_json::Value> = Vec::new();
+    let operations =
+        document.paths.paths.values().flat_map(|item| {
+            [&item.get, &item.post, &item.put, &item.patch, &item.delete].into_iter().flatten()
+        });
+    open.extend(operations.filter_map(|operation| serde_json::to_value(&operation.request_body).ok()));
+    let schemas = document.components.as_ref().map(|components| &components.schemas);
+    while let Some(value) = open.pop() {
+        match value {
+            serde_json::Value::Object(fields) => {
+                let name = fields.get("$ref").and_then(|path| path.as_str()?.rsplit('/').next());
+                if let Some(name) = name
+                    && names.insert(name.to_owned())
+                {
+                    let schema = schemas.and_then(|schemas| schemas.get(name));
+                    open.extend(schema.and_then(|schema| serde_json::to_value(schema).ok()));
+                }
+                open.extend(fields.into_iter().map(|(_, value)| value));
+            }
+            serde_json::Value::Array(values) => open.extend(values),
+            _ => {}
+        }
+    }
+    names
+}
+
+/// Takes `null` out of the fields of an answer that need not be there: they are left out instead.
+fn absent_rather_than_null(answer: &mut Object) {
+    let Object { properties, required, .. } = answer;
+    for (_, property) in properties.iter_mut().filter(|(name, _)| !required.contains(*name)) {
+        match property {
+            RefOr::T(Schema::Object(Object { schema_type, .. })) => {
+                let SchemaType::Array(types) = schema_type else { continue };
+                types.retain(|found| *found != Type::Null);
+                if let [only] = &types[..] {
+                    *schema_type = SchemaType::Type(only.clone());
+                }
+            }
+            RefOr::T(Schema::OneOf(choice)) => {
+                choice.items.retain(|item| !matches!(item, RefOr::T(Schema::Object(object)) if object.schema_type == SchemaType::Type(Type::Null)));
+                if let [RefOr::Ref(only)] = &choice.items[..] {
+                    *property = RefOr::Ref(only.clone());
+                }
+            }
+            _ => {}
+        }
+    }
+}
+
+/// Makes a problem with a description of its own a reference to that which says what a problem is.
+fn refer_to_problem(answer: &mut RefOr<Response>) {
+    if let RefOr::T(Response { description, headers, content, .. }) = answer
+        && headers.is_empty()
+        && content.keys().eq([MEDIA_TYPE])
+    {
+        let mut problem = Ref::from_response_name(PROBLEM);
+        problem.description = std::mem::take(description);
+        *answer = RefOr::Ref(problem);
+    }
+}
+
+/// Header that identifies a result.
+fn tag() -> Header {
+    HeaderBuilder::new()
+        .schema(Some(Object::with_type(Type::String)))
+        .description(Some(
+            "Identity of a result that does not change any more: sent back in `If-None-Match` it is answered with 304.",
+        ))
+        .build()
+}
+
 /// A figure; Plotly's own schema says what is in both.
 fn figure() -> Object {
     ObjectBuilder::new()
@@ -283,18 +335,15 @@ fn add_forms(operation: &mut Operation, forms: &[Form]) {
         for form in forms.iter().filter(|form| **form != Form::Json) {
             // Of what is no text there is nothing more to say (OpenAPI 3.1, 4.8.14).
             let schema = match form {
-                Form::Csv | Form::Svg => Some(Object::with_type(Type::String)),
-                Form::Plotly => Some(figure()),
+                Form::Csv | Form::Svg => Some(RefOr::T(Object::with_type(Type::String).into())),
+                Form::Plotly => Some(RefOr::Ref(Ref::from_schema_name(FIGURE))),
                 _ => None,
             };
             answer
                 .content
                 .insert(form.media_type().to_owned(), ContentBuilder::new().schema(schema).build().into());
         }
-        let tag = HeaderBuilder::new().description(Some(
-            "Of what does not change any more: sent back in `If-None-Match` it is answered with 304.",
-        ));
-        answer.headers.insert("ETag".to_owned(), tag.build().into());
+        answer.headers.insert(TAG.to_owned(), RefOr::Ref(Ref::new(format!("#/components/headers/{TAG}"))));
     }
     responses.insert("304".to_owned(), Ref::from_response_name(UNCHANGED).into());
 }

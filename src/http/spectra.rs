@@ -49,6 +49,7 @@ pub(super) struct SpectraBody {
     /// Units of the model.
     units: Units,
     /// Amplitudes over engine order, per sensor and nodal diameter; null unless `point.status` is `completed`.
+    #[schema(required)]
     spectra: Option<SpeedSpectra>,
     /// Wear of an abradable coating; absent without one.
     #[serde(skip_serializing_if = "Option::is_none")]

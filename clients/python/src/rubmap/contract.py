@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Literal, NotRequired, TypeAlias
+from typing import Any, Literal, NotRequired, TypeAlias
 from typing_extensions import TypedDict
 
 
@@ -78,7 +78,7 @@ Change: TypeAlias = Literal["set", "add", "multiply"]
 class Check(TypedDict):
     detail: str
     name: str
-    value: NotRequired[float | None]
+    value: NotRequired[float]
 
 
 class ClearanceAt(TypedDict, closed=True):
@@ -127,7 +127,7 @@ class ContactHistory(TypedDict):
 
 
 class ContactPlace(TypedDict):
-    clearance: NotRequired[float | None]
+    clearance: NotRequired[float]
     heights: NotRequired[list[float]]
     id: int
     normal: list[float]
@@ -138,21 +138,21 @@ class ContactSummary(TypedDict):
     clearance_consumption: float
     clearance_contact_node: int
     closings_per_revolution: float
-    linear_clearance_consumption: NotRequired[float | None]
+    linear_clearance_consumption: NotRequired[float]
     mean_force: float
-    peak_contact_node: NotRequired[int | None]
+    peak_contact_node: NotRequired[int]
     peak_force: float
     peak_node_force: float
-    peak_sector: NotRequired[int | None]
+    peak_sector: NotRequired[int]
     samples_per_revolution: int
-    worst_sector: NotRequired[int | None]
+    worst_sector: NotRequired[int]
 
 
 class Cost(TypedDict):
     per_revolution_s: float
     repetitions: int
     set_up_s: float
-    spread: NotRequired[float | None]
+    spread: NotRequired[float]
 
 
 class CostRange(TypedDict):
@@ -181,11 +181,11 @@ class DesignOutcome(TypedDict):
     diverged: int
     failed: int
     finished: int
-    meets_limit: NotRequired[bool | None]
-    message: NotRequired[str | None]
+    meets_limit: NotRequired[bool]
+    message: NotRequired[str]
     not_settled: NotRequired[int]
-    severity: NotRequired[float | None]
-    worst_speed_rad_s: NotRequired[float | None]
+    severity: NotRequired[float]
+    worst_speed_rad_s: NotRequired[float]
 
 
 DifferenceVerdict: TypeAlias = Literal["greater", "smaller", "undecided"]
@@ -218,15 +218,15 @@ class EnergyHistory(TypedDict):
 
 
 class EnergyReport(TypedDict):
-    casing_loss: NotRequired[float | None]
-    casing_work: NotRequired[float | None]
+    casing_loss: NotRequired[float]
+    casing_work: NotRequired[float]
     contact_work: float
     damping_loss: float
-    excitation_work: NotRequired[float | None]
+    excitation_work: NotRequired[float]
     final: float
-    friction_heat: NotRequired[float | None]
+    friction_heat: NotRequired[float]
     initial: float
-    mistuning_work: NotRequired[float | None]
+    mistuning_work: NotRequired[float]
 
 
 ContactNode: TypeAlias = int
@@ -242,11 +242,11 @@ class EngineOrderExcitation(TypedDict, closed=True):
 
 class Errors(TypedDict):
     amplitude: float
-    amplitude_spread: NotRequired[float | None]
-    engine_orders: NotRequired[float | None]
-    history: NotRequired[float | None]
-    impulse: NotRequired[float | None]
-    stress: NotRequired[float | None]
+    amplitude_spread: NotRequired[float]
+    engine_orders: NotRequired[float]
+    history: NotRequired[float]
+    impulse: NotRequired[float]
+    stress: NotRequired[float]
 
 
 class Estimate(TypedDict):
@@ -261,6 +261,11 @@ class Estimate(TypedDict):
 class FatigueStrength(TypedDict, closed=True):
     amplitude: float
     source: str
+
+
+class Figure(TypedDict):
+    data: list[dict[str, Any]]
+    layout: dict[str, Any]
 
 
 class FilledHeight(TypedDict):
@@ -325,7 +330,7 @@ Growth: TypeAlias = Literal["chaotic", "quasi_periodic", "stable", "undecided"]
 
 
 class Health(TypedDict):
-    memory_bytes: NotRequired[int | None]
+    memory_bytes: NotRequired[int]
     status: str
     version: str
 
@@ -414,9 +419,9 @@ class Machine(TypedDict):
 
 
 class MarchReport(TypedDict):
-    period_revolutions: NotRequired[int | None]
-    reason: NotRequired[str | None]
-    remaining_change: NotRequired[float | None]
+    period_revolutions: NotRequired[int]
+    reason: NotRequired[str]
+    remaining_change: NotRequired[float]
     revolutions: int
 
 
@@ -512,26 +517,26 @@ class ParameterSensitivity(TypedDict):
 
 
 class PassingRate(TypedDict):
-    about_rad_s2: NotRequired[float | None]
-    enough_rad_s2: NotRequired[float | None]
+    about_rad_s2: NotRequired[float]
+    enough_rad_s2: NotRequired[float]
     limit: float
     message: str
-    too_slow_rad_s2: NotRequired[float | None]
+    too_slow_rad_s2: NotRequired[float]
 
 
 class PlacedSensor(TypedDict):
-    angle_deg: NotRequired[float | None]
-    asked_length: NotRequired[float | None]
-    contact_node: NotRequired[int | None]
-    distance: NotRequired[float | None]
-    end: NotRequired[GaugeEnd | None]
+    angle_deg: NotRequired[float]
+    asked_length: NotRequired[float]
+    contact_node: NotRequired[int]
+    distance: NotRequired[float]
+    end: NotRequired[GaugeEnd]
     node: int
     position: list[float]
     sensor: int
 
 
 class PlannedEffect(TypedDict):
-    adds: NotRequired[str | None]
+    adds: NotRequired[str]
     name: str
     on: bool
 
@@ -539,7 +544,7 @@ class PlannedEffect(TypedDict):
 class PointError(TypedDict):
     controlled: bool
     estimated_error: float
-    estimated_stress_error: NotRequired[float | None]
+    estimated_stress_error: NotRequired[float]
     index: int
 
 
@@ -555,12 +560,12 @@ class Probe(TypedDict, closed=True):
 
 
 class ProblemItem(TypedDict):
-    column: NotRequired[int | None]
+    column: NotRequired[int]
     detail: str
-    file: NotRequired[str | None]
-    line: NotRequired[int | None]
-    parameter: NotRequired[str | None]
-    pointer: NotRequired[str | None]
+    file: NotRequired[str]
+    line: NotRequired[int]
+    parameter: NotRequired[str]
+    pointer: NotRequired[str]
 
 
 Quantity: TypeAlias = Literal[
@@ -612,7 +617,7 @@ SchemeChoice: TypeAlias = Literal[
 
 class SchemeReport(TypedDict):
     following_modes: int
-    kept_modes: NotRequired[int | None]
+    kept_modes: NotRequired[int]
     name: SchemeChoice
     reach_hz: float
     reason: str
@@ -634,10 +639,10 @@ class Sensitivities(TypedDict):
 class Sensitivity(TypedDict):
     growth: NotRequired[Growth]
     last_distance: float
-    rate_error: NotRequired[float | None]
-    rate_from_revolution: NotRequired[int | None]
-    rate_per_revolution: NotRequired[float | None]
-    separated_after_revolutions: NotRequired[int | None]
+    rate_error: NotRequired[float]
+    rate_from_revolution: NotRequired[int]
+    rate_per_revolution: NotRequired[float]
+    separated_after_revolutions: NotRequired[int]
 
 
 class Sensor(TypedDict, closed=True):
@@ -730,14 +735,14 @@ SteadyChoice: TypeAlias = Literal["march", "periodic", "auto"]
 
 
 class SteadyReport(TypedDict):
-    followed_from_damping: NotRequired[float | None]
+    followed_from_damping: NotRequired[float]
     half_peak_to_peak: NotRequired[list[float]]
-    lobe_passages: NotRequired[int | None]
+    lobe_passages: NotRequired[int]
     multipliers: NotRequired[list[FloquetMultiplier]]
-    reason: NotRequired[str | None]
-    residual: NotRequired[float | None]
+    reason: NotRequired[str]
+    residual: NotRequired[float]
     revolutions: float
-    stability: NotRequired[Stability | None]
+    stability: NotRequired[Stability]
     taken: bool
 
 
@@ -756,11 +761,11 @@ StiffeningVerdict: TypeAlias = Literal["absent", "sound", "suspect", "unsound"]
 Strengths = TypedDict(
     "Strengths",
     {
-        "fatigue": NotRequired[float | None],
+        "fatigue": NotRequired[float],
         "set": str,
-        "source": NotRequired[str | None],
-        "ultimate": NotRequired[float | None],
-        "yield": NotRequired[float | None],
+        "source": NotRequired[str],
+        "ultimate": NotRequired[float],
+        "yield": NotRequired[float],
     },
 )
 
@@ -769,13 +774,13 @@ class StressCycle(TypedDict):
     alternating: float
     mean: float
     node: int
-    over_yield: NotRequired[float | None]
+    over_yield: NotRequired[float]
     position: list[float]
     principal_alternating: float
     principal_mean: float
     sector: int
     set: str
-    utilisation: NotRequired[float | None]
+    utilisation: NotRequired[float]
 
 
 class StressPeak(TypedDict):
@@ -803,7 +808,7 @@ class StudyRecord(TypedDict, closed=True):
 
 class StudyReduction(TypedDict):
     modes_per_speed: int
-    stiffening: NotRequired[StiffeningVerdict | None]
+    stiffening: NotRequired[StiffeningVerdict]
     wall_time_s: float
     wheel_unknowns: int
 
@@ -815,12 +820,12 @@ Symmetry: TypeAlias = Literal["full", "exact", "probe"]
 
 
 class SymmetryBreaking(TypedDict):
-    broken_after_revolutions: NotRequired[int | None]
+    broken_after_revolutions: NotRequired[int]
     energy_share: float
     grows: bool
     nodal_diameters: list[int]
-    rate_error: NotRequired[float | None]
-    rate_per_revolution: NotRequired[float | None]
+    rate_error: NotRequired[float]
+    rate_per_revolution: NotRequired[float]
     repeats: int
 
 
@@ -836,7 +841,7 @@ ThresholdShare = TypedDict(
     "ThresholdShare",
     {
         "designs": int,
-        "expected": NotRequired[float | None],
+        "expected": NotRequired[float],
         "from": float,
         "met": int,
         "to": float,
@@ -860,8 +865,8 @@ class TipResponse(TypedDict):
     component: Component
     contact_node: int
     half_peak_to_peak: float
-    over_chord: NotRequired[float | None]
-    over_clearance: NotRequired[float | None]
+    over_chord: NotRequired[float]
+    over_clearance: NotRequired[float]
     rms: float
     sector: int
 
@@ -869,7 +874,7 @@ class TipResponse(TypedDict):
 class Track(TypedDict):
     branch: int
     doubles: NotRequired[list[int | float] | None]
-    lobe_passages: NotRequired[int | None]
+    lobe_passages: NotRequired[int]
 
 
 class TriedModes(TypedDict):
@@ -942,13 +947,13 @@ class WearReport(TypedDict):
 
 
 class WheelCriticalSpeed(TypedDict):
-    amplitude_error: NotRequired[float | None]
+    amplitude_error: NotRequired[float]
     at_edge: bool
-    clearance_consumption: NotRequired[float | None]
+    clearance_consumption: NotRequired[float]
     index: int
-    mean_force: NotRequired[float | None]
+    mean_force: NotRequired[float]
     on_branch: NotRequired[bool]
-    peak_force: NotRequired[float | None]
+    peak_force: NotRequired[float]
     prominence: float
     resolved: bool
     settling: Verdict
@@ -956,8 +961,8 @@ class WheelCriticalSpeed(TypedDict):
     speed_error_rad_s: float
     speed_rad_s: float
     tip: TipResponse
-    utilisation: NotRequired[float | None]
-    validity: NotRequired[ValidityVerdict | None]
+    utilisation: NotRequired[float]
+    validity: NotRequired[ValidityVerdict]
     validity_lacking: NotRequired[list[ValidityMeasure]]
 
 
@@ -982,9 +987,9 @@ class Bifurcation(TypedDict):
     error: float
     half_peak_to_peak: list[float]
     kind: BifurcationKind
-    multiplier: NotRequired[FloquetMultiplier | None]
+    multiplier: NotRequired[FloquetMultiplier]
     speed_rad_s: float
-    stable_modulus: NotRequired[float | None]
+    stable_modulus: NotRequired[float]
     value: float
 
 
@@ -1026,16 +1031,16 @@ CampaignThreshold = TypedDict(
     "CampaignThreshold",
     {
         "decided": int,
-        "from": NotRequired[float | None],
-        "mean": NotRequired[float | None],
+        "from": NotRequired[float],
+        "mean": NotRequired[float],
         "message": str,
-        "met_within": NotRequired[bool | None],
+        "met_within": NotRequired[bool],
         "parameter": str,
         "probability": float,
         "shares": list[ThresholdShare],
-        "standard_deviation": NotRequired[float | None],
-        "to": NotRequired[float | None],
-        "value": NotRequired[float | None],
+        "standard_deviation": NotRequired[float],
+        "to": NotRequired[float],
+        "value": NotRequired[float],
     },
 )
 
@@ -1053,26 +1058,26 @@ class Clearance(TypedDict, closed=True):
 
 
 class Control(TypedDict):
-    differences: NotRequired[Errors | None]
-    estimated_error: NotRequired[float | None]
-    estimated_stress_error: NotRequired[float | None]
+    differences: NotRequired[Errors]
+    estimated_error: NotRequired[float]
+    estimated_stress_error: NotRequired[float]
     index: int
-    message: NotRequired[str | None]
+    message: NotRequired[str]
     setting: Setting
     speed_rad_s: float
-    steady: NotRequired[SteadyReport | None]
+    steady: NotRequired[SteadyReport]
 
 
 class CriticalSpeed(TypedDict):
-    amplitude_error: NotRequired[float | None]
+    amplitude_error: NotRequired[float]
     at_edge: bool
-    distance_rad_s: NotRequired[float | None]
-    dominant_engine_order: NotRequired[float | None]
-    dominant_nodal_diameter: NotRequired[int | None]
+    distance_rad_s: NotRequired[float]
+    dominant_engine_order: NotRequired[float]
+    dominant_nodal_diameter: NotRequired[int]
     frequency_error_rad_s: NotRequired[float]
     half_peak_to_peak: float
     index: int
-    nearest_crossing: NotRequired[Crossing | None]
+    nearest_crossing: NotRequired[Crossing]
     on_branch: NotRequired[bool]
     prominence: float
     resolved: bool
@@ -1080,8 +1085,8 @@ class CriticalSpeed(TypedDict):
     settling: Verdict
     speed_error_rad_s: float
     speed_rad_s: float
-    utilisation: NotRequired[float | None]
-    validity: NotRequired[ValidityVerdict | None]
+    utilisation: NotRequired[float]
+    validity: NotRequired[ValidityVerdict]
     validity_lacking: NotRequired[list[ValidityMeasure]]
 
 
@@ -1095,12 +1100,12 @@ class Design(TypedDict, closed=True):
 Difference = TypedDict(
     "Difference",
     {
-        "from": NotRequired[float | None],
+        "from": NotRequired[float],
         "mean": float,
         "pairs": int,
         "resolution": float,
-        "standard_error": NotRequired[float | None],
-        "to": NotRequired[float | None],
+        "standard_error": NotRequired[float],
+        "to": NotRequired[float],
         "verdict": DifferenceVerdict,
     },
 )
@@ -1112,16 +1117,16 @@ class DrivenCrossing(TypedDict):
     frequency_hz: float
     nodal_diameter: int
     speed_rad_s: float
-    wave: NotRequired[Wave | None]
+    wave: NotRequired[Wave]
 
 
 class ErrorEstimate(TypedDict):
     controls: list[Control]
-    largest: NotRequired[float | None]
-    largest_of_stress: NotRequired[float | None]
+    largest: NotRequired[float]
+    largest_of_stress: NotRequired[float]
     message: str
     points: list[PointError]
-    target_met: NotRequired[bool | None]
+    target_met: NotRequired[bool]
 
 
 class FlexibleCasing(TypedDict, closed=True):
@@ -1132,7 +1137,7 @@ class FlexibleCasing(TypedDict, closed=True):
 
 class FrequencyDifference(TypedDict):
     indefinite: list[int]
-    largest: NotRequired[LargestDifference | None]
+    largest: LargestDifference | None
     speed_rad_s: float
 
 
@@ -1176,7 +1181,7 @@ class ImpellerParameters(TypedDict, closed=True):
     rim_thickness: NotRequired[float]
     root_thickness: NotRequired[float]
     sectors: NotRequired[int]
-    splitter: NotRequired[Splitter | None]
+    splitter: Splitter | None
     tip_thickness: NotRequired[float]
     top_speed_rad_s: NotRequired[float]
     units: NotRequired[Units]
@@ -1202,7 +1207,7 @@ class ImpellerRequest(TypedDict, closed=True):
     rim_thickness: NotRequired[float]
     root_thickness: NotRequired[float]
     sectors: NotRequired[int]
-    splitter: NotRequired[Splitter | None]
+    splitter: Splitter | None
     tags: NotRequired[list[str]]
     tip_thickness: NotRequired[float]
     top_speed_rad_s: NotRequired[float]
@@ -1241,13 +1246,13 @@ class MeasuredSurvey(TypedDict):
     interpolation: str
     outlier_count: int
     outliers: list[Outlier]
-    overshoot: NotRequired[Overshoot | None]
+    overshoot: NotRequired[Overshoot]
 
 
 class MeshFacts(TypedDict):
     elements: int
     sets: list[Strengths]
-    tip_thickness: NotRequired[float | None]
+    tip_thickness: NotRequired[float]
 
 
 class ModesBody(TypedDict):
@@ -1257,8 +1262,8 @@ class ModesBody(TypedDict):
 
 
 class ModesChoice(TypedDict):
-    accuracy: NotRequired[Accuracy | None]
-    budget: NotRequired[Budget | None]
+    accuracy: NotRequired[Accuracy]
+    budget: NotRequired[Budget]
     error: float
     modes_per_speed: int
     reason: str
@@ -1266,47 +1271,47 @@ class ModesChoice(TypedDict):
 
 
 class Pilot(TypedDict):
-    difference: NotRequired[float | None]
-    error_of_modes: NotRequired[float | None]
-    error_of_steps: NotRequired[float | None]
+    difference: NotRequired[float]
+    error_of_modes: NotRequired[float]
+    error_of_steps: NotRequired[float]
     modes_per_speed: int
     scheme: NotRequired[SchemeChoice]
     speed_rad_s: float
     steps_per_revolution: int
     time_s: float
-    verdict: NotRequired[Verdict | None]
+    verdict: NotRequired[Verdict]
 
 
 class PlannedPoint(TypedDict):
-    computing_time_s: NotRequired[CostRange | None]
+    computing_time_s: NotRequired[CostRange]
     index: int
     integrated_unknowns: int
     memory_bytes: int
-    message: NotRequired[str | None]
-    scheme: NotRequired[SchemeReport | None]
+    message: NotRequired[str]
+    scheme: NotRequired[SchemeReport]
     speed_rad_s: float
     steps: int
     steps_per_revolution: int
 
 
 class PlannedResponse(TypedDict):
-    computing_time_s: NotRequired[CostRange | None]
+    computing_time_s: NotRequired[CostRange]
     integrated_unknowns: int
-    message: NotRequired[str | None]
-    scheme: NotRequired[SchemeReport | None]
+    message: NotRequired[str]
+    scheme: NotRequired[SchemeReport]
     steps_per_revolution: int
 
 
 class PlannedRunUp(TypedDict):
-    computing_time_s: NotRequired[CostRange | None]
+    computing_time_s: NotRequired[CostRange]
     duration_s: float
     frame_revolutions: int
-    message: NotRequired[str | None]
-    rate_rad_s2: NotRequired[float | None]
+    message: NotRequired[str]
+    rate_rad_s2: NotRequired[float]
     revolutions: float
-    scheme: NotRequired[SchemeReport | None]
+    scheme: NotRequired[SchemeReport]
     segments: int
-    steps: NotRequired[int | None]
+    steps: NotRequired[int]
 
 
 class PointStress(TypedDict):
@@ -1314,9 +1319,9 @@ class PointStress(TypedDict):
     excluded_nodes: int
     excluded_radius: float
     followed_nodes: int
-    lacking: NotRequired[str | None]
+    lacking: NotRequired[str]
     largest: StressPeak
-    largest_over_yield: NotRequired[float | None]
+    largest_over_yield: NotRequired[float]
     largest_static: float
     leading: NotRequired[list[LeadingPlace]]
 
@@ -1331,8 +1336,8 @@ class PreliminaryStiffening(TypedDict):
 class Problem(TypedDict):
     detail: str
     errors: NotRequired[list[ProblemItem]]
-    instance: NotRequired[str | None]
-    retry_after_s: NotRequired[int | None]
+    instance: NotRequired[str]
+    retry_after_s: NotRequired[int]
     status: int
     title: str
     type: str
@@ -1362,10 +1367,10 @@ class RunUpEnd(TypedDict):
     largest: list[LargestOfRun]
     largest_angle_error_rad: float
     largest_energy: float
-    largest_penetration: NotRequired[float | None]
-    message: NotRequired[str | None]
+    largest_penetration: NotRequired[float]
+    message: NotRequired[str]
     revolutions: float
-    scheme: NotRequired[SchemeReport | None]
+    scheme: NotRequired[SchemeReport]
     segments: int
     status: PointStatus
     steps: int
@@ -1407,13 +1412,13 @@ class SectorGeometry(TypedDict):
 class SensorHistory(TypedDict):
     displacement: NotRequired[list[float]]
     sensor: Sensor
-    tip: NotRequired[TipPlace | None]
+    tip: NotRequired[TipPlace]
     velocity: NotRequired[list[float]]
 
 
 class SensorResponse(TypedDict):
-    dominant_engine_order: NotRequired[float | None]
-    dominant_nodal_diameter: NotRequired[int | None]
+    dominant_engine_order: NotRequired[float]
+    dominant_nodal_diameter: NotRequired[int]
     half_peak_to_peak: float
     mean: float
     rms: float
@@ -1427,11 +1432,11 @@ class SensorView(TypedDict):
 
 
 class Settling(TypedDict):
-    after_revolutions: NotRequired[int | None]
-    largest_change: NotRequired[float | None]
-    lobe_passages: NotRequired[int | None]
-    ratio: NotRequired[int | None]
-    side_band_spacing: NotRequired[float | None]
+    after_revolutions: NotRequired[int]
+    largest_change: NotRequired[float]
+    lobe_passages: NotRequired[int]
+    ratio: NotRequired[int]
+    side_band_spacing: NotRequired[float]
     verdict: Verdict
 
 
@@ -1494,8 +1499,8 @@ class Casing(TypedDict, closed=True):
 
 
 class Choice(TypedDict):
-    accuracy: NotRequired[Accuracy | None]
-    budget: NotRequired[Budget | None]
+    accuracy: NotRequired[Accuracy]
+    budget: NotRequired[Budget]
     difference: NotRequired[float]
     error_of_modes: float
     error_of_steps: float
@@ -1523,18 +1528,18 @@ Chosen: TypeAlias = Chosen1 | Chosen2
 
 class Comparison(TypedDict):
     by_speed: list[Difference | None]
-    limit: NotRequired[LimitsMet | None]
+    limit: NotRequired[LimitsMet]
     message: str
     model: str
-    sensitivities: NotRequired[Sensitivities | None]
-    severity: NotRequired[Difference | None]
-    threshold: NotRequired[CampaignThreshold | None]
+    sensitivities: NotRequired[Sensitivities]
+    severity: NotRequired[Difference]
+    threshold: NotRequired[CampaignThreshold]
 
 
 class FoundShape(TypedDict):
-    highest: NotRequired[float | None]
-    measured: NotRequired[MeasuredSurvey | None]
-    narrowest_rad: NotRequired[float | None]
+    highest: NotRequired[float]
+    measured: NotRequired[MeasuredSurvey]
+    narrowest_rad: NotRequired[float]
     repeats: int
 
 
@@ -1556,18 +1561,18 @@ class Histories(TypedDict):
 
 class JobBody(TypedDict):
     created_at: str
-    error: NotRequired[Problem | None]
-    finished_at: NotRequired[str | None]
+    error: NotRequired[Problem]
+    finished_at: NotRequired[str]
     id: str
     kind: JobKind
     links: list[Link]
-    model: NotRequired[str | None]
-    name: NotRequired[str | None]
-    notes: NotRequired[str | None]
+    model: NotRequired[str]
+    name: NotRequired[str]
+    notes: NotRequired[str]
     phase: NotRequired[str]
     progress: int
-    speeds: NotRequired[SpeedCounts | None]
-    started_at: NotRequired[str | None]
+    speeds: NotRequired[SpeedCounts]
+    started_at: NotRequired[str]
     status: JobStatus
     stored_bytes: int
     tags: list[str]
@@ -1576,7 +1581,7 @@ class JobBody(TypedDict):
 
 class JobList(TypedDict):
     jobs: list[JobBody]
-    next: NotRequired[str | None]
+    next: NotRequired[str]
 
 
 class MeasuredCasing(TypedDict):
@@ -1605,17 +1610,17 @@ class ModalAnalysisRequest(TypedDict, closed=True):
 
 class ModelFacts(TypedDict):
     contact_nodes: int
-    contact_radius: NotRequired[float | None]
-    contact_spacing: NotRequired[float | None]
-    digits: NotRequired[DigitNoise | None]
+    contact_radius: NotRequired[float]
+    contact_spacing: NotRequired[float]
+    digits: NotRequired[DigitNoise]
     gyroscopic: NotRequired[bool]
-    in_si: NotRequired[InSi | None]
-    mesh: NotRequired[MeshFacts | None]
+    in_si: NotRequired[InSi]
+    mesh: NotRequired[MeshFacts]
     name: str
     own_dofs: int
     sectors: int
     speeds_rad_s: list[float]
-    stiffening: NotRequired[PreliminaryStiffening | None]
+    stiffening: NotRequired[PreliminaryStiffening]
     units: Units
     warnings: NotRequired[list[str]]
 
@@ -1635,10 +1640,10 @@ class ReductionReport(TypedDict):
 
 
 class RunUp(TypedDict):
-    end: NotRequired[RunUpEnd | None]
+    end: NotRequired[RunUpEnd]
     frames: list[RunUpFrame]
     order_step: float
-    rate_rad_s2: NotRequired[float | None]
+    rate_rad_s2: NotRequired[float]
     run: int
 
 
@@ -1665,7 +1670,7 @@ class SpeedStudy(TypedDict):
     orders: list[StepOrder]
     reference: StudyRun
     runs: list[StudyRun]
-    sensitivity: NotRequired[Sensitivity | None]
+    sensitivity: NotRequired[Sensitivity]
     speed_rad_s: float
 
 
@@ -1716,7 +1721,7 @@ class Validity(TypedDict):
 class WheelCriticalSpeeds(TypedDict):
     critical_speeds: list[WheelCriticalSpeed]
     missing: list[int]
-    refinement: NotRequired[Refinement | None]
+    refinement: NotRequired[Refinement]
     sensors: list[SensorView]
     settings: SweepRequest
     units: Units
@@ -1776,14 +1781,14 @@ class CampaignRequest(TypedDict, closed=True):
 
 class CampaignSettings(TypedDict, closed=True):
     added: NotRequired[int]
-    compared: NotRequired[SweepRequest | None]
+    compared: NotRequired[SweepRequest]
     design: Design
     designs: list[list[float]]
-    limit: NotRequired[float | None]
+    limit: NotRequired[float]
     parameters: list[Parameter]
     severity: Severity
     sweep: SweepRequest
-    threshold: NotRequired[Threshold | None]
+    threshold: NotRequired[Threshold]
 
 
 class Campbell(TypedDict):
@@ -1796,7 +1801,7 @@ class Campbell(TypedDict):
     speeds_rad_s: list[float]
     version: str
     wall_time_s: float
-    waves: NotRequired[WaveTables | None]
+    waves: NotRequired[WaveTables]
 
 
 class CaseStudyRequest(TypedDict, closed=True):
@@ -1826,9 +1831,9 @@ class CriticalSpeeds(TypedDict):
     driven_crossings: list[DrivenCrossing]
     linear_crossings: list[Crossing]
     missing: list[int]
-    plan: NotRequired[Estimate | None]
+    plan: NotRequired[Estimate]
     reduction: ReductionReport
-    refinement: NotRequired[Refinement | None]
+    refinement: NotRequired[Refinement]
     sensor: Sensor
     settings: SweepRequest
     spent: NotRequired[Spent]
@@ -1845,9 +1850,9 @@ class ForceMap(TypedDict):
 
 
 class ModalAnalysisPlan(TypedDict):
-    basis_bytes_at_most: NotRequired[int | None]
-    choice: NotRequired[ModesChoice | None]
-    computing_time_s: NotRequired[float | None]
+    basis_bytes_at_most: NotRequired[int]
+    choice: NotRequired[ModesChoice]
+    computing_time_s: NotRequired[float]
     effects: list[PlannedEffect]
     nodal_diameters: int
     reduced_unknowns_at_most: int
@@ -1872,42 +1877,42 @@ class ModelDetail(ModelBody):
 
 class ModelList(TypedDict):
     models: list[ModelBody]
-    next: NotRequired[str | None]
+    next: NotRequired[str]
 
 
 class Point(TypedDict):
-    casing_amplitude: NotRequired[float | None]
-    contact: NotRequired[ContactSummary | None]
-    contact_impulse: NotRequired[float | None]
+    casing_amplitude: NotRequired[float]
+    contact: NotRequired[ContactSummary]
+    contact_impulse: NotRequired[float]
     contact_share: float
-    energy: NotRequired[EnergyReport | None]
-    energy_residual: NotRequired[float | None]
+    energy: NotRequired[EnergyReport]
+    energy_residual: NotRequired[float]
     index: int
-    largest_energy: NotRequired[float | None]
-    largest_penetration: NotRequired[float | None]
-    march: NotRequired[MarchReport | None]
-    message: NotRequired[str | None]
+    largest_energy: NotRequired[float]
+    largest_penetration: NotRequired[float]
+    march: NotRequired[MarchReport]
+    message: NotRequired[str]
     responses: list[SensorResponse]
     running_clearance: NotRequired[list[float]]
-    scheme: NotRequired[SchemeReport | None]
-    settling: NotRequired[Settling | None]
-    smallest_multiplier: NotRequired[float | None]
+    scheme: NotRequired[SchemeReport]
+    settling: NotRequired[Settling]
+    smallest_multiplier: NotRequired[float]
     smallest_stable_steps_per_revolution: int
     speed_rad_s: float
     status: PointStatus
-    steady: NotRequired[SteadyReport | None]
+    steady: NotRequired[SteadyReport]
     steps: int
     steps_per_revolution: int
-    sticking_share: NotRequired[float | None]
-    stiffening: NotRequired[StiffeningVerdict | None]
-    stress: NotRequired[PointStress | None]
-    symmetry_breaking: NotRequired[SymmetryBreaking | None]
-    tip: NotRequired[TipResponse | None]
-    validity: NotRequired[Validity | None]
-    vectors: NotRequired[str | None]
+    sticking_share: NotRequired[float]
+    stiffening: NotRequired[StiffeningVerdict]
+    stress: NotRequired[PointStress]
+    symmetry_breaking: NotRequired[SymmetryBreaking]
+    tip: NotRequired[TipResponse]
+    validity: NotRequired[Validity]
+    vectors: NotRequired[str]
     version: str
     wall_time_s: float
-    wear: NotRequired[WearReport | None]
+    wear: NotRequired[WearReport]
 
 
 class RunUpRequest(TypedDict, closed=True):
@@ -1931,14 +1936,14 @@ class RunUpSettings(TypedDict, closed=True):
     angle_tolerance_rad: float
     euler_force: NotRequired[bool]
     frame_revolutions: AutoOr
-    limit: NotRequired[float | None]
+    limit: NotRequired[float]
     speed: RunUpSpeed
     sweep: SweepRequest
 
 
 class RunUps(TypedDict):
     complete: bool
-    passing: NotRequired[PassingRate | None]
+    passing: NotRequired[PassingRate]
     runs: list[RunUp]
     sensors: list[Sensor]
     settings: RunUpSettings
@@ -1950,32 +1955,32 @@ class RunUps(TypedDict):
 class SensorMaps(TypedDict):
     amplitude: NotRequired[list[list[list[float] | None]]]
     engine_orders: list[float]
-    errors: NotRequired[ErrorEstimate | None]
-    nodal_diameter: NotRequired[int | None]
-    plan: NotRequired[Estimate | None]
+    errors: NotRequired[ErrorEstimate]
+    nodal_diameter: NotRequired[int]
+    plan: NotRequired[Estimate]
     points: list[Point]
-    refinement: NotRequired[Refinement | None]
+    refinement: NotRequired[Refinement]
     sensors: list[Sensor]
     settings: SweepRequest
     speeds_rad_s: list[float]
     spent: Spent
-    stiffening: NotRequired[StiffeningVerdict | None]
+    stiffening: NotRequired[StiffeningVerdict]
     units: Units
     version: str
 
 
 class SpectraBody(TypedDict):
-    contact: NotRequired[ContactForces | None]
+    contact: NotRequired[ContactForces]
     point: Point
-    spectra: NotRequired[SpeedSpectra | None]
+    spectra: SpeedSpectra | None
     units: Units
-    wear: NotRequired[WearMap | None]
+    wear: NotRequired[WearMap]
 
 
 class Spectrogram(TypedDict):
     amplitudes: list[list[float]]
     engine_orders: list[float]
-    rate_rad_s2: NotRequired[float | None]
+    rate_rad_s2: NotRequired[float]
     run: int
     sensor: Sensor
     settings: RunUpSettings
@@ -1986,8 +1991,8 @@ class Spectrogram(TypedDict):
 
 
 class SpeedHistories(TypedDict):
-    contact: NotRequired[ContactHistory | None]
-    energy: NotRequired[EnergyHistory | None]
+    contact: NotRequired[ContactHistory]
+    energy: NotRequired[EnergyHistory]
     index: int
     point: Point
     revolutions: list[int]
@@ -2003,7 +2008,7 @@ class SpeedStress(TypedDict):
     index: int
     speed_rad_s: float
     stress: PointStress
-    validity: NotRequired[Validity | None]
+    validity: NotRequired[Validity]
 
 
 class StudyPlan(TypedDict):
@@ -2018,13 +2023,13 @@ class StudyPlan(TypedDict):
 
 
 class SweepPlan(TypedDict):
-    basis_bytes_at_most: NotRequired[int | None]
-    casing_shape: NotRequired[FoundShape | None]
-    choice: NotRequired[Choice | None]
+    basis_bytes_at_most: NotRequired[int]
+    casing_shape: NotRequired[FoundShape]
+    choice: NotRequired[Choice]
     contact_pairs: int
     effects: list[PlannedEffect]
-    estimate: NotRequired[Estimate | None]
-    machine: NotRequired[Machine | None]
+    estimate: NotRequired[Estimate]
+    machine: NotRequired[Machine]
     pilot_speeds_rad_s: NotRequired[list[float] | None]
     placed_sensors: NotRequired[list[PlacedSensor]]
     points: list[PlannedPoint]
@@ -2032,7 +2037,7 @@ class SweepPlan(TypedDict):
     reduction: ReductionState
     settings: SweepRequest
     speeds: int
-    stress_bytes: NotRequired[int | None]
+    stress_bytes: NotRequired[int]
     symmetry: FoundSymmetry
     version: str
     warnings: NotRequired[list[str]]
@@ -2054,7 +2059,7 @@ class WearBody(TypedDict):
 
 
 class BranchesHead(TypedDict):
-    kept_modes: NotRequired[int | None]
+    kept_modes: NotRequired[int]
     parameter: BranchParameter
     scheme: SchemeChoice
     sensors: list[Sensor]
@@ -2066,12 +2071,12 @@ class BranchesHead(TypedDict):
 
 
 class BranchesPlan(TypedDict):
-    basis_bytes_at_most: NotRequired[int | None]
+    basis_bytes_at_most: NotRequired[int]
     contact_pairs: int
     effects: list[PlannedEffect]
-    estimate: NotRequired[Estimate | None]
-    machine: NotRequired[Machine | None]
-    point: NotRequired[PlannedResponse | None]
+    estimate: NotRequired[Estimate]
+    machine: NotRequired[Machine]
+    point: NotRequired[PlannedResponse]
     points_at_least: int
     points_at_most: int
     reduced_unknowns_at_most: int
@@ -2083,23 +2088,23 @@ class BranchesPlan(TypedDict):
 
 
 class Campaign(TypedDict):
-    comparison: NotRequired[Comparison | None]
+    comparison: NotRequired[Comparison]
     designs: list[CampaignDesign]
-    plan: NotRequired[Estimate | None]
-    sensitivities: NotRequired[Sensitivities | None]
+    plan: NotRequired[Estimate]
+    sensitivities: NotRequired[Sensitivities]
     settings: CampaignSettings
     speeds_rad_s: list[float]
     spent: Spent
-    threshold: NotRequired[CampaignThreshold | None]
+    threshold: NotRequired[CampaignThreshold]
     units: Units
     version: str
 
 
 class CampaignPlan(TypedDict):
-    compared: NotRequired[SweepPlan | None]
+    compared: NotRequired[SweepPlan]
     designs: int
     designs_at_most: int
-    estimate: NotRequired[Estimate | None]
+    estimate: NotRequired[Estimate]
     reduction: ReductionState
     scene: SweepPlan
     settings: CampaignSettings
@@ -2112,16 +2117,16 @@ HistoriesBody: TypeAlias = SpeedHistories | Histories
 class InteractionMap(TypedDict):
     amplitude: NotRequired[list[list[float] | None]]
     engine_orders: list[float]
-    errors: NotRequired[ErrorEstimate | None]
-    nodal_diameter: NotRequired[int | None]
-    plan: NotRequired[Estimate | None]
+    errors: NotRequired[ErrorEstimate]
+    nodal_diameter: NotRequired[int]
+    plan: NotRequired[Estimate]
     points: list[Point]
-    refinement: NotRequired[Refinement | None]
+    refinement: NotRequired[Refinement]
     sensor: Sensor
     settings: SweepRequest
     speeds_rad_s: list[float]
     spent: NotRequired[Spent]
-    stiffening: NotRequired[StiffeningVerdict | None]
+    stiffening: NotRequired[StiffeningVerdict]
     units: Units
     version: str
 
@@ -2157,8 +2162,8 @@ ResolvedBody: TypeAlias = (
 class RunUpPlan(TypedDict):
     contact_pairs: int
     effects: list[PlannedEffect]
-    estimate: NotRequired[Estimate | None]
-    machine: NotRequired[Machine | None]
+    estimate: NotRequired[Estimate]
+    machine: NotRequired[Machine]
     reduced_unknowns_at_most: int
     reduction: ReductionState
     runs: list[PlannedRunUp]

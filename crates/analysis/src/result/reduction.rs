@@ -87,6 +87,7 @@ pub struct FrequencyDifference {
     /// Rotational speed Ω, rad/s.
     pub speed_rad_s: f64,
     /// Largest difference of any frequency; null where every nodal diameter is left out.
+    #[cfg_attr(feature = "schema", schema(required))]
     pub largest: Option<LargestDifference>,
     /// Nodal diameters left out because the full sector's stiffness is not positive definite at this speed.
     pub indefinite: Vec<u32>,

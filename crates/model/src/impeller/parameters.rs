@@ -58,6 +58,7 @@ pub struct ImpellerParameters {
     #[cfg_attr(feature = "schema", schema(minimum = 0, maximum = 75))]
     pub backsweep_deg: f64,
     /// Splitter, a shorter blade between two main blades; `null`: none.
+    #[cfg_attr(feature = "schema", schema(required))]
     pub splitter: Option<Splitter>,
     /// Material of the impeller (titanium).
     pub material: Material,
