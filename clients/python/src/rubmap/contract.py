@@ -1207,7 +1207,7 @@ class ImpellerRequest(TypedDict, closed=True):
     rim_thickness: NotRequired[float]
     root_thickness: NotRequired[float]
     sectors: NotRequired[int]
-    splitter: Splitter | None
+    splitter: NotRequired[Splitter | None]
     tags: NotRequired[list[str]]
     tip_thickness: NotRequired[float]
     top_speed_rad_s: NotRequired[float]

@@ -15,10 +15,11 @@ impl ToSchema for ImpellerRequest {
 }
 
 impl PartialSchema for ImpellerRequest {
-    /// Schema of [`ImpellerParameters`] with the preset's name.
+    /// Schema of [`ImpellerParameters`] with the preset's name, from which come all that are left out.
     fn schema() -> RefOr<Schema> {
         let mut schema = ImpellerParameters::schema();
         if let RefOr::T(Schema::Object(object)) = &mut schema {
+            object.required.clear();
             object.properties.insert("preset".to_owned(), Preset::schema());
         }
         schema
