@@ -126,16 +126,17 @@ impl App {
         let listener = TcpListener::bind(config.addr).await.map_err(bind)?;
         let addr = listener.local_addr().map_err(bind)?;
         let memory_bytes = config.memory_limit();
-        let package_limits = config.upload_limits(memory_bytes);
         let settings = Settings {
             workers: config.worker_threads(),
             memory_bytes,
             keep_days: config.keep_days,
             limits: config.owner_limits(),
+            upload_bytes: config.upload_bytes,
+            package_limits: config.upload_limits(memory_bytes),
         };
         tracing::info!(
             %addr, data = %config.data.display(), workers = settings.workers, memory_bytes,
-            expanded_bytes = package_limits.expanded_bytes, connections, commit = version::COMMIT, "starting"
+            expanded_bytes = settings.package_limits.expanded_bytes, connections, commit = version::COMMIT, "starting"
         );
         let runner = Runner::start(store.clone(), settings).await?;
         let document = http::document();
@@ -146,8 +147,7 @@ impl App {
             tokens,
             limits: config.owner_limits(),
             jobs: runner.jobs(),
-            upload_bytes: config.upload_bytes,
-            package_limits,
+            importer: runner.importer(),
             memory_bytes,
             followed: Followed::default(),
             stop: CancellationToken::new(),

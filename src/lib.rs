@@ -8,7 +8,7 @@
 //! # Architecture
 //!
 //! ```text
-//! crates/numerics ← crates/wheel (dynamics ← response) ← crates/analysis ← src (kinds ← store ← jobs ← http ← app ← cli)
+//! crates/numerics ← crates/wheel (dynamics ← response) ← crates/analysis ← src (kinds ← store ← import ← jobs ← http ← app ← cli)
 //!                        ↑ crates/model (package, impeller)       ↑ crates/plot
 //! crates/solid (mesh, stress) ← model, analysis
 //! ```
@@ -29,8 +29,11 @@ pub mod cli;
 pub mod config;
 pub mod export;
 pub mod http;
+pub mod import;
 pub mod jobs;
 pub mod kinds;
+mod memory;
+mod pool;
 pub mod store;
 pub mod tokens;
 pub mod version;

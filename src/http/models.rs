@@ -1,14 +1,12 @@
 //! Models: upload, list, read, delete.
 
 use axum::Json;
-use axum::body::Body;
 use axum::extract::{Request, State};
 use axum::http::StatusCode;
 use axum::http::uri::PathAndQuery;
 use axum::response::Response;
-use futures::StreamExt;
 use serde::{Deserialize, Serialize};
-use tokio::io::{AsyncWriteExt, BufWriter};
+use sha2::Digest;
 use utoipa::{IntoParams, ToSchema};
 
 use super::extract::{MergePatch, ModelPath, Parameters, declared_bytes, expect_media_type, is_media_type};
@@ -21,6 +19,7 @@ use super::state::AppState;
 use crate::analysis::result::ReductionReport;
 use crate::analysis::run::ModelFacts;
 use crate::impeller::ImpellerRequest;
+use crate::import::CheckedPackage;
 use crate::kinds::generation::MODEL_GENERATION;
 use crate::store::idempotency::Answer;
 use crate::store::labels::Labels;
@@ -28,9 +27,6 @@ use crate::store::models::{Deletion, ModelFilter, StoredModel};
 use crate::tokens::Principal;
 
 const JSON: &str = "application/json";
-
-/// Bytes of an upload that are written at once.
-const PIECE: usize = 1 << 20;
 
 /// Model with its facts and labels.
 #[derive(Debug, Serialize, ToSchema)]
@@ -157,20 +153,20 @@ pub(super) async fn create_model(
         let received = ReceivedRequest::read(&state, &MODEL_GENERATION, request).await?;
         return kinds::accept(&state, &whose, key, received).await;
     }
-    if declared_bytes(request.headers()) > Some(state.upload_bytes) {
-        return Err(too_large(state.upload_bytes));
-    }
+    let importer = &state.importer;
+    importer.expect(declared_bytes(request.headers()))?;
     let labels = query.labels()?;
     let path = request.uri().path_and_query().map_or("", PathAndQuery::as_str);
-    let digest = idempotency::start(path);
-    let (upload, digest) = receive(&state, request.into_body(), digest).await?;
+    let mut digest = idempotency::start(path);
+    let pieces = request.into_body().into_data_stream();
+    let upload = importer.receive(pieces, |piece| digest.update(piece)).await?;
     let fingerprint = idempotency::finish(digest);
     if let Some(response) = key.replay(&state.store, &whose, &fingerprint).await? {
         return Ok(response);
     }
-    let (facts, id) = state.jobs.read_package(upload.to_path_buf(), state.package_limits.clone()).await??;
-    let owner = (whose.owner.as_str(), state.limits);
-    let (model, new) = state.store.insert_model(owner, &id, &facts, &labels, &upload).await??;
+    let package = importer.check(upload).await??;
+    let (model, new) = importer.keep(&whose.owner, state.limits, &labels, &package).await??;
+    let CheckedPackage { facts, id, .. } = &package;
     tracing::info!(model.id = id, name = facts.name, new, "received a model");
     let answer = Answer {
         owner: whose.owner.clone(),
@@ -184,36 +180,6 @@ pub(super) async fn create_model(
         state.store.insert_answer(&kept).await?;
     }
     Ok(idempotency::respond(&answer))
-}
-
-/// Writes a body to a temporary file beside the models, piece by piece.
-async fn receive(
-    state: &AppState,
-    body: Body,
-    mut digest: sha2::Sha256,
-) -> Result<(tempfile::TempPath, sha2::Sha256), Problem> {
-    use sha2::Digest;
-
-    let (file, path) = state.store.new_upload().await?.into_parts();
-    let mut file = BufWriter::with_capacity(PIECE, tokio::fs::File::from_std(file));
-    let mut received = 0;
-    let mut pieces = body.into_data_stream();
-    while let Some(piece) = pieces.next().await {
-        let piece = piece
-            .map_err(|error| Problem::new(Kind::BadRequest, format!("the upload broke off: {error}")))?;
-        received += piece.len() as u64;
-        if received > state.upload_bytes {
-            return Err(too_large(state.upload_bytes));
-        }
-        digest.update(&piece);
-        file.write_all(&piece).await?;
-    }
-    file.flush().await?;
-    Ok((path, digest))
-}
-
-fn too_large(limit: u64) -> Problem {
-    Problem::new(Kind::PayloadTooLarge, format!("a model package may have {limit} bytes on this service"))
 }
 
 /// List models.

@@ -9,6 +9,7 @@ use serde::Serialize;
 use utoipa::ToSchema;
 
 use crate::analysis::error::Violation;
+use crate::import::UploadError;
 use crate::jobs::{Panicked, SubmitError};
 use crate::package::PackageError;
 use crate::store::StoreError;
@@ -324,6 +325,16 @@ impl From<Panicked> for Problem {
     fn from(error: Panicked) -> Self {
         tracing::error!(%error, "computation panicked");
         Self::new(Kind::Internal, "a defect of the program; the service's log says more")
+    }
+}
+
+impl From<UploadError> for Problem {
+    fn from(error: UploadError) -> Self {
+        match error {
+            UploadError::BrokeOff(_) => Self::new(Kind::BadRequest, error.to_string()),
+            UploadError::TooLarge(_) => Self::new(Kind::PayloadTooLarge, error.to_string()),
+            UploadError::File(error) => error.into(),
+        }
     }
 }
 

@@ -9,8 +9,8 @@ use super::followed::Followed;
 use super::renderings::Renderings;
 use super::stream::LargeAnswers;
 use super::transport::Transport;
+use crate::import::Importer;
 use crate::jobs::Jobs;
-use crate::package;
 use crate::store::Store;
 use crate::store::limits::Limits;
 use crate::tokens::Tokens;
@@ -30,10 +30,8 @@ pub struct AppState {
     pub limits: Limits,
     /// Jobs that are queued and computed.
     pub jobs: Jobs,
-    /// Largest upload, in bytes as sent.
-    pub upload_bytes: u64,
-    /// Limits while an uploaded package is read.
-    pub package_limits: package::Limits,
+    /// Room in which packages become models.
+    pub importer: Arc<Importer>,
     /// Memory that all reductions together may take, bytes; `None` where it is not known.
     pub memory_bytes: Option<u64>,
     /// Jobs that clients follow.

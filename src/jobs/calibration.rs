@@ -5,8 +5,8 @@ use std::sync::Arc;
 use tokio::sync::OnceCell;
 
 use super::machine;
-use super::pool::{CpuPool, Panicked};
 use crate::analysis::run::Calibration;
+use crate::pool::{CpuPool, Panicked};
 use crate::store::{Store, StoreError};
 
 /// Costs of steps on this machine: from the store, or measured at first use.

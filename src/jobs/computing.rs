@@ -8,8 +8,8 @@ use std::time::Duration;
 use tokio::sync::OwnedMutexGuard;
 
 use super::error::Interruption;
-use super::pool::CpuPool;
 use super::progress::Watch;
+use crate::pool::CpuPool;
 use crate::store::Store;
 use crate::store::jobs::JobId;
 

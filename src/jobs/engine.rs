@@ -12,16 +12,17 @@ use super::calibration::Calibrated;
 use super::computing::Computing;
 use super::counters::Counters;
 use super::error::{self, Interruption};
-use super::memory::Memory;
 use super::patience::{BETWEEN_ATTEMPTS, patiently};
 use super::planner::Planner;
-use super::pool::CpuPool;
 use super::progress::{PendingReports, PhaseMonitor, Watch};
 use super::reductions::Reductions;
 use super::tasks::{Tasks, Whose};
 use crate::analysis::kinds::kind::ResolvedJob;
 use crate::analysis::monitor::Monitor;
 use crate::analysis::result::Chosen;
+use crate::import::Importer;
+use crate::memory::Memory;
+use crate::pool::CpuPool;
 use crate::store::jobs::{Failure, FailureCause, Job, JobHead, JobId};
 use crate::store::limits::Limits;
 use crate::store::status::JobStatus;
@@ -36,8 +37,8 @@ pub(super) struct Engine {
     pub(super) store: Store,
     pub(super) tasks: Tasks,
     pub(super) computing: Arc<Computing>,
-    /// Threads that read and write packages, so that uploads do not wait behind speeds.
-    pub(super) importer: CpuPool,
+    /// Room in which packages are read and written.
+    pub(super) importer: Arc<Importer>,
     /// Threads that make plans, which are wanted at once.
     pub(super) planner: Planner,
     pub(super) reductions: Reductions,
@@ -89,11 +90,12 @@ impl Engine {
     pub(super) fn new(
         store: Store,
         tasks: Tasks,
-        (pool, importer, planner): (CpuPool, CpuPool, CpuPool),
-        memory: Memory,
+        pool: CpuPool,
+        planner: CpuPool,
+        importer: Arc<Importer>,
+        memory: Arc<Memory>,
         limits: Limits,
     ) -> Arc<Self> {
-        let memory = Arc::new(memory);
         let computing = Arc::new(Computing::new(store.clone(), pool));
         Arc::new(Self {
             reductions: Reductions::new(store.clone(), Arc::clone(&computing), Arc::clone(&memory)),

@@ -1,12 +1,12 @@
 //! Reasons why a task of a job ended early.
 
-use super::memory::TooLarge;
-use super::pool::Panicked;
 use crate::analysis::error::AnalysisError;
 use crate::dynamics::error::ModelError;
 use crate::dynamics::findings::DigitNoise;
 use crate::impeller::ImpellerError;
+use crate::memory::TooLarge;
 use crate::package::PackageError;
+use crate::pool::Panicked;
 use crate::store::StoreError;
 use crate::store::jobs::{Failure, FailureCause};
 use crate::store::limits::LimitReached;

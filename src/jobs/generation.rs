@@ -1,24 +1,18 @@
 //! Generation of a model from the parameters of the generator: one task from beginning to end.
 
-use std::fs::File;
-use std::io::{self, BufWriter};
 use std::sync::Arc;
-
-use tempfile::TempPath;
 
 use super::engine::{Engine, Live};
 use super::error::Interruption;
 use super::finish;
 use super::patience::{patiently, until_written};
-use super::pool::Panicked;
 use super::progress::PhaseMonitor;
 use crate::analysis::monitor::Monitor;
-use crate::analysis::run::ModelFacts;
 use crate::impeller::{generate, generation_bytes, impeller_sector};
+use crate::import::CheckedPackage;
 use crate::kinds::generation::Generation;
-use crate::package::raw::RawPackage;
-use crate::package::{self, Limits, PackageError};
-use crate::store::{StoreError, limits};
+use crate::package::Limits;
+use crate::store::limits;
 
 /// Generates the package, reads it back as if it had been uploaded, and stores it as a model.
 pub(super) async fn run(engine: &Engine, job: &Live) -> Result<(), Interruption> {
@@ -54,59 +48,24 @@ pub(super) async fn run(engine: &Engine, job: &Live) -> Result<(), Interruption>
 
     wanted(0.5, "writing the package")?;
     let package = Arc::new(package);
-    let write = || write(engine, Arc::clone(&package));
+    let write = || engine.importer.write(Arc::clone(&package));
     let upload = until_written(&job.watch, write).await??;
     drop(package);
 
     wanted(0.8, "checking the package")?;
-    let path = upload.to_path_buf();
-    let read = move || {
-        package::read(&path, &Limits::default()).map(|read| {
-            (ModelFacts::of_package(&read.sector, read.mesh.as_ref(), &read.findings), read.digest)
-        })
-    };
-    let (facts, id) =
+    let read = move || CheckedPackage::read(upload, &Limits::default());
+    let package =
         engine.computing.run_parallel(&job.watch, read).await?.map_err(Interruption::generated_package)?;
 
     wanted(0.95, "keeping the model")?;
     // The model has had its place among the owner's models since the job was accepted.
-    let owner = (job.owner.as_str(), limits::Limits { models: None, ..engine.limits });
+    let limits = limits::Limits { models: None, ..engine.limits };
     // The model gets the labels that the job has by now.
     let find = || engine.store.job(job.id);
     let labels = patiently(&job.watch, find).await?.map(|job| job.head.labels).unwrap_or_default();
-    let keep = || engine.store.insert_model(owner, &id, &facts, &labels, &upload);
+    let keep = || engine.importer.keep(&job.owner, limits, &labels, &package);
     let (_, new) = until_written(&job.watch, keep).await?.map_err(Interruption::limit)?;
+    let CheckedPackage { facts, id, .. } = &package;
     tracing::info!(job.id = %job.id, model.id = id, name = facts.name, new, "generated a model");
-    finish::complete(engine, job, &[], Some(&id)).await
-}
-
-/// Writes `package` to a file beside the models; a failed attempt leaves none.
-async fn write(engine: &Engine, package: Arc<RawPackage>) -> Result<Result<TempPath, Panicked>, StoreError> {
-    let (file, upload) = engine.store.new_upload().await?.into_parts();
-    match engine.importer.run(move || write_to(file, &package)).await {
-        Ok(written) => written.map(|()| Ok(upload)).map_err(StoreError::File),
-        Err(panicked) => Ok(Err(panicked)),
-    }
-}
-
-/// Writes `package` to `file`. Nothing is wrong with the package yet: errors are those of the disk.
-fn write_to(file: File, package: &RawPackage) -> io::Result<()> {
-    package::write(package, BufWriter::new(file)).map_err(|error| match error {
-        PackageError::Io { source } => source,
-        error => io::Error::other(error),
-    })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::impeller::Preset;
-
-    #[test]
-    fn a_package_that_finds_no_room_is_known_by_it() {
-        let package = generate(&Preset::Small.parameters()).unwrap();
-        let full = File::options().write(true).open("/dev/full").unwrap();
-        let error = StoreError::from(write_to(full, &package).unwrap_err());
-        assert!(error.is_disk_full(), "{error}");
-    }
+    finish::complete(engine, job, &[], Some(id)).await
 }

@@ -1,16 +1,12 @@
 //! Handle through which `http` asks for jobs. It does not know how many threads there are.
 
-use std::io::ErrorKind;
-use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use super::choice;
 use super::engine::Engine;
-use super::memory::Allowance;
 use super::planner::Permit;
 use super::plans;
-use super::pool::Panicked;
 use crate::analysis::error::{AnalysisError, Violation};
 use crate::analysis::kinds::kind::{Asked, GivenModel, NamedModel, ResolvedJob, Resolving, Unchecked};
 use crate::analysis::kinds::plan::PlannedModel;
@@ -18,7 +14,8 @@ use crate::analysis::monitor::Unwatched;
 use crate::analysis::request::Sensor;
 use crate::analysis::resolved::{Modes, ResolvedSweep};
 use crate::analysis::run::{self, PlacedSensor, ReducedSector};
-use crate::package;
+use crate::memory::Allowance;
+use crate::pool::Panicked;
 use crate::store::StoreError;
 use crate::store::idempotency::Answer;
 use crate::store::jobs::{Insertion, JobDeletion, JobId, NewJob, Posted};
@@ -26,9 +23,6 @@ use crate::store::labels::Labels;
 use crate::store::limits::LimitReached;
 use crate::store::status::JobStatus;
 use crate::tokens::Principal;
-
-/// Ratio of the memory that reading a package takes to the size of its zip.
-const EXPANSION: u64 = 12;
 
 /// Time for which one request is checked piece by piece before other plans have their turn.
 const TURN: Duration = Duration::from_millis(25);
@@ -204,7 +198,7 @@ impl Jobs {
         Ok(plan.await?.text)
     }
 
-    /// Places `sensors` at nodes of the model; see [`run::place_sensors`].
+    /// Places `sensors` at nodes of the model, if any is to be placed.
     async fn place(
         &self,
         model: &str,
@@ -213,19 +207,7 @@ impl Jobs {
         if !run::name_nodes(sensors) {
             return Ok(Ok(Vec::new()));
         }
-        let path = self.engine.store.package(model).await?;
-        let mut placed = sensors.to_vec();
-        let place = move || {
-            let nodes = package::read_nodes(&path, &package::Limits::default())?;
-            let found = run::place_sensors(&mut placed, &nodes);
-            Ok::<_, package::PackageError>((placed, found))
-        };
-        let (placed, found) = self.engine.importer.run(place).await?.map_err(|error| match error {
-            package::PackageError::Io { source } => StoreError::Package(source),
-            error => StoreError::Package(std::io::Error::new(ErrorKind::InvalidData, error.to_string())),
-        })?;
-        sensors.copy_from_slice(&placed);
-        Ok(found)
+        Ok(self.engine.importer.place(model, sensors).await??)
     }
 
     /// Checks what only the reduction of a scene can tell, if it is stored; returns the reduction.
@@ -331,27 +313,6 @@ impl Jobs {
     /// Waits for memory for an answer that takes so many bytes while it is made.
     pub async fn answer_memory(&self, bytes: u64) -> Allowance {
         self.engine.memory.hold_up_to(bytes).await
-    }
-
-    /// Reads and checks an uploaded package, on a thread of its own.
-    pub async fn read_package(
-        &self,
-        path: PathBuf,
-        limits: package::Limits,
-    ) -> Result<Result<(run::ModelFacts, String), Box<package::PackageError>>, Panicked> {
-        // The expanded size is not known yet; texts of numbers shrink to a fifth or less.
-        let bytes = path.metadata().map_or(0, |file| file.len().saturating_mul(EXPANSION));
-        let memory = self.engine.memory.hold_up_to(bytes).await;
-        let read = move || {
-            let _memory = memory;
-            package::read(&path, &limits)
-                .map(|read| {
-                    let facts = run::ModelFacts::of_package(&read.sector, read.mesh.as_ref(), &read.findings);
-                    (facts, read.digest)
-                })
-                .map_err(Box::new)
-        };
-        self.engine.importer.run_parallel(read).await
     }
 }
 

@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use tokio::sync::oneshot;
 
-use super::pool::{CpuPool, Panicked, Work, caught};
+use crate::pool::{CpuPool, Panicked, Work, caught};
 use crate::store::limits::LimitReached;
 
 /// Requests of one owner that may be planned or checked at once.

@@ -7,11 +7,11 @@ use super::engine::{Engine, Live};
 use super::error::Interruption;
 use super::machine;
 use super::patience::patiently;
-use super::pool::Panicked;
 use crate::analysis::kinds::kind::ResolvedJob;
 use crate::analysis::kinds::plan::{Capacity, Grounds, Plan, PlannedModel};
 use crate::analysis::result::{Chosen, PlacedSensor};
 use crate::analysis::run::ReducedSector;
+use crate::pool::Panicked;
 use crate::store::StoreError;
 
 /// Plan of a job, which rests on its `models`, the positions of its sensors and a choice of its settings.

@@ -15,11 +15,13 @@ use super::computing::{MOST_CRASHES, pause};
 use super::engine::Engine;
 use super::error;
 use super::handle::Jobs;
-use super::memory::Memory;
 use super::perform::{prepare_job, run_speed};
-use super::pool::CpuPool;
 use super::progress::PendingReports;
 use super::tasks::{Line, OwnTasks, Tasks};
+use crate::import::Importer;
+use crate::memory::Memory;
+use crate::package;
+use crate::pool::CpuPool;
 use crate::store::jobs::{JobId, Unfinished};
 use crate::store::limits::Limits;
 use crate::store::{Store, StoreError};
@@ -44,6 +46,10 @@ pub struct Settings {
     pub keep_days: Option<u32>,
     /// Limits on what one owner may have.
     pub limits: Limits,
+    /// Largest upload, in bytes as sent.
+    pub upload_bytes: u64,
+    /// Limits while an uploaded package is read.
+    pub package_limits: package::Limits,
 }
 
 /// Runner: the running workers.
@@ -60,10 +66,20 @@ impl Runner {
     pub async fn start(store: Store, settings: Settings) -> Result<Self, StoreError> {
         let threads = settings.workers.max(1);
         let pool = |name, size| CpuPool::start(name, size, threads);
-        let pools = (pool("compute", threads)?, pool("import", threads)?, pool("plan", 1)?);
-        let memory = Memory::new(settings.memory_bytes);
+        let memory = Arc::new(Memory::new(settings.memory_bytes));
+        let (own, shared) = (pool("import", threads)?, Arc::clone(&memory));
+        let importer =
+            Importer::new(store.clone(), own, shared, settings.upload_bytes, settings.package_limits);
         let tasks = Tasks::of(&store, threads);
-        let engine = Engine::new(store.clone(), tasks, pools, memory, settings.limits);
+        let engine = Engine::new(
+            store.clone(),
+            tasks,
+            pool("compute", threads)?,
+            pool("plan", 1)?,
+            Arc::new(importer),
+            memory,
+            settings.limits,
+        );
         if let Err(error) = store.count_crashes().await {
             // Counted at the next start.
             tracing::warn!(%error, "could not count what the last service ended under");
@@ -87,6 +103,11 @@ impl Runner {
         };
         helpers.extend(others);
         Ok(Self { engine, stop, workers, helpers })
+    }
+
+    /// Room in which packages become models.
+    pub fn importer(&self) -> Arc<Importer> {
+        Arc::clone(&self.engine.importer)
     }
 
     /// Handle for `http`.

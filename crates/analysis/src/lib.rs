@@ -30,6 +30,7 @@ mod model;
 pub mod monitor;
 mod not_runnable;
 mod own_load;
+mod peak_to_peak;
 mod plan;
 mod prepare;
 mod record;

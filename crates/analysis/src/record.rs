@@ -6,6 +6,7 @@ use crate::effects::effect::Ran;
 use crate::effects::symmetry::repeats::repeats;
 use crate::effects::table::named;
 use crate::error::AnalysisError;
+use crate::peak_to_peak::half_peak_to_peak;
 use crate::resolved::{ResolvedSensor, ResolvedSweep};
 use crate::result::{
     ContactForces, ContactSummary, EnergyReport, Point, PointStatus, SensorResponse, SensorSpectrum,
@@ -204,13 +205,6 @@ fn responses(history: &History, request: &ResolvedSweep, spectra: &SpeedSpectra)
         }
     };
     request.sensors.iter().enumerate().map(of).collect()
-}
-
-/// Half the difference of the largest and the smallest value.
-pub(super) fn half_peak_to_peak(line: &[f64]) -> f64 {
-    let ends = (f64::INFINITY, f64::NEG_INFINITY);
-    let (low, high) = line.iter().fold(ends, |(low, high), &x| (low.min(x), high.max(x)));
-    0.5 * (high - low)
 }
 
 /// Strongest pair of side bands at the sensor with the largest response.

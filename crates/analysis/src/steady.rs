@@ -4,7 +4,7 @@ use crate::effects::casing::shape::Shape;
 use crate::effects::damping::convert::modal_damping;
 use crate::effects::symmetry::repeats::repeats as scene_repeats;
 use crate::effects::symmetry::request::Symmetry;
-use crate::record::half_peak_to_peak;
+use crate::peak_to_peak::half_peak_to_peak;
 use crate::request::{AutoOr, Integration, SteadyChoice};
 use crate::resolved::ResolvedSweep;
 use crate::result::{FloquetMultiplier, MarchReport, Stability, SteadyReport};

@@ -1,7 +1,7 @@
 //! Results at a point of a branch: multipliers and amplitudes.
 
 use super::family::Scenes;
-use crate::record::half_peak_to_peak;
+use crate::peak_to_peak::half_peak_to_peak;
 use crate::result::{BranchPoint, FloquetMultiplier};
 use crate::steady::multiplier;
 use faer::c64;

@@ -10,7 +10,7 @@ use std::sync::{Arc, Mutex, PoisonError, mpsc};
 
 use tokio::sync::oneshot;
 
-pub(super) type Work = Box<dyn FnOnce() + Send>;
+pub(crate) type Work = Box<dyn FnOnce() + Send>;
 
 /// A fixed number of threads that take work in order of arrival.
 #[derive(Debug, Clone)]
@@ -30,13 +30,13 @@ pub struct Panicked {
 }
 
 impl Panicked {
-    pub(super) fn of_a_lost_thread() -> Self {
+    pub(crate) fn of_a_lost_thread() -> Self {
         Self { message: "its thread is gone".to_owned() }
     }
 }
 
 /// Result of `compute`, or the message of its panic.
-pub(super) fn caught<T>(compute: impl FnOnce() -> T) -> Result<T, Panicked> {
+pub(crate) fn caught<T>(compute: impl FnOnce() -> T) -> Result<T, Panicked> {
     catch_unwind(AssertUnwindSafe(compute)).map_err(|payload| Panicked {
         message: payload
             .downcast_ref::<&str>()
@@ -86,7 +86,7 @@ impl CpuPool {
     }
 
     /// Queues work that catches its own panics.
-    pub(super) fn give(&self, work: Work) -> Result<(), Panicked> {
+    pub(crate) fn give(&self, work: Work) -> Result<(), Panicked> {
         self.sender.send(work).map_err(|_| Panicked::of_a_lost_thread())
     }
 

@@ -17,7 +17,7 @@ const SMALL_DOFS: u64 = 10_000;
 
 /// Memory that all computations may take together, however many run.
 #[derive(Debug)]
-pub(super) struct Memory {
+pub(crate) struct Memory {
     bytes: Option<u64>,
     units: Arc<Semaphore>,
     /// Lock held by the large computation that runs or is next: the others wait here, not for memory, where small ones would queue up behind them.
@@ -28,59 +28,59 @@ pub(super) struct Memory {
 #[derive(Debug, Default)]
 pub struct Allowance {
     /// Bytes that may be taken; `None` for no limit.
-    pub(super) bytes: Option<u64>,
+    pub(crate) bytes: Option<u64>,
     _units: Option<OwnedSemaphorePermit>,
     turn: Option<OwnedMutexGuard<()>>,
 }
 
 impl Allowance {
     /// Whether so many bytes may be taken.
-    pub(super) fn allows(&self, bytes: u64) -> bool {
+    pub(crate) fn allows(&self, bytes: u64) -> bool {
         self.bytes.is_none_or(|allowed| bytes <= allowed)
     }
 
     /// Whether no computation can get more.
-    pub(super) fn is_most(&self) -> bool {
+    pub(crate) fn is_most(&self) -> bool {
         self.turn.is_some()
     }
 }
 
 /// Request for more memory than one computation can get.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct TooLarge {
+pub(crate) struct TooLarge {
     /// Bytes that the computation needs.
-    pub(super) needed: u64,
+    pub(crate) needed: u64,
     /// Bytes that one computation can get.
-    pub(super) allowed: u64,
+    pub(crate) allowed: u64,
 }
 
 impl Memory {
     /// Memory of so many `bytes` to be shared; `None` for no limit.
-    pub(super) fn new(bytes: Option<u64>) -> Self {
+    pub(crate) fn new(bytes: Option<u64>) -> Self {
         // Without a limit shares still bound how many reductions run at once.
         let units = bytes.map_or(SHARES, |bytes| (bytes / UNIT).max(SHARES));
         Self { bytes, units: Arc::new(Semaphore::new(units as usize)), turn: Arc::default() }
     }
 
     /// Memory claimed now, in bytes; 0 without a limit.
-    pub(super) fn claimed_bytes(&self) -> u64 {
+    pub(crate) fn claimed_bytes(&self) -> u64 {
         let all = self.bytes.map_or(0, |bytes| (bytes / UNIT).max(SHARES));
         all.saturating_sub(self.units.available_permits() as u64) * UNIT
     }
 
     /// Claims the memory that the reduction of a sector of `dofs` DOF should need, as soon as that is free.
-    pub(super) async fn claim(&self, dofs: u64) -> Allowance {
+    pub(crate) async fn claim(&self, dofs: u64) -> Allowance {
         if dofs <= SMALL_DOFS { self.take_shares(1, None).await } else { self.claim_most().await }
     }
 
     /// Claims all that one computation can get.
-    pub(super) async fn claim_most(&self) -> Allowance {
+    pub(crate) async fn claim_most(&self) -> Allowance {
         let turn = Arc::clone(&self.turn).lock_owned().await;
         self.take_shares(SHARES - 1, Some(turn)).await
     }
 
     /// Claims `bytes`, as soon as they are free.
-    pub(super) async fn hold(&self, bytes: u64) -> Result<Allowance, TooLarge> {
+    pub(crate) async fn hold(&self, bytes: u64) -> Result<Allowance, TooLarge> {
         let Some(most) = self.most() else {
             return Ok(Allowance { bytes: None, _units: None, turn: None });
         };
@@ -91,13 +91,13 @@ impl Memory {
     }
 
     /// Claims `bytes`, or all that one computation can get if that is less.
-    pub(super) async fn hold_up_to(&self, bytes: u64) -> Allowance {
+    pub(crate) async fn hold_up_to(&self, bytes: u64) -> Allowance {
         let bytes = bytes.min(self.most().unwrap_or(0));
         self.take(bytes.div_ceil(UNIT), None).await
     }
 
     /// Bytes that one computation can get; `None` for no limit.
-    pub(super) fn most(&self) -> Option<u64> {
+    pub(crate) fn most(&self) -> Option<u64> {
         self.bytes.map(|_| self.share() * (SHARES - 1) * UNIT)
     }
 

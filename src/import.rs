@@ -1,0 +1,219 @@
+//! Import of packages, which is no job: received or written beside the models, read and checked, kept as a model.
+//!
+//! Uploads come through all of it; what the generator makes is written, read and kept by the same.
+
+use std::fs::File;
+use std::io::{self, BufWriter, ErrorKind};
+use std::path::Path;
+use std::sync::Arc;
+
+use futures::{Stream, StreamExt};
+use tempfile::TempPath;
+use tokio::io::AsyncWriteExt;
+use tokio_util::bytes::Bytes;
+
+use crate::analysis::error::Violation;
+use crate::analysis::request::Sensor;
+use crate::analysis::run::{self, ModelFacts, PlacedSensor};
+use crate::dynamics::nodes::SectorNode;
+use crate::memory::Memory;
+use crate::package::raw::RawPackage;
+use crate::package::{self, Limits, PackageError};
+use crate::pool::{CpuPool, Panicked};
+use crate::store::labels::Labels;
+use crate::store::limits::{self, LimitReached};
+use crate::store::models::StoredModel;
+use crate::store::{Store, StoreError};
+
+/// Ratio of the memory that reading a package takes to the size of its zip.
+const EXPANSION: u64 = 12;
+
+/// Bytes of an upload that are written at once.
+const PIECE: usize = 1 << 20;
+
+/// Room in which packages become models.
+#[derive(Debug)]
+pub struct Importer {
+    store: Store,
+    /// Threads of its own, so that uploads do not wait behind speeds.
+    threads: CpuPool,
+    memory: Arc<Memory>,
+    /// Largest upload, in bytes as sent.
+    upload_bytes: u64,
+    /// Limits while an uploaded package is read.
+    limits: Limits,
+}
+
+/// Package that passed every check, in a file beside the models.
+#[derive(Debug)]
+pub struct CheckedPackage {
+    /// Facts of the model.
+    pub facts: ModelFacts,
+    /// Id of the model: the digest of the package's content.
+    pub id: String,
+    file: TempPath,
+}
+
+/// Reason why an upload was not received.
+#[derive(Debug, thiserror::Error)]
+pub enum UploadError {
+    /// Upload that broke off.
+    #[error("the upload broke off: {0}")]
+    BrokeOff(String),
+    /// Upload that is larger than this service allows.
+    #[error("a model package may have {0} bytes on this service")]
+    TooLarge(u64),
+    /// Failure to write the file.
+    #[error(transparent)]
+    File(#[from] io::Error),
+}
+
+impl CheckedPackage {
+    /// Reads and checks the package in `file`.
+    ///
+    /// # Errors
+    /// Errors of [`package::read`].
+    pub fn read(file: TempPath, limits: &Limits) -> Result<Self, PackageError> {
+        let read = package::read(&file, limits)?;
+        let facts = ModelFacts::of_package(&read.sector, read.mesh.as_ref(), &read.findings);
+        Ok(Self { facts, id: read.digest, file })
+    }
+}
+
+impl Importer {
+    /// Makes a room with threads and memory of its own, for uploads within these limits.
+    pub(crate) fn new(
+        store: Store,
+        threads: CpuPool,
+        memory: Arc<Memory>,
+        upload_bytes: u64,
+        limits: Limits,
+    ) -> Self {
+        Self { store, threads, memory, upload_bytes, limits }
+    }
+
+    /// Refuses an upload that is declared larger than this service allows.
+    ///
+    /// # Errors
+    /// [`UploadError::TooLarge`].
+    pub fn expect(&self, declared_bytes: Option<u64>) -> Result<(), UploadError> {
+        match declared_bytes {
+            Some(bytes) if bytes > self.upload_bytes => Err(UploadError::TooLarge(self.upload_bytes)),
+            _ => Ok(()),
+        }
+    }
+
+    /// Writes an upload to a file beside the models, piece by piece; `seen` is shown every piece.
+    ///
+    /// # Errors
+    /// An upload that breaks off or is too large; those of the disk.
+    pub async fn receive<E: std::fmt::Display>(
+        &self,
+        mut pieces: impl Stream<Item = Result<Bytes, E>> + Unpin,
+        mut seen: impl FnMut(&Bytes),
+    ) -> Result<TempPath, UploadError> {
+        let (file, path) = self.store.new_upload().await?.into_parts();
+        let mut file = tokio::io::BufWriter::with_capacity(PIECE, tokio::fs::File::from_std(file));
+        let mut received = 0;
+        while let Some(piece) = pieces.next().await {
+            let piece = piece.map_err(|error| UploadError::BrokeOff(error.to_string()))?;
+            received += piece.len() as u64;
+            self.expect(Some(received))?;
+            seen(&piece);
+            file.write_all(&piece).await?;
+        }
+        file.flush().await?;
+        Ok(path)
+    }
+
+    /// Writes a package that was made here to a file beside the models; a failed attempt leaves none.
+    pub(crate) async fn write(
+        &self,
+        package: Arc<RawPackage>,
+    ) -> Result<Result<TempPath, Panicked>, StoreError> {
+        let (file, path) = self.store.new_upload().await?.into_parts();
+        match self.threads.run(move || write_to(file, &package)).await {
+            Ok(written) => written.map(|()| Ok(path)).map_err(StoreError::File),
+            Err(panicked) => Ok(Err(panicked)),
+        }
+    }
+
+    /// Reads and checks an upload.
+    pub async fn check(
+        &self,
+        upload: TempPath,
+    ) -> Result<Result<CheckedPackage, Box<PackageError>>, Panicked> {
+        // The expanded size is not known yet; texts of numbers shrink to a fifth or less.
+        let bytes = upload.metadata().map_or(0, |file| file.len().saturating_mul(EXPANSION));
+        let memory = self.memory.hold_up_to(bytes).await;
+        let limits = self.limits.clone();
+        let read = move || {
+            let _memory = memory;
+            CheckedPackage::read(upload, &limits).map_err(Box::new)
+        };
+        self.threads.run_parallel(read).await
+    }
+
+    /// Keeps a package as a model of `owner`; returns the model and whether it is new. May be repeated where the disk was full.
+    pub async fn keep(
+        &self,
+        owner: &str,
+        limits: limits::Limits,
+        labels: &Labels,
+        package: &CheckedPackage,
+    ) -> Result<Result<(StoredModel, bool), LimitReached>, StoreError> {
+        let CheckedPackage { facts, id, file } = package;
+        self.store.insert_model((owner, limits), id, facts, labels, file).await
+    }
+
+    /// Places `sensors` at nodes of a kept model; see [`run::place_sensors`].
+    pub(crate) async fn place(
+        &self,
+        model: &str,
+        sensors: &mut [Sensor],
+    ) -> Result<Result<Result<Vec<PlacedSensor>, Vec<Violation>>, StoreError>, Panicked> {
+        let path = match self.store.package(model).await {
+            Ok(path) => path,
+            Err(error) => return Ok(Err(error)),
+        };
+        let mut placed = sensors.to_vec();
+        let place = move || {
+            let found = run::place_sensors(&mut placed, &read_nodes(&path)?);
+            Ok::<_, StoreError>((placed, found))
+        };
+        Ok(self.threads.run(place).await?.map(|(placed, found)| {
+            sensors.copy_from_slice(&placed);
+            found
+        }))
+    }
+}
+
+/// Nodes of a kept package.
+fn read_nodes(path: &Path) -> Result<Vec<SectorNode>, StoreError> {
+    package::read_nodes(path, &Limits::default()).map_err(|error| match error {
+        PackageError::Io { source } => StoreError::Package(source),
+        error => StoreError::Package(io::Error::new(ErrorKind::InvalidData, error.to_string())),
+    })
+}
+
+/// Writes `package` to `file`. Nothing is wrong with the package yet: errors are those of the disk.
+fn write_to(file: File, package: &RawPackage) -> io::Result<()> {
+    package::write(package, BufWriter::new(file)).map_err(|error| match error {
+        PackageError::Io { source } => source,
+        error => io::Error::other(error),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::impeller::{Preset, generate};
+
+    #[test]
+    fn a_package_that_finds_no_room_is_known_by_it() {
+        let package = generate(&Preset::Small.parameters()).unwrap();
+        let full = File::options().write(true).open("/dev/full").unwrap();
+        let error = StoreError::from(write_to(full, &package).unwrap_err());
+        assert!(error.is_disk_full(), "{error}");
+    }
+}
