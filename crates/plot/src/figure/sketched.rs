@@ -163,18 +163,13 @@ fn grid(of: &Cells, panel: &Panel) -> (Heat, Option<String>) {
     let columns: Vec<&[Band]> = of.columns.chunks(wide).collect();
     let largest = |rows: &[Vec<Option<f64>>], column: usize| {
         let all = rows.iter().flat_map(|row| row[column * wide..].iter().take(wide).flatten());
-        all.copied()
-            .filter(|value| value.is_finite())
-            .max_by(f64::total_cmp)
-            .map_or(f32::NAN, |value| value as f32)
+        all.copied().filter(|value| value.is_finite()).max_by(f64::total_cmp)
     };
-    let least = panel.ramp.as_ref().filter(|ramp| ramp.is_logarithmic).map(|ramp| ramp.range.0 as f32);
-    let shown = |value: f32| match least {
-        Some(least) if !value.is_nan() => value.max(least).log10(),
-        _ => value,
+    let least = panel.ramp.as_ref().filter(|ramp| ramp.is_logarithmic).map(|ramp| ramp.range.0);
+    let shown = |value: f64| least.map_or(value, |least| value.max(least).log10()) as f32;
+    let row = |rows: &[Vec<Option<f64>>]| {
+        (0..columns.len()).map(|column| largest(rows, column).map_or(f32::NAN, shown)).collect()
     };
-    let row =
-        |rows: &[Vec<Option<f64>>]| (0..columns.len()).map(|column| shown(largest(rows, column))).collect();
     let values: Vec<Vec<f32>> = of.values.chunks(high).map(row).collect();
     let middle = |bands: &[Band]| bands[bands.len() / 2].value;
     let rad_s = |bands: &&[Band]| vec![(middle(bands) * std::f64::consts::TAU / 60.0) as f32];
