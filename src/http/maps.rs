@@ -123,22 +123,22 @@ async fn draw(
     if answer.form == Form::Plotly {
         let read = move || Ok::<_, Problem>((read()?, leave));
         let ((maps, critical), leave) = stream::blocking(read).await??;
-        return Ok(answer.figure(leave, move || drawing(&maps, critical, seen, window).figure()));
+        return Ok(answer.figure(leave, move || drawing(&maps, critical.as_ref(), seen, window).figure()));
     }
     let draw = move || {
         let (maps, critical) = read()?;
-        Ok(drawing(&maps, critical, seen, window).svg())
+        Ok(drawing(&maps, critical.as_ref(), seen, window).svg())
     };
     answer.drawn(state, leave, draw).await
 }
 
 /// Drawing of one map, or of a sheet of one map per nodal diameter.
-fn drawing(
-    maps: &[InteractionMap],
-    critical: Option<CriticalSpeeds>,
+fn drawing<'a>(
+    maps: &'a [InteractionMap],
+    critical: Option<&CriticalSpeeds>,
     (axis, colour, frame, sheet): (VerticalAxis, LevelColour, Frame, bool),
     window: Window,
-) -> Drawing<'_> {
+) -> Drawing<'a> {
     match (maps, frame) {
         ([map], Frame::Fixed) => plot::fixed_frame_map(map, critical, axis, window, colour),
         ([map], Frame::Rotating) if !sheet => {

@@ -487,7 +487,7 @@ impl<'a> View<'a> {
         }
     }
 
-    fn panel(&self, top: f64) -> Panel {
+    fn panel(&self, top: f64) -> Panel<'static> {
         let x = match self.over.0 {
             BranchParameter::Speed => Axis::speeds(self.x, 8.0),
             _ => Axis::linear(self.over.axis(), self.x, 8.0),

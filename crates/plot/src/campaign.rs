@@ -56,7 +56,7 @@ pub fn campaign(campaign: &Campaign, parameter: usize) -> Drawing<'static> {
 }
 
 /// Panel of severity over speed and the parameter.
-fn map(campaign: &Campaign, parameter: usize, top: f64) -> Panel {
+fn map(campaign: &Campaign, parameter: usize, top: f64) -> Panel<'static> {
     let (rows, cells) = (rows(campaign, parameter), cells(&campaign.speeds_rad_s));
     let range = match (rows.first(), rows.last()) {
         (Some(first), Some(last)) => (first.band.from, last.band.to),
@@ -197,7 +197,7 @@ fn told(of: &ParameterSensitivity) -> String {
 type Shared = fn(&ParameterSensitivity) -> (f64, f64);
 
 /// Panel of the sensitivities from `top` on, two bars per parameter with their standard errors; none where there are none.
-fn sensitivities(campaign: &Campaign, top: f64) -> Option<Panel> {
+fn sensitivities(campaign: &Campaign, top: f64) -> Option<Panel<'static>> {
     let shown = shown(campaign);
     let ends = shown.iter().flat_map(|of| {
         [

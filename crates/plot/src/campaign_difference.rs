@@ -44,7 +44,7 @@ pub(super) fn panel(
     (corner, width): ((f64, f64), f64),
     x: (f64, f64),
     severity: &str,
-) -> Option<Panel> {
+) -> Option<Panel<'static>> {
     let known = known(of.comparison.as_ref()?, &of.speeds_rad_s);
     let reach = known.iter().map(|(_, of)| ends(of));
     let (low, high) = reach.fold((0.0_f64, 0.0_f64), |(low, high), (from, to)| (low.min(from), high.max(to)));

@@ -43,7 +43,7 @@ pub fn campbell(campbell: &Campbell) -> Drawing<'static> {
 }
 
 /// Begins a sketch of a Campbell diagram.
-pub(super) fn begin(kind: &'static str, title: &str, campbell: &Campbell) -> Sketch {
+pub(super) fn begin(kind: &'static str, title: &str, campbell: &Campbell) -> Sketch<'static> {
     let settings = &campbell.settings;
     let origin = heading::origin(&settings.model, &campbell.version);
     let words = format!(

@@ -34,6 +34,13 @@ pub(super) fn cells(speeds_rad_s: &[f64]) -> Vec<Cell> {
     sorted.iter().enumerate().map(cell).collect()
 }
 
+/// Cells, in ascending speed, of which a range of speeds contains a part.
+pub(super) fn within(cells: &[Cell], (low, high): (f64, f64)) -> &[Cell] {
+    let first = cells.partition_point(|cell| cell.to <= low);
+    let end = cells.partition_point(|cell| cell.from < high);
+    cells.get(first..end).unwrap_or_default()
+}
+
 /// Lowest and highest of some speeds, in rpm; from standstill where all are equal.
 pub(super) fn range(speeds_rad_s: &[f64]) -> (f64, f64) {
     let speeds = speeds_rad_s.iter().map(|speed| rpm(*speed));
@@ -63,5 +70,8 @@ mod tests {
             cells.iter().map(|c| (c.index, c.from.round(), c.rpm.round(), c.to.round())).collect();
         assert_eq!(rounded, [(1, 90.0, 100.0, 110.0), (2, 110.0, 120.0, 210.0), (0, 210.0, 300.0, 390.0)]);
         assert_eq!(extent(&[]), (0.0, 1.0));
+        let seen = |range| -> Vec<usize> { within(&cells, range).iter().map(|cell| cell.index).collect() };
+        assert_eq!(seen((100.0, 215.0)), [1, 2, 0]);
+        assert_eq!((seen((110.5, 111.0)), seen((500.0, 600.0))), (vec![2], vec![]));
     }
 }

@@ -6,16 +6,8 @@ use super::svg::{Element, INK, group, line, rectangle, text, text_width, upright
 
 const WIDTH: f64 = 16.0;
 
-/// Draws a bar of the colours of `amplitudes` from `left` on, as high as the scale, with ticks and a title.
-pub(super) fn draw(amplitudes: &Scale, left: f64, ticks: &[(f64, String)], title: &str) -> Element {
-    const STOPS: u32 = 32;
-    let share = |i: u32| f64::from(i) / f64::from(STOPS);
-    let stops = (0..=STOPS).map(|i| (share(i), colour::amplitude(share(i))));
-    draw_colours(stops, amplitudes, left, ticks, title)
-}
-
 /// Draws a bar of colours at ascending shares of a scale.
-pub(super) fn draw_colours(
+pub(super) fn draw(
     colours: impl IntoIterator<Item = (f64, [u8; 3])>,
     amplitudes: &Scale,
     left: f64,

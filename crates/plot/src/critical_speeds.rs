@@ -5,7 +5,7 @@ use super::cells::rpm;
 use super::drawing::Drawing;
 use super::key::MARK_WIDTH;
 use super::layer::{Bars, Curve, Mark, Marks, Stroke};
-use super::map_view::DRIVEN;
+use super::marks::DRIVEN;
 use super::sketch::{Axis, Panel, Sketch};
 use super::style::{Colour, Dash, Look, Pen, Symbol};
 use super::svg::{Element, group, line, text, upright};

@@ -60,7 +60,7 @@ fn ladders(at: &SpeedStudy, quantity: Quantity) -> Vec<Ladder<'_>> {
     ladders
 }
 
-fn panel(sketch: &Sketch, ladders: &[Ladder], error_axis: &str) -> Panel {
+fn panel(sketch: &Sketch, ladders: &[Ladder], error_axis: &str) -> Panel<'static> {
     let mut sizes: Vec<u32> = ladders.iter().map(|ladder| ladder.modes_per_speed).collect();
     sizes.sort_unstable();
     sizes.dedup();

@@ -124,7 +124,7 @@ pub fn force_map(map: &ForceMap, quantity: ForceQuantity) -> Drawing<'static> {
 }
 
 /// Panel of the contact nodes.
-fn nodes(map: &ForceMap, cells: &[Cell], quantity: ForceQuantity, top: f64) -> Panel {
+fn nodes(map: &ForceMap, cells: &[Cell], quantity: ForceQuantity, top: f64) -> Panel<'static> {
     let nodes = map.rows.iter().flatten().map(|row| quantity.of(row).len()).max().unwrap_or(0);
     let most = map.rows.iter().flatten().filter_map(|row| largest(quantity.of(row))).fold(0.0, f64::max);
     let y = Axis::linear(NODES, (-0.5, nodes.max(1) as f64 - 0.5), 8.0).ticks(node_ticks(nodes));
@@ -157,7 +157,7 @@ fn over_speed(
     cells: &[Cell],
     quantity: ForceQuantity,
     (top, below): (f64, &mut Panel),
-) -> Panel {
+) -> Panel<'static> {
     let curves = curves(map, quantity);
     let at = |cell: &Cell, curve: &Curved| (curve.1)(map.rows.get(cell.index)?.as_ref()?);
     let shown = curves.iter().flat_map(|curve| cells.iter().filter_map(move |cell| at(cell, curve)));

@@ -1,4 +1,4 @@
-//! Heading above a diagram: title and paragraphs.
+//! Heading above a diagram: title, paragraphs, and a warning.
 
 use super::svg::{Element, group, text};
 
@@ -7,21 +7,30 @@ const LINE_HEIGHT: f64 = 17.0;
 /// Number of characters in a line of the heading: at 13 units hardly more fit into the width of a drawing.
 const COLUMNS: usize = 165;
 
-/// Draws a title and paragraphs, broken into as many lines as they need, and returns the height at which they end.
-pub(super) fn heading(left: f64, title: &str, paragraphs: &[String]) -> (Element, f64) {
+/// Colour of warnings in words.
+pub(super) const WARNING: &str = "#b01f20";
+
+/// Draws a title, paragraphs and a warning, broken into as many lines as they need, and returns the height at which they end.
+pub(super) fn heading(
+    left: f64,
+    title: &str,
+    paragraphs: &[String],
+    warning: Option<&String>,
+) -> (Element, f64) {
     let title = text(left, 28.0, "start", title).set("font-size", "18").set("font-weight", "bold");
-    let lines = lines(paragraphs);
-    let row = |(i, line): (usize, &String)| text(left, height(i), "start", line).set("fill", "#555555");
-    (group().child(title).children(lines.iter().enumerate().map(row)), bottom(paragraphs))
+    let plain = lines(paragraphs).into_iter().map(|line| (line, "#555555"));
+    let lines = plain.chain(lines(warning).into_iter().map(|line| (line, WARNING))).enumerate();
+    let rows = lines.map(|(i, (line, colour))| text(left, height(i), "start", &line).set("fill", colour));
+    (group().child(title).children(rows), bottom(paragraphs, warning))
 }
 
-/// Height at which a title and paragraphs end.
-pub(super) fn bottom(paragraphs: &[String]) -> f64 {
-    height(lines(paragraphs).len().saturating_sub(1))
+/// Height at which a title, paragraphs and a warning end.
+pub(super) fn bottom(paragraphs: &[String], warning: Option<&String>) -> f64 {
+    height((lines(paragraphs).len() + lines(warning).len()).saturating_sub(1))
 }
 
-fn lines(paragraphs: &[String]) -> Vec<String> {
-    paragraphs.iter().flat_map(|words| broken(words, COLUMNS)).collect()
+fn lines<'a>(paragraphs: impl IntoIterator<Item = &'a String>) -> Vec<String> {
+    paragraphs.into_iter().flat_map(|words| broken(words, COLUMNS)).collect()
 }
 
 fn height(line: usize) -> f64 {

@@ -1,5 +1,6 @@
-//! Layers of a sketch: curves and marks, and what SVG alone has.
+//! Layers of a sketch: curves, marks and cells, and what one of the pens alone has.
 
+use super::heat::Heat;
 use super::key::MARK_WIDTH;
 use super::style::{Colour, Dash, Look, Pen};
 use super::svg::{Element, rectangle};
@@ -9,33 +10,56 @@ pub(super) type Place = (f64, f64);
 
 /// Layer of a panel.
 #[derive(Debug)]
-pub(super) enum Layer {
+pub(super) enum Layer<'a> {
     Curve(Curve),
     Marks(Marks),
+    Uprights(Uprights),
+    Areas(Areas),
     Cells(Cells),
+    Heat(Heat<'a>),
     /// Elements of the drawing that the figure does not have.
     Drawn(Element),
+    /// Marks of the figure that the drawing does not have.
+    Shown(Marks),
 }
 
-impl From<Curve> for Layer {
+impl From<Curve> for Layer<'_> {
     fn from(curve: Curve) -> Self {
         Self::Curve(curve)
     }
 }
 
-impl From<Marks> for Layer {
+impl From<Marks> for Layer<'_> {
     fn from(marks: Marks) -> Self {
         Self::Marks(marks)
     }
 }
 
-impl From<Cells> for Layer {
+impl From<Uprights> for Layer<'_> {
+    fn from(uprights: Uprights) -> Self {
+        Self::Uprights(uprights)
+    }
+}
+
+impl From<Areas> for Layer<'_> {
+    fn from(areas: Areas) -> Self {
+        Self::Areas(areas)
+    }
+}
+
+impl<'a> From<Heat<'a>> for Layer<'a> {
+    fn from(heat: Heat<'a>) -> Self {
+        Self::Heat(heat)
+    }
+}
+
+impl From<Cells> for Layer<'_> {
     fn from(cells: Cells) -> Self {
         Self::Cells(cells)
     }
 }
 
-impl From<Element> for Layer {
+impl From<Element> for Layer<'_> {
     fn from(drawn: Element) -> Self {
         Self::Drawn(drawn)
     }
@@ -85,6 +109,10 @@ pub(super) struct Curve {
     pub(super) told: Told,
     /// Words at the end of every stroke.
     pub(super) labels: Vec<String>,
+    /// Whether the drawing has words of its own in the place of the labels.
+    pub(super) has_texts: bool,
+    /// Half the lengths of error bars at the points in the figure; not a number where there is none.
+    pub(super) errors: Vec<f64>,
     /// Marks at all points.
     pub(super) look: Option<Look>,
     /// Class in the drawing.
@@ -112,6 +140,8 @@ impl Curve {
             course: Course::Straight,
             told: Told::Nothing,
             labels: Vec::new(),
+            has_texts: false,
+            errors: Vec::new(),
             look: None,
             class: "",
             opacity: 1.0,
@@ -263,6 +293,49 @@ impl Marks {
     pub(super) fn unlisted(self) -> Self {
         Self { is_listed: false, ..self }
     }
+}
+
+/// Line at a value of the horizontal axis.
+#[derive(Debug)]
+pub(super) struct Upright {
+    pub(super) x: f64,
+    /// Label above the line in the drawing.
+    pub(super) label: String,
+    /// Words that follow the label in the title of the line.
+    pub(super) more: String,
+}
+
+/// Lines of one name at values of the horizontal axis. In the drawing they begin above the panel, so that panels over it have them too.
+#[derive(Debug)]
+pub(super) struct Uprights {
+    /// Name in the legend of the figure.
+    pub(super) name: String,
+    pub(super) lines: Vec<Upright>,
+    pub(super) pen: Pen,
+    /// Height in the drawing at which the lines begin.
+    pub(super) top: f64,
+    /// Class in the drawing.
+    pub(super) class: &'static str,
+}
+
+/// Rectangle with words under the pointer.
+#[derive(Debug)]
+pub(super) struct Area {
+    pub(super) across: (f64, f64),
+    /// Vertical extent; none for a strip along the upper edge of the panel: outside it in the drawing, inside it in the figure.
+    pub(super) upwards: Option<(f64, f64)>,
+    pub(super) words: String,
+}
+
+/// Rectangles of one name and colour.
+#[derive(Debug)]
+pub(super) struct Areas {
+    /// Name in the legend of the figure.
+    pub(super) name: &'static str,
+    pub(super) areas: Vec<Area>,
+    pub(super) fill: String,
+    /// Class in the drawing.
+    pub(super) class: &'static str,
 }
 
 /// Column or row of cells: its extent and the value in its middle.

@@ -1,24 +1,16 @@
-//! Rectangle of a map: amplitudes, and the lines and marks that lie over them.
+//! Rectangle of a map, and what its vertical axis means.
 
-use super::axis::Scale;
 use super::cells::{Cell, extent, rpm};
-use super::colour::on_dark;
 use super::diagram::Diagram;
 use super::frame::Frame;
-use super::key::Flow;
-use super::labels::Labels;
-use super::svg::{Element, group, line, polyline, rectangle, text};
+use super::marks;
 use super::window::Window;
-use super::{hatching, heat, marks};
 use rubmap_analysis::effects::casing::shape::Shape;
 use rubmap_analysis::request::Scene;
-use rubmap_analysis::result::{Campbell, CriticalSpeeds, InteractionMap, Wave};
+use rubmap_analysis::result::{Campbell, InteractionMap, Wave};
 
 /// Share of the loudest amplitude below which amplitudes are shown as quiet.
 pub(super) const QUIETEST: f64 = 1e-3;
-
-/// Fill of the crossings that the lobes drive.
-pub(super) const DRIVEN: &str = "#ff9d5c";
 
 /// Quantity on the vertical axis of a map.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -54,11 +46,8 @@ impl Natural {
     }
 }
 
-/// Engine order, and the position where its line leaves the diagram.
-pub(super) type End = (u32, (f64, f64));
-
 /// Rectangle of a map, and the meaning of its vertical axis.
-#[derive(Debug)]
+#[derive(Debug, Clone, Copy)]
 pub(super) struct View {
     pub(super) axis: VerticalAxis,
     /// Frame in which the engine orders and frequencies of the vertical axis are measured.
@@ -125,12 +114,6 @@ impl View {
         }
     }
 
-    /// Position in the drawing of an engine order of the rotating frame at a speed, if it is in view; none in the fixed frame, which shows
-    /// it at two other orders.
-    fn place(&self, rpm: f64, order: f64) -> Option<(f64, f64)> {
-        self.seen(rpm, order).and_then(|(rpm, height)| self.diagram.inside(rpm, height))
-    }
-
     /// Point in the units of the axes of an engine order of the rotating frame at a speed, if it is in view; none in the fixed frame.
     pub(super) fn seen(&self, rpm: f64, order: f64) -> Option<(f64, f64)> {
         let place = (rpm, self.height(rpm, order));
@@ -138,32 +121,10 @@ impl View {
         inside.then_some(place)
     }
 
-    /// Draws the amplitudes over hatching, with transparent areas that name the speeds without a result.
-    pub(super) fn amplitudes(&self, map: &InteractionMap, cells: &[Cell], loudest: Option<f64>) -> Element {
-        let without = |cell: &&Cell| is_missing(map, cell);
-        let missing = cells.iter().filter(without).filter_map(|cell| {
-            let (low, high) = self.diagram.x.values;
-            let (from, to) = (cell.from.max(low), cell.to.min(high));
-            let (left, right) = (self.diagram.x.place(from), self.diagram.x.place(to));
-            let area = rectangle(left, self.diagram.top, right - left, self.diagram.height);
-            let area = area.set("class", "missing").set("fill", "white").set("fill-opacity", "0");
-            (from < to).then(|| area.title(&missing_words(map, cell)))
-        });
-        // A map without motion is as quiet as the colours go.
-        let amplitudes = self.scale(loudest.unwrap_or(1.0));
-        let image = heat::image(map, cells, &self.diagram, &amplitudes, |y, rpm| self.order(y, rpm));
-        group().child(self.diagram.background(hatching::FILL)).children(missing).child(image)
-    }
-
     /// Whether a corner of the diagram lies above the highest engine order, where there are no spectra.
     pub(super) fn reaches_beyond(&self, map: &InteractionMap) -> bool {
         let highest = map.engine_orders.last().copied().unwrap_or(0.0) + 0.5;
         self.order(self.diagram.y.values.1, self.diagram.x.values.0) > highest
-    }
-
-    /// Colour scale, as high as the diagram.
-    pub(super) fn scale(&self, loudest: f64) -> Scale {
-        Scale::logarithmic((QUIETEST * loudest, loudest), (self.diagram.bottom(), self.diagram.top))
     }
 
     /// Lines of whole engine orders; of many only some, but all that the lobes excite. None in the fixed frame.
@@ -188,34 +149,6 @@ impl View {
         shown.filter_map(line).collect()
     }
 
-    /// Draws the lines of engine orders, dotted, or solid for multiples of the lobe count, and returns where each leaves the diagram.
-    pub(super) fn engine_orders(&self, map: &InteractionMap) -> (Element, Vec<End>) {
-        let (mut lines, mut ends) = (group(), Vec::new());
-        for OrderLine { order, excited, ends: places } in self.order_lines(map) {
-            let [from, to] = places.map(|(x, y)| self.diagram.point(x, y));
-            lines = lines.child(order_line(from, to, excited).set("class", "engine-order"));
-            ends.push((order, to));
-        }
-        (lines, ends)
-    }
-
-    /// Adds the lines of engine orders to a key.
-    pub(super) fn explained(mut flow: Flow, map: &InteractionMap, ends: &[End]) -> Flow {
-        let lobes = lobes(map);
-        let stroke = |excited: bool| {
-            let dark = rectangle(0.0, -8.0, 30.0, 16.0).set("fill", "#101010");
-            group().child(dark).child(order_line((3.0, 0.0), (27.0, 0.0), excited))
-        };
-        if lobes > 1 && ends.iter().any(|(order, _)| order.is_multiple_of(lobes)) {
-            flow = flow.entry(stroke(true), 30.0, "multiples of the lobe count");
-        }
-        let words = if lobes > 1 { "other engine orders" } else { "engine orders" };
-        if ends.iter().any(|(order, _)| lobes == 1 || !order.is_multiple_of(lobes)) {
-            flow = flow.entry(stroke(lobes == 1), 30.0, words);
-        }
-        flow
-    }
-
     /// Natural frequencies in the rotating frame.
     pub(super) fn natural(&self, campbell: &Campbell) -> Vec<Natural> {
         let harmonics = campbell.frequencies_hz.first().map_or(0, Vec::len);
@@ -234,99 +167,6 @@ impl View {
         }
         found
     }
-
-    /// Draws the natural frequencies, a colour and a number for each nodal diameter.
-    pub(super) fn natural_frequencies(&self, campbell: &Campbell, labels: &mut Labels) -> Element {
-        let harmonics = campbell.frequencies_hz.first().map_or(0, Vec::len);
-        let (mut curves, mut words) = (group().set("class", "natural"), group());
-        for natural in self.natural(campbell) {
-            let places = natural.places.iter().map(|place| place.map(|(x, y)| self.diagram.point(x, y)));
-            let places: Vec<_> = places.collect();
-            let colour = on_dark(natural.nodal_diameter, harmonics);
-            let inside = |place: &&(f64, f64)| self.diagram.encloses(**place);
-            let seen: Vec<(f64, f64)> = places.iter().flatten().filter(inside).copied().collect();
-            let stretches = [0.97, 0.85, 0.7, 0.5, 0.3, 0.1, 0.03];
-            let tried = stretches.map(|share| seen.get((share * seen.len() as f64) as usize).copied());
-            let number = natural.nodal_diameter.to_string();
-            let number = labels.at_first(tried.into_iter().flatten(), &number, 11.0);
-            words =
-                words
-                    .children(number.map(|label| {
-                        label.set("fill", &colour).set("font-weight", "bold").rimmed("#101010")
-                    }));
-            curves = curves.child(
-                polyline(places)
-                    .set("stroke", colour)
-                    .set("stroke-opacity", "0.85")
-                    .set("stroke-width", "1")
-                    .title(&natural.words()),
-            );
-        }
-        let region = format!("view-{:.0}-{:.0}", self.diagram.left, self.diagram.top);
-        let clipped = curves.set("clip-path", format!("url(#{region})"));
-        group().child(self.diagram.region(&region)).child(clipped).child(words)
-    }
-
-    /// Draws the crossings of natural frequencies with the linear criterion and with the lobes' engine orders, with (i, j, n) and (i, j)
-    /// where there is room.
-    pub(super) fn crossings(&self, critical: &CriticalSpeeds, labels: &mut Labels) -> Element {
-        let mut found = Vec::new();
-        for crossing in &critical.linear_crossings {
-            let order = f64::from(crossing.nodal_diameter * crossing.superharmonic);
-            let Some(place) = self.place(rpm(crossing.speed_rad_s), order) else { continue };
-            found.push((place, marks::linear(place, "white", crossing), marks::triple(crossing)));
-        }
-        for crossing in &critical.driven_crossings {
-            let k = f64::from(crossing.engine_order);
-            let Some(place) = self.place(rpm(crossing.speed_rad_s), k) else { continue };
-            found.push((place, marks::driven(place, DRIVEN, "black", crossing), marks::pair(crossing)));
-        }
-        for (place, ..) in &found {
-            labels.keep_off(*place, 4.0);
-        }
-        let mut drawn = group();
-        for (place, mark, words) in found {
-            let label = labels.beside(place, 5.0, &words, 10.5);
-            drawn =
-                drawn.child(mark).children(label.map(|label| label.set("fill", "white").rimmed("#101010")));
-        }
-        drawn
-    }
-
-    /// Whether [`crossings`](Self::crossings) has marks of the linear criterion, and whether it has marks of driven crossings.
-    pub(super) fn has_crossings(&self, critical: &CriticalSpeeds) -> (bool, bool) {
-        let linear = critical.linear_crossings.iter().any(|crossing| {
-            let order = f64::from(crossing.nodal_diameter * crossing.superharmonic);
-            self.place(rpm(crossing.speed_rad_s), order).is_some()
-        });
-        let driven = critical.driven_crossings.iter().any(|crossing| {
-            self.place(rpm(crossing.speed_rad_s), f64::from(crossing.engine_order)).is_some()
-        });
-        (linear, driven)
-    }
-
-    /// Labels of engine orders that leave through the top, inside the diagram.
-    pub(super) fn label_inside(end: (f64, f64), order: u32, excited: bool) -> Element {
-        text(end.0 - 8.0, end.1 + 15.0, "end", &order.to_string())
-            .set("font-size", "11")
-            .set("font-weight", if excited { "bold" } else { "normal" })
-            .set("fill", if excited { "white" } else { "#cccccc" })
-            .rimmed("#101010")
-    }
-}
-
-/// Draws the straight line of an engine order: solid if the lobes excite it, otherwise dotted.
-fn order_line(from: (f64, f64), to: (f64, f64), excited: bool) -> Element {
-    order_stroke(line(from, to), excited)
-}
-
-/// Draws a line of any shape in the style of an engine order.
-pub(super) fn order_stroke(course: Element, excited: bool) -> Element {
-    course
-        .set("stroke", "white")
-        .set("stroke-opacity", if excited { "0.45" } else { "0.6" })
-        .set("stroke-width", if excited { "0.9" } else { "1" })
-        .set("stroke-dasharray", if excited { "" } else { "1.5 5" })
 }
 
 /// Whether a speed has no amplitudes.

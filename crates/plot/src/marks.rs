@@ -2,19 +2,14 @@
 
 use super::axis::{label, significant};
 use super::cells::rpm;
-use super::svg::{Element, line, upright};
+use super::svg::Element;
 use rubmap_analysis::result::{CriticalSpeed, Crossing, DrivenCrossing, Verdict, Wave};
 
 /// Least distance between upright labels.
 const LABEL_SPACING: f64 = 15.0;
 
-/// Dashes of a critical speed whose peak is not resolved.
-pub(super) const UNRESOLVED: &str = "1.5 4";
-
-/// Mark of a crossing of the linear criterion: an open circle.
-pub(super) fn linear((x, y): (f64, f64), stroke: &str, crossing: &Crossing) -> Element {
-    ring((x, y), stroke).title(&linear_words(crossing))
-}
+/// Fill of crossings that the lobes drive.
+pub(super) const DRIVEN: &str = "#ff9d5c";
 
 /// Words for a crossing of the linear criterion.
 pub(super) fn linear_words(crossing: &Crossing) -> String {
@@ -47,11 +42,6 @@ pub(super) fn pair(crossing: &DrivenCrossing) -> String {
     format!("({}, {})", crossing.nodal_diameter, crossing.family)
 }
 
-/// Mark of a crossing that the lobes can drive: a filled diamond.
-pub(super) fn driven((x, y): (f64, f64), fill: &str, stroke: &str, crossing: &DrivenCrossing) -> Element {
-    diamond((x, y), fill, stroke).title(&driven_words(crossing))
-}
-
 /// Words for a crossing that the lobes can drive.
 pub(super) fn driven_words(crossing: &DrivenCrossing) -> String {
     let DrivenCrossing { nodal_diameter, family, engine_order: k, wave, .. } = *crossing;
@@ -71,54 +61,6 @@ pub(super) fn mode(nodal_diameter: u32, family: u32, wave: Option<Wave>) -> Stri
         Some(Wave::Backward) => ", backward wave",
     };
     format!("nodal diameter {nodal_diameter}, family {family}{direction}")
-}
-
-/// Diamond-shaped mark.
-pub(super) fn diamond((x, y): (f64, f64), fill: &str, stroke: &str) -> Element {
-    Element::new("path")
-        .set(
-            "d",
-            format!(
-                "M{:.2} {y:.2}L{x:.2} {:.2}L{:.2} {y:.2}L{x:.2} {:.2}Z",
-                x - 5.0,
-                y - 6.0,
-                x + 5.0,
-                y + 6.0
-            ),
-        )
-        .set("fill", fill)
-        .set("stroke", stroke)
-}
-
-/// Draws dashed lines from `top` to `bottom` at the critical speeds, `x` in the drawing, each with its speed above; dotted where the speeds
-/// of the sweep do not resolve the peak. With `said`, utilisations replace the engine orders in the labels.
-pub(super) fn critical(
-    speeds: &[(f64, &CriticalSpeed)],
-    right: f64,
-    (top, bottom): (f64, f64),
-    said: bool,
-) -> Vec<Element> {
-    let places: Vec<_> = speeds.iter().map(|(x, _)| *x).collect();
-    let labels = spread(&places, right);
-    let mut out = Vec::new();
-    for ((x, speed), label_x) in speeds.iter().zip(labels) {
-        let words = critical_words(speed, said);
-        let (dashes, title) =
-            (if speed.resolved { "7 4" } else { UNRESOLVED }, format!("{words}{}", known_to(speed)));
-        out.push(
-            line((*x, top), (*x, bottom))
-                .set("class", "critical-speed")
-                .set("stroke", "#d62728")
-                .set("stroke-width", "1.2")
-                .set("stroke-dasharray", dashes)
-                .title(&title),
-        );
-        out.push(line((label_x, top - 12.0), (*x, top)).set("stroke", "#d62728"));
-        out.push(
-            upright(label_x + 4.5, top - 16.0, "start", &words).set("fill", "#b01f20").set("font-size", "12"),
-        );
-    }
-    out
 }
 
 /// Words for a critical speed; with its utilisation where that is `said` and known, otherwise with its engine order.

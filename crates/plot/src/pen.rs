@@ -4,21 +4,28 @@ use super::axis::{Scale, logarithmic_ticks, ticks};
 use super::colour_bar;
 use super::diagram::Diagram;
 use super::heading;
-use super::key::{Flow, Key, MARK_WIDTH};
+use super::key::{Flow, Key};
 use super::labels::{Labels, traced};
-use super::layer::{Bars, Cells, Course, Curve, Layer, Mark, Marks, Place, Stroke, Told};
+use super::layer::{
+    Area, Areas, Bars, Cells, Course, Curve, Layer, Mark, Marks, Place, Stroke, Told, Upright, Uprights,
+};
+use super::marks::spread;
 use super::pixels::Pixels;
-use super::sketch::{Panel, Ramp, Row, Sketch, Stand};
+use super::sketch::{Panel, Row, Sketch, Stand};
 use super::style::{Dash, Pen};
-use super::svg::{Element, document, group, line, polyline, rectangle, text};
+use super::svg::{Element, document, group, line, polyline, rectangle, text, upright};
 use super::trace::Trace;
 
 /// Size of an empty frame with a message.
 const EMPTY: (f64, f64) = (800.0, 420.0);
 
+/// Height of a strip along the upper edge of a panel.
+const STRIP: f64 = 7.0;
+
 /// Draws a sketch.
 pub(super) fn svg(sketch: &Sketch) -> String {
-    let (heading, bottom) = heading::heading(sketch.left, &sketch.title, &sketch.paragraphs);
+    let (heading, bottom) =
+        heading::heading(sketch.left, &sketch.title, &sketch.paragraphs, sketch.warning.as_ref());
     let mut content = vec![heading];
     let foot = sketch.panels.iter().map(|panel| panel.diagram.bottom()).fold(bottom, f64::max);
     let shared = sketch.panels.iter().filter(|panel| !panel.is_apart);
@@ -34,6 +41,13 @@ pub(super) fn svg(sketch: &Sketch) -> String {
         let (key, end) = key(panel, sketch.width);
         content.push(key);
         height = height.max(end + 26.0);
+    }
+    content.extend(sketch.panels.iter().flat_map(uprights));
+    content.extend(common_bar(&sketch.panels));
+    if let Some(line) = &sketch.foot {
+        height = sketch.least.max(height + 16.0);
+        content
+            .push(group().set("transform", format!("translate(0 {:.2})", height - 18.0)).child(line.clone()));
     }
     if let Some(words) = sketch.footnote.as_ref().filter(|words| !words.is_empty()) {
         height += 24.0;
@@ -59,16 +73,76 @@ fn draw(panel: &Panel, is_lowest: bool) -> Vec<Element> {
             Layer::Marks(found) => marks(panel, found),
             Layer::Cells(found) if !found.data.is_empty() => continue,
             Layer::Cells(found) => cells(panel, found),
+            Layer::Areas(found) => areas(panel, found),
+            Layer::Heat(heat) => {
+                let range = panel.ramp.as_ref().map_or((1.0, 10.0), |ramp| ramp.range);
+                heat.image(diagram, &Scale::logarithmic(range, (0.0, 1.0)))
+            }
             Layer::Drawn(element) => element.clone(),
+            // Upright lines go through several panels and are drawn after all of them.
+            Layer::Uprights(_) | Layer::Shown(_) => continue,
         });
     }
     content.push(stems(panel));
     content.push(diagram.frame());
     content.push(labels(panel));
     content.extend(is_lowest.then(|| diagram.x_axis(&panel.x.ticks, &panel.x.title)));
-    content.push(diagram.y_axis(&panel.y.ticks, &panel.y.title, 68.0));
-    content.extend(panel.ramp.as_ref().map(|ramp| bar_of(panel, ramp)));
+    content.push(diagram.y_axis(&panel.y.ticks, &panel.y.title, panel.y.away));
+    if panel.across.is_none() {
+        content.extend(bar_of(panel, diagram));
+    }
+    content.extend(
+        panel.name.as_ref().map(|name| {
+            text(diagram.left, diagram.top - 8.0 - STRIP, "start", name).set("font-weight", "bold")
+        }),
+    );
     content
+}
+
+/// Draws the bar of colours that panels side by side share.
+fn common_bar(panels: &[Panel]) -> Option<Element> {
+    let first = panels.first().filter(|panel| panel.across.is_some())?;
+    let right = panels.iter().map(|panel| panel.diagram.right()).fold(0.0, f64::max);
+    let bottom = panels.iter().map(|panel| panel.diagram.bottom()).fold(0.0, f64::max);
+    let Diagram { left, top, .. } = first.diagram;
+    bar_of(first, &Diagram { width: right - left, height: bottom - top, ..first.diagram })
+}
+
+/// Draws upright lines from above a panel down to its foot, with their labels, which are moved apart.
+fn uprights(panel: &Panel) -> Vec<Element> {
+    let layers = panel.layers.iter().filter_map(|layer| match layer {
+        Layer::Uprights(uprights) => Some(uprights),
+        _ => None,
+    });
+    let lines =
+        layers.flat_map(|all| all.lines.iter().map(move |line| (panel.diagram.x.place(line.x), all, line)));
+    let mut lines: Vec<(f64, &Uprights, &Upright)> = lines.collect();
+    lines.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let places: Vec<f64> = lines.iter().map(|(x, ..)| *x).collect();
+    let apart = spread(&places, panel.diagram.right());
+    let drawn = lines.into_iter().zip(apart).map(|((x, of, found), label)| {
+        let long = of.pen.draw(line((x, of.top), (x, panel.diagram.bottom()))).set("class", of.class);
+        let lead = line((label, of.top - 12.0), (x, of.top)).set("stroke", &of.pen.colour.paper);
+        let words = upright(label + 4.5, of.top - 16.0, "start", &found.label);
+        let words = words.set("fill", heading::WARNING).set("font-size", "12");
+        group().child(long.title(&format!("{}{}", found.label, found.more))).child(lead).child(words)
+    });
+    drawn.collect()
+}
+
+/// Draws rectangles, cut off at the sides of the frame.
+fn areas(panel: &Panel, areas: &Areas) -> Element {
+    let (diagram, (low, high)) = (&panel.diagram, panel.x.range);
+    let draw = |area: &Area| {
+        let (from, to) = (diagram.x.place(area.across.0.max(low)), diagram.x.place(area.across.1.min(high)));
+        let (bottom, top) = match area.upwards {
+            Some((foot, head)) => (diagram.y.place(foot), diagram.y.place(head)),
+            None => (diagram.top, diagram.top - STRIP),
+        };
+        let drawn = rectangle(from, top, to - from, bottom - top).set("class", areas.class);
+        drawn.set("fill", &areas.fill).title(&area.words)
+    };
+    group().children(areas.areas.iter().map(draw))
 }
 
 /// Draws the strokes of a curve within a clipping region, the marks at their points, and the words at their ends.
@@ -89,7 +163,8 @@ fn curve(panel: &Panel, curve: &Curve, clip: Option<String>) -> Element {
             })
         })
     });
-    let ends = curve.strokes.iter().zip(&curve.labels).filter(|(_, words)| !words.is_empty());
+    let ends = curve.strokes.iter().zip(&curve.labels);
+    let ends = ends.filter(|(_, words)| !curve.has_texts && !words.is_empty());
     let labels = ends
         .filter_map(|(stroke, words)| Some(end(panel, *stroke.places.iter().flatten().next_back()?, words)));
     group().child(strokes).children(marks).children(labels)
@@ -205,7 +280,7 @@ fn beam(panel: &Panel, (x, y): Place, height: f64) -> Element {
 fn stems(panel: &Panel) -> Element {
     let layers = panel.layers.iter().filter_map(|layer| match layer {
         Layer::Marks(marks) => Some((marks, marks.stems?)),
-        Layer::Curve(_) | Layer::Cells(_) | Layer::Drawn(_) => None,
+        _ => None,
     });
     let mut all: Vec<(&Marks, Dash, &Mark)> =
         layers.flat_map(|(marks, dash)| marks.marks.iter().map(move |mark| (marks, dash, mark))).collect();
@@ -258,16 +333,17 @@ fn cells(panel: &Panel, cells: &Cells) -> Element {
     pixels.draw()
 }
 
-/// Bar of the colours beside a panel.
-fn bar_of(panel: &Panel, ramp: &Ramp) -> Element {
-    let diagram = &panel.diagram;
+/// Bar of the colours of a panel beside a frame.
+fn bar_of(panel: &Panel, diagram: &Diagram) -> Option<Element> {
+    let ramp = panel.ramp.as_ref()?;
+    let left = diagram.right() + ramp.beside?;
     let stops = (0..=32).map(|i| f64::from(i) / 32.0).map(|share| (share, (ramp.colour)(share)));
     let places = (diagram.bottom(), diagram.top);
     let (scale, ticks) = match ramp.is_logarithmic {
         true => (Scale::logarithmic(ramp.range, places), logarithmic_ticks(ramp.range)),
         false => (Scale::linear(ramp.range, places), ticks(ramp.range, 8.0)),
     };
-    colour_bar::draw_colours(stops, &scale, diagram.right() + ramp.beside, &ticks, &ramp.title)
+    Some(colour_bar::draw(stops, &scale, left, &ticks, &ramp.title))
 }
 
 /// Labels beside the marks that have one, those of the upper marks first, off the lines where possible.
@@ -277,7 +353,7 @@ fn labels(panel: &Panel) -> Element {
     let mut labels = Labels::inside(diagram);
     let layers = panel.layers.iter().rev().filter_map(|layer| match layer {
         Layer::Marks(marks) => Some(marks),
-        Layer::Curve(_) | Layer::Cells(_) | Layer::Drawn(_) => None,
+        _ => None,
     });
     let layers: Vec<&Marks> = layers.collect();
     let named = || {
@@ -289,7 +365,7 @@ fn labels(panel: &Panel) -> Element {
     named().for_each(|(_, place, radius, _)| labels.keep_off(place, 0.9 * radius));
     let strokes = panel.layers.iter().flat_map(|layer| match layer {
         Layer::Curve(curve) if curve.course != Course::History => &curve.strokes[..],
-        Layer::Curve(_) | Layer::Marks(_) | Layer::Cells(_) | Layer::Drawn(_) => &[],
+        _ => &[],
     });
     let lines: Vec<Place> = match named().next() {
         Some(_) => {
@@ -315,7 +391,9 @@ fn key(panel: &Panel, width: f64) -> (Element, f64) {
         Stand::Below => {
             let flow = Flow::new(diagram.left, width - 20.0, diagram.bottom() + 66.0);
             let flow = panel.key.iter().fold(flow, |flow, row| match row {
-                Row::Sample(sample, words) => flow.entry(group().child(sample.clone()), MARK_WIDTH, words),
+                Row::Sample { sample, width, words } => {
+                    flow.entry(group().child(sample.clone()), *width, words)
+                }
                 Row::Heading(words) | Row::Note(words) => flow.entry(group(), 0.0, words),
             });
             let end = flow.bottom();
@@ -324,7 +402,7 @@ fn key(panel: &Panel, width: f64) -> (Element, f64) {
     };
     let key = Key::new(diagram.right() + beside, diagram.top + 8.0);
     let rows = panel.key.iter().fold(key, |key, row| match row {
-        Row::Sample(sample, words) => key.row(group().child(sample.clone()), words),
+        Row::Sample { sample, words, .. } => key.row(group().child(sample.clone()), words),
         Row::Heading(words) => key.heading(words),
         Row::Note(words) => key.note(words),
     });

@@ -164,7 +164,7 @@ impl<'a> Section<'a> {
         all.filter(|node| taken.insert(cell(self.place(node.position)))).collect()
     }
 
-    fn panel(&self) -> Panel {
+    fn panel(&self) -> Panel<'static> {
         let [x, y] = axes(self.geometry, self.view);
         let Diagram { left, top, width, height, .. } = self.diagram;
         let x = Axis::linear(x, self.diagram.x.values, 9.0).free();

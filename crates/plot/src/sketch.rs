@@ -10,18 +10,21 @@ use super::axis::{Scale, decades, eighths, ticks};
 use super::colour;
 use super::diagram::Diagram;
 use super::heading;
+use super::key::MARK_WIDTH;
 use super::layer::{Course, Curve, Layer, Marks};
 use super::svg::Element;
 use super::trace;
 
 /// Description of a drawing.
 #[derive(Debug)]
-pub(super) struct Sketch {
+pub(super) struct Sketch<'a> {
     /// Kind of the figure, for programs.
     pub(super) kind: &'static str,
     pub(super) title: String,
     /// Paragraphs below the title.
     pub(super) paragraphs: Vec<String>,
+    /// Warning below the paragraphs.
+    pub(super) warning: Option<String>,
     /// Paragraphs that only the figure needs.
     pub(super) more: Vec<String>,
     /// Values for programs that show the figure.
@@ -33,7 +36,11 @@ pub(super) struct Sketch {
     /// Height of the figure, pixels.
     pub(super) high: usize,
     /// Panels, the first with the axes `x` and `y` of the figure.
-    pub(super) panels: Vec<Panel>,
+    pub(super) panels: Vec<Panel<'a>>,
+    /// Line below the keys of the drawing, drawn about y = 0.
+    pub(super) foot: Option<Element>,
+    /// Least height of the drawing.
+    pub(super) least: f64,
     /// Note in the lower left corner of the drawing; a paragraph of the figure.
     pub(super) footnote: Option<String>,
     /// Message over the middle of the figure, whose axes have something to show all the same.
@@ -42,19 +49,22 @@ pub(super) struct Sketch {
     pub(super) nothing: Option<String>,
 }
 
-impl Sketch {
+impl<'a> Sketch<'a> {
     /// Begins a sketch of this kind.
     pub(super) fn new(kind: &'static str, title: impl Into<String>, paragraphs: Vec<String>) -> Self {
         Self {
             kind,
             title: title.into(),
             paragraphs: paragraphs.into_iter().filter(|words| !words.is_empty()).collect(),
+            warning: None,
             more: Vec::new(),
             meta: Map::new(),
             left: 92.0,
             width: 1180.0,
             high: 560,
             panels: Vec::new(),
+            foot: None,
+            least: 0.0,
             footnote: None,
             note: None,
             nothing: None,
@@ -74,11 +84,11 @@ impl Sketch {
 
     /// Height in the drawing at which the heading ends.
     pub(super) fn top(&self) -> f64 {
-        heading::bottom(&self.paragraphs)
+        heading::bottom(&self.paragraphs, self.warning.as_ref())
     }
 
     /// Adds a panel.
-    pub(super) fn with(mut self, panel: Panel) -> Self {
+    pub(super) fn with(mut self, panel: Panel<'a>) -> Self {
         self.panels.push(panel);
         self
     }
@@ -124,23 +134,28 @@ pub(super) struct Axis {
     pub(super) zoom: Zoom,
     /// Ticks with their labels.
     pub(super) ticks: Vec<(f64, String)>,
+    /// Title in the figure, where that differs.
+    pub(super) short: Option<String>,
+    /// Distance of the title of a vertical axis from the frame in the drawing.
+    pub(super) away: f64,
 }
 
+/// Distance of the title of a vertical axis from the frame, unless it is set.
+const AWAY: f64 = 68.0;
+
 impl Axis {
+    fn new(title: impl Into<String>, range: (f64, f64), kind: Kind, ticks: Vec<(f64, String)>) -> Self {
+        Self { title: title.into(), range, kind, zoom: Zoom::Same, ticks, short: None, away: AWAY }
+    }
+
     /// Linear axis with about `wanted` ticks.
     pub(super) fn linear(title: impl Into<String>, range: (f64, f64), wanted: f64) -> Self {
-        Self { title: title.into(), range, kind: Kind::Linear, zoom: Zoom::Same, ticks: ticks(range, wanted) }
+        Self::new(title, range, Kind::Linear, ticks(range, wanted))
     }
 
     /// Logarithmic axis of positive values with at most `most` ticks, or one for each power of ten.
     pub(super) fn logarithmic(title: impl Into<String>, range: (f64, f64), most: usize) -> Self {
-        Self {
-            title: title.into(),
-            range,
-            kind: Kind::Logarithmic,
-            zoom: Zoom::Same,
-            ticks: decades(range, most),
-        }
+        Self::new(title, range, Kind::Logarithmic, decades(range, most))
     }
 
     /// Axis of rotational speeds.
@@ -150,18 +165,12 @@ impl Axis {
 
     /// Axis of a whole turn, in degrees.
     pub(super) fn turn(title: impl Into<String>) -> Self {
-        Self {
-            title: title.into(),
-            range: (0.0, 360.0),
-            kind: Kind::Turn,
-            zoom: Zoom::Same,
-            ticks: eighths(),
-        }
+        Self::new(title, (0.0, 360.0), Kind::Turn, eighths())
     }
 
     /// Axis with a name at every tick.
     pub(super) fn names(title: impl Into<String>, range: (f64, f64), ticks: Vec<(f64, String)>) -> Self {
-        Self { title: title.into(), range, kind: Kind::Names, zoom: Zoom::Same, ticks }
+        Self::new(title, range, Kind::Names, ticks)
     }
 
     /// Lets the figure show the range of its values at the scale of the horizontal axis.
@@ -179,6 +188,16 @@ impl Axis {
         Self { ticks, ..self }
     }
 
+    /// Sets the title in the figure.
+    pub(super) fn short(self, title: &str) -> Self {
+        Self { short: Some(title.to_owned()), ..self }
+    }
+
+    /// Sets the distance of the title of a vertical axis from the frame in the drawing.
+    pub(super) fn away(self, away: f64) -> Self {
+        Self { away, ..self }
+    }
+
     /// Lets the figure show the range of its values.
     pub(super) fn free(self) -> Self {
         Self { zoom: Zoom::Free, ..self }
@@ -193,8 +212,8 @@ impl Axis {
 /// Row of a key: a sample with its words, or words alone.
 #[derive(Debug)]
 pub(super) enum Row {
-    /// Sample, drawn about y = 0 from x = 0 to the width of a mark, and its words.
-    Sample(Element, String),
+    /// Sample, drawn about y = 0 from x = 0 to its width, and its words.
+    Sample { sample: Element, width: f64, words: String },
     /// Heading over the rows that follow.
     Heading(String),
     /// Note about the rows above.
@@ -216,15 +235,17 @@ pub(super) struct Ramp {
     pub(super) title: String,
     pub(super) range: (f64, f64),
     pub(super) is_logarithmic: bool,
-    /// Distance of the bar from the frame in the drawing.
-    pub(super) beside: f64,
+    /// Distance of the bar from the frame in the drawing; none where the drawing has no bar.
+    pub(super) beside: Option<f64>,
     /// Colour of a share of the range.
     pub(super) colour: fn(f64) -> [u8; 3],
 }
 
 /// Rectangle with axes and layers.
 #[derive(Debug)]
-pub(super) struct Panel {
+pub(super) struct Panel<'a> {
+    /// Name above the panel.
+    pub(super) name: Option<String>,
     pub(super) x: Axis,
     pub(super) y: Axis,
     /// Frame in the drawing.
@@ -233,8 +254,10 @@ pub(super) struct Panel {
     pub(super) is_apart: bool,
     /// Vertical extent in the figure, as shares of its height.
     pub(super) domain: Option<[f64; 2]>,
+    /// Horizontal extent in the figure of one of several panels side by side, whose axes move together and which share a bar of colours.
+    pub(super) across: Option<[f64; 2]>,
     /// Layers, later ones over earlier ones.
-    pub(super) layers: Vec<Layer>,
+    pub(super) layers: Vec<Layer<'a>>,
     /// Rows of the key, and where it stands.
     pub(super) key: Vec<Row>,
     pub(super) stand: Stand,
@@ -242,17 +265,19 @@ pub(super) struct Panel {
     pub(super) ramp: Option<Ramp>,
 }
 
-impl Panel {
+impl<'a> Panel<'a> {
     /// Begins a panel with a frame of this corner and size in the drawing.
     pub(super) fn new((left, top): (f64, f64), (width, height): (f64, f64), x: Axis, y: Axis) -> Self {
         let (across, upwards) = (x.scale((left, left + width)), y.scale((top + height, top)));
         let diagram = Diagram { left, top, width, height, x: across, y: upwards };
         Self {
+            name: None,
             x,
             y,
             diagram,
             is_apart: false,
             domain: None,
+            across: None,
             layers: Vec::new(),
             key: Vec::new(),
             stand: Stand::Beside(30.0),
@@ -277,14 +302,19 @@ impl Panel {
         range: (f64, f64),
         colour: fn(f64) -> [u8; 3],
     ) -> Self {
-        let ramp = Ramp { title: title.into(), range, is_logarithmic: false, beside: 26.0, colour };
+        let ramp = Ramp { title: title.into(), range, is_logarithmic: false, beside: Some(26.0), colour };
         Self { ramp: Some(ramp), ..self }
     }
 
-    /// Sets the colours of amplitudes, with room for words between the frame and their bar.
-    pub(super) fn amplitudes(self, title: impl Into<String>, range: (f64, f64)) -> Self {
+    /// Sets the colours of amplitudes, and the distance of their bar from the frame in the drawing, if there is one.
+    pub(super) fn amplitudes(self, title: impl Into<String>, range: (f64, f64), beside: Option<f64>) -> Self {
         let (title, colour) = (title.into(), colour::amplitude);
-        Self { ramp: Some(Ramp { title, range, is_logarithmic: true, beside: 58.0, colour }), ..self }
+        Self { ramp: Some(Ramp { title, range, is_logarithmic: true, beside, colour }), ..self }
+    }
+
+    /// Sets the extents in the figure of one of several panels side by side, each with axes of its own.
+    pub(super) fn aside(self, across: [f64; 2], upwards: [f64; 2]) -> Self {
+        Self { across: Some(across), domain: Some(upwards), is_apart: true, ..self }
     }
 
     /// Sets the vertical extent in the figure.
@@ -292,10 +322,16 @@ impl Panel {
         Self { domain: Some([low, high]), ..self }
     }
 
-    /// Adds a layer without a row in the key; marks only if there are any.
-    pub(super) fn push(&mut self, layer: impl Into<Layer>) {
+    /// Adds a layer without a row in the key; marks, upright lines and areas only if there are any.
+    pub(super) fn push(&mut self, layer: impl Into<Layer<'a>>) {
         let layer = layer.into();
-        if !matches!(&layer, Layer::Marks(marks) if marks.marks.is_empty()) {
+        let is_empty = match &layer {
+            Layer::Marks(marks) | Layer::Shown(marks) => marks.marks.is_empty(),
+            Layer::Uprights(uprights) => uprights.lines.is_empty(),
+            Layer::Areas(areas) => areas.areas.is_empty(),
+            Layer::Curve(_) | Layer::Cells(_) | Layer::Heat(_) | Layer::Drawn(_) => false,
+        };
+        if !is_empty {
             self.layers.push(layer);
         }
     }
@@ -331,7 +367,12 @@ impl Panel {
 
     /// Adds a row to the key.
     pub(super) fn sample(&mut self, sample: Element, words: &str) {
-        self.key.push(Row::Sample(sample, words.to_owned()));
+        self.wide_sample(sample, MARK_WIDTH, words);
+    }
+
+    /// Adds a row whose sample has this width to the key, which stands below the panel.
+    pub(super) fn wide_sample(&mut self, sample: Element, width: f64, words: &str) {
+        self.key.push(Row::Sample { sample, width, words: words.to_owned() });
     }
 
     /// Adds a heading to the key.

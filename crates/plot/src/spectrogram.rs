@@ -57,7 +57,7 @@ pub fn spectrogram(run_ups: &RunUps, run: usize, sensor: usize, unit: Spectrogra
     let corner = (92.0, top + (STRIP_HEIGHT + GAP) * strips.len() as f64);
     let map = Panel::new(corner, (WIDTH, 520.0), across(&view), Axis::linear(view.upwards(), view.y, 12.0));
     let map = map.domain(0.0, 1.0 - share * strips.len() as f64 - 0.02).key_below();
-    let mut map = map.amplitudes(format!("amplitude, {length}"), range);
+    let mut map = map.amplitudes(format!("amplitude, {length}"), range, Some(58.0));
     sketch.more.extend(fill(&view, &mut map, length));
     sketch = sketch.with(map);
     for (place, strip) in strips.into_iter().enumerate() {

@@ -43,7 +43,7 @@ pub(super) fn strips(run_ups: &RunUps, view: &View<'_>, sensor: usize) -> Vec<St
 
 impl Strip {
     /// Panel with the curve and its marks.
-    pub(super) fn panel(self, x: Axis, corner: (f64, f64), size: (f64, f64)) -> Panel {
+    pub(super) fn panel(self, x: Axis, corner: (f64, f64), size: (f64, f64)) -> Panel<'static> {
         let mut panel = Panel::new(corner, size, x, Axis::linear(&self.axis, self.y, 3.0));
         let pen = Pen::new(Colour::curve(), Dash::Solid, 1.6);
         let curve = Curve::new(&self.axis, self.places.into_iter().map(Some), pen).class("curve");

@@ -182,7 +182,7 @@ fn energies(energy: &EnergyHistory) -> Vec<Curve<'_>> {
 }
 
 impl Group<'_> {
-    fn panel(&self, histories: &SpeedHistories, corner: (f64, f64), size: (f64, f64)) -> Panel {
+    fn panel(&self, histories: &SpeedHistories, corner: (f64, f64), size: (f64, f64)) -> Panel<'static> {
         let [begin, end] = histories.revolutions.map(f64::from);
         let values = self.curves.iter().flat_map(|curve| curve.values.iter().copied());
         let finite = values.filter(|value| value.is_finite());

@@ -28,7 +28,7 @@ pub(super) fn begin(
     title: &str,
     (study, at): (&WorkPrecision, &SpeedStudy),
     quantity: Quantity,
-) -> Sketch {
+) -> Sketch<'static> {
     let title = format!("{title}, {} rpm", label(rpm(at.speed_rad_s), 0));
     let sketch = Sketch::new(kind, title, vec![at.message.clone(), origin(study, at)]).high(640);
     let sketch = Sketch { footnote: Some(left_out(at, quantity)), ..sketch };
@@ -36,7 +36,7 @@ pub(super) fn begin(
 }
 
 /// Sketch with a message, where a study has no speed of this index.
-pub(super) fn no_speed(kind: &'static str, title: &str, speed: usize) -> Sketch {
+pub(super) fn no_speed(kind: &'static str, title: &str, speed: usize) -> Sketch<'static> {
     Sketch::new(kind, title, Vec::new()).nothing(format!("the study has no speed of index {speed}"))
 }
 

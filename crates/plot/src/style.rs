@@ -51,6 +51,8 @@ pub(super) enum Dash {
     Solid,
     Dashed,
     Dotted,
+    /// Dots with much between them, through which what lies below is seen.
+    Sparse,
     /// Dashes and dots in turn.
     Mixed,
 }
@@ -67,6 +69,7 @@ impl Dash {
             Self::Solid => "",
             Self::Dashed => "8 3",
             Self::Dotted => "2 3",
+            Self::Sparse => "1.5 5",
             Self::Mixed => "9 3 2 3",
         }
     }
@@ -76,24 +79,31 @@ impl Dash {
         match self {
             Self::Solid => "solid",
             Self::Dashed => "dash",
-            Self::Dotted => "dot",
+            Self::Dotted | Self::Sparse => "dot",
             Self::Mixed => "dashdot",
         }
     }
 }
 
-/// Colour, dashes and width of a line.
+/// Colour, dashes and width of a line: on paper, and on a screen.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Pen {
     pub(super) colour: Colour,
     pub(super) dash: Dash,
     pub(super) width: f64,
+    /// Dashes and width on a screen, where they differ.
+    pub(super) screen: Option<(Dash, f64)>,
 }
 
 impl Pen {
     /// Pen of this colour, dashes and width.
     pub(super) fn new(colour: Colour, dash: Dash, width: f64) -> Self {
-        Self { colour, dash, width }
+        Self { colour, dash, width, screen: None }
+    }
+
+    /// Sets dashes and width on a screen.
+    pub(super) fn on_screen(self, dash: Dash, width: f64) -> Self {
+        Self { screen: Some((dash, width)), ..self }
     }
 
     /// Draws a stroke of SVG with the pen.
@@ -123,6 +133,8 @@ pub(super) enum Symbol {
     /// Circle with a dot in its middle.
     Target,
     Cross,
+    /// Circle with a cross in it.
+    Crossed,
 }
 
 impl Symbol {
@@ -143,6 +155,7 @@ impl Symbol {
             Self::Hexagon => ("hexagon", "hexagon-open"),
             Self::Target => ("circle-dot", "circle-open-dot"),
             Self::Cross => ("x", "x-open"),
+            Self::Crossed => ("circle-x", "circle-x-open"),
         };
         if is_filled { filled } else { open }
     }
@@ -160,8 +173,9 @@ impl Symbol {
                 let dot = disc(0.36 * radius).set("fill", "white").set("stroke", "none");
                 return group().child(disc(radius)).child(dot);
             }
-            Self::Cross => {
-                return Element::new("path").set("d", stroke(1.0, 1.0) + &stroke(1.0, -1.0));
+            Self::Cross | Self::Crossed => {
+                let cross = Element::new("path").set("d", stroke(1.0, 1.0) + &stroke(1.0, -1.0));
+                return if self == Self::Cross { cross } else { group().child(disc(radius)).child(cross) };
             }
             Self::Square => &[(-0.89, -0.89), (0.89, -0.89), (0.89, 0.89), (-0.89, 0.89)],
             Self::TriangleUp => &[(0.0, -1.42), (1.3, 0.83), (-1.3, 0.83)],

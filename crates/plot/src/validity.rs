@@ -1,9 +1,9 @@
 //! Marks and words for speeds at which linear theory is doubtful or left.
 
 use super::axis::significant;
-use super::cells::Cell;
+use super::cells::{Cell, within};
 use super::diagram::Diagram;
-use super::key::Flow;
+use super::sketch::Panel;
 use super::svg::{Element, group, rectangle};
 use rubmap_analysis::result::{InteractionMap, Point, Validity, ValidityMeasure, ValidityVerdict};
 
@@ -112,7 +112,7 @@ pub(super) fn strip(
     (top, height): (f64, f64),
 ) -> Option<Element> {
     let (low, high) = diagram.x.values;
-    let marked = cells.iter().filter(|cell| cell.to > low && cell.from < high).filter_map(|cell| {
+    let marked = within(cells, (low, high)).iter().filter_map(|cell| {
         let validity = point(map, cell.index)?.validity.as_ref()?;
         let (from, to) = (diagram.x.place(cell.from.max(low)), diagram.x.place(cell.to.min(high)));
         let area = rectangle(from, top, to - from, height).set("class", "validity");
@@ -140,18 +140,17 @@ fn definition() -> Element {
     Element::new("defs").child(pattern)
 }
 
-/// Adds the verdicts of the strip that are in view to a key.
-pub(super) fn explained(mut flow: Flow, map: &InteractionMap, cells: &[Cell], diagram: &Diagram) -> Flow {
-    let (low, high) = diagram.x.values;
-    let seen = cells.iter().filter(|cell| cell.to > low && cell.from < high);
+/// Adds the verdicts of the strip that are in view to the key of a panel.
+pub(super) fn explain(map: &InteractionMap, cells: &[Cell], panel: &mut Panel<'_>) {
+    let seen = within(cells, panel.x.range).iter();
     let seen: Vec<_> = seen.filter_map(|cell| point(map, cell.index)?.validity_verdict()).collect();
     for verdict in MARKED.into_iter().filter(|verdict| seen.contains(verdict)) {
         if let Some(fill) = fill(verdict) {
-            flow = flow.entry(rectangle(0.0, -6.0, 20.0, 12.0).set("fill", fill), 20.0, words(verdict));
+            let patch = rectangle(0.0, -6.0, 20.0, 12.0).set("fill", fill);
+            panel.wide_sample(patch, 20.0, words(verdict));
         }
     }
     if without_thickness(map) {
-        flow = flow.entry(group(), 0.0, WITHOUT_THICKNESS);
+        panel.note(WITHOUT_THICKNESS);
     }
-    flow
 }

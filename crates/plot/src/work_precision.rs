@@ -63,7 +63,7 @@ impl<'a> View<'a> {
         Self { study, quantity, has_bars: chaotic && quantity == Quantity::Amplitude, runs, sizes }
     }
 
-    fn panel(&self, top: f64) -> Panel {
+    fn panel(&self, top: f64) -> Panel<'static> {
         let tops =
             self.runs.iter().filter_map(|drawn| Some(drawn.error + drawn.spread.filter(|_| self.has_bars)?));
         let errors = extent(self.runs.iter().map(|drawn| drawn.error).chain(tops));

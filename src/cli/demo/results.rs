@@ -29,7 +29,7 @@ pub(super) async fn download(
     let draw = |axis| {
         plot::interaction_map(
             &map,
-            Some(critical.clone()),
+            Some(&critical),
             Some(&campbell),
             axis,
             Window::default(),

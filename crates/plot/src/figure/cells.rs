@@ -7,23 +7,14 @@ use super::marks::template;
 use super::text::escaped;
 use crate::axis::logarithmic_ticks;
 
-/// Columns and rows of a figure: about what a screen shows.
-pub(super) const MOST: (usize, usize) = (500, 200);
-
-/// Number of neighbouring columns or rows merged into one, so that of `parts` at most `most` are left.
-pub(super) fn together(parts: usize, most: usize) -> usize {
-    parts.div_ceil(most).max(1)
-}
-
 /// Grid of cells in the colours of the axis `coloraxis`; rows from the lowest up, a gap where a value is not a number.
 pub(super) fn cells(
     (x, y): (Vec<f64>, Vec<f64>),
     (values, told): (Vec<Vec<f32>>, Vec<Vec<Vec<f32>>>),
     words: &str,
-    (x_axis, y_axis, coloraxis): (&str, &str, &'static str),
 ) -> Cells {
     let cells = Cells::default().kind("heatmap").x(x).y(y).z(values).customdata(told).hoverongaps(false);
-    cells.hovertemplate(template(words)).xaxis(x_axis).yaxis(y_axis).coloraxis(coloraxis)
+    cells.hovertemplate(template(words)).coloraxis("coloraxis")
 }
 
 /// Lower and upper end of a colour bar, as shares of the height of the figure.

@@ -71,12 +71,6 @@ impl Figure {
         self.attribute("height", json!(pixels))
     }
 
-    /// Adds a trace, drawn over those before it.
-    pub(super) fn with(mut self, trace: impl Into<Trace>) -> Self {
-        self.data.push(trace.into());
-        self
-    }
-
     /// Adds several traces.
     pub(super) fn with_all<T: Into<Trace>>(mut self, traces: impl IntoIterator<Item = T>) -> Self {
         self.data.extend(traces.into_iter().map(Into::into));
@@ -120,9 +114,4 @@ impl Figure {
 pub(super) fn axis(title: &str) -> Axis {
     let title = Title::default().text(broken(title, COLUMNS.2)).font(Font::default().size(12u32));
     Axis::default().title(title).automargin(true).separatethousands(true)
-}
-
-/// Axis of rotational speeds.
-pub(super) fn speeds() -> Axis {
-    axis("rotational speed Ω, rpm").exponentformat("none")
 }

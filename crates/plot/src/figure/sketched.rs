@@ -1,43 +1,64 @@
 //! Pen that writes a sketch as a figure for Plotly.
 
+use serde_json::{Value, json};
+
 use super::attributes::{Axis, Cells as Heat, ColorBar, ErrorBars, Line, Marker, Scatter, Title};
-use super::cells::{MOST, cells, linear, logarithmic, together};
+use super::cells::{cells, linear, logarithmic};
 use super::document::{Figure, axis};
+use super::heat;
 use super::marks::{bars, scatter, template};
 use super::text::escaped;
 use super::thinned;
-use crate::layer::{Band, Bars, Cells, Course, Curve, Layer, Marks, Place, Told};
+use crate::layer::{Areas, Band, Bars, Cells, Course, Curve, Layer, Marks, Place, Told, Uprights};
+use crate::merged::{MOST, together};
 use crate::sketch::{self, Kind, Panel, Sketch, Zoom};
-use crate::style::Look;
+use crate::style::{Look, Pen};
+
+/// Height of a strip along the upper edge of a panel, relative to that of the panel.
+const STRIP: f64 = 0.04;
 
 /// Writes a sketch as a figure.
 pub(crate) fn figure(sketch: &Sketch) -> Figure {
     let layers = || sketch.panels.iter().flat_map(|panel| &panel.layers);
     let sampled = layers().filter_map(|layer| match layer {
         Layer::Curve(curve) if matches!(curve.told, Told::Template(..)) => Some(curve.strokes.len()),
-        Layer::Curve(_) | Layer::Marks(_) | Layer::Cells(_) | Layer::Drawn(_) => None,
+        _ => None,
     });
     let sampled = sampled.sum();
     let mut together = 1;
     let (mut traces, mut grids, mut merged) = (Vec::new(), Vec::new(), Vec::new());
     for (index, panel) in sketch.panels.iter().enumerate() {
+        let x = if panel.is_apart { axis_name("x", index) } else { "x".to_owned() };
+        let y = axis_name("y", index);
         for layer in &panel.layers {
             let trace = match layer {
                 Layer::Curve(found) => curve(found, sampled, &mut together),
-                Layer::Marks(found) => marks(found, panel),
+                Layer::Marks(found) | Layer::Shown(found) => marks(found, panel),
+                Layer::Uprights(found) => uprights(found, panel),
+                Layer::Areas(found) => areas(found, panel),
                 Layer::Cells(found) => {
                     let (grid, words) = grid(found, panel);
-                    grids.push(grid);
+                    grids.push(grid.xaxis(&x).yaxis(&y));
                     merged.extend(words);
+                    continue;
+                }
+                Layer::Heat(found) => {
+                    grids.push(grid(&heat::cells(found), panel).0.xaxis(&x).yaxis(&y));
                     continue;
                 }
                 Layer::Drawn(_) => continue,
             };
-            let trace = if panel.is_apart { trace.xaxis(format!("x{}", index + 1)) } else { trace };
-            traces.push(if index == 0 { trace } else { trace.yaxis(format!("y{}", index + 1)) });
+            let trace = if panel.is_apart && index > 0 { trace.xaxis(&x) } else { trace };
+            traces.push(if index == 0 { trace } else { trace.yaxis(&y) });
         }
     }
-    let words = sketch.paragraphs.iter().chain(&sketch.more).chain(&sketch.footnote).chain(&merged);
+    let words = sketch
+        .paragraphs
+        .iter()
+        .chain(&sketch.warning)
+        .chain(&sketch.more)
+        .chain(&sketch.footnote)
+        .chain(&merged);
     let words = words.filter(|words| !words.is_empty()).cloned();
     let words: Vec<String> = words.chain(thinned::words(together)).collect();
     let figure = Figure::new(sketch.kind, &sketch.title, &words);
@@ -46,24 +67,44 @@ pub(crate) fn figure(sketch: &Sketch) -> Figure {
         return figure.empty(words);
     }
     let figure = figure.high(sketch.high).with_all(grids).with_all(grouped(layers(), traces));
-    let figure = axes(figure, &sketch.panels);
+    let figure = names(axes(figure, &sketch.panels), &sketch.panels);
     match &sketch.note {
         Some(words) => figure.note(words, 0.7),
         None => figure,
     }
 }
 
+/// Name of an axis in traces, such as `x2`.
+fn axis_name(letter: &str, index: usize) -> String {
+    if index == 0 { letter.to_owned() } else { format!("{letter}{}", index + 1) }
+}
+
+/// Writes the names of panels above them.
+fn names(figure: Figure, panels: &[Panel]) -> Figure {
+    let names = panels.iter().filter_map(|panel| {
+        let (across, upwards) = (panel.across.unwrap_or([0.0, 1.0]), panel.domain.unwrap_or([0.0, 1.0]));
+        Some(json!({
+            "text": escaped(panel.name.as_ref()?), "xref": "paper", "yref": "paper", "x": across[0], "y": upwards[1],
+            "xanchor": "left", "yanchor": "bottom", "showarrow": false,
+        }))
+    });
+    let names: Vec<Value> = names.collect();
+    if names.is_empty() { figure } else { figure.attribute("annotations", Value::Array(names)) }
+}
+
 /// Joins traces of one name: shown and hidden together, and named once.
-fn grouped<'a>(layers: impl Iterator<Item = &'a Layer>, traces: Vec<Scatter>) -> Vec<Scatter> {
+fn grouped<'a>(layers: impl Iterator<Item = &'a Layer<'a>>, traces: Vec<Scatter>) -> Vec<Scatter> {
     let names = layers.filter_map(|layer| match layer {
         Layer::Curve(curve) => {
-            Some((&curve.name, curve.group.as_ref().unwrap_or(&curve.name), curve.is_listed))
+            Some((&*curve.name, &**curve.group.as_ref().unwrap_or(&curve.name), curve.is_listed))
         }
-        Layer::Marks(marks) => Some((&marks.name, &marks.name, marks.is_listed)),
-        Layer::Cells(_) | Layer::Drawn(_) => None,
+        Layer::Marks(marks) | Layer::Shown(marks) => Some((&*marks.name, &*marks.name, marks.is_listed)),
+        Layer::Uprights(uprights) => Some((&*uprights.name, &*uprights.name, true)),
+        Layer::Areas(areas) => Some((areas.name, areas.name, true)),
+        Layer::Cells(_) | Layer::Heat(_) | Layer::Drawn(_) => None,
     });
-    let names: Vec<(&String, &String, bool)> = names.collect();
-    let mut named: Vec<&String> = Vec::new();
+    let names: Vec<(&str, &str, bool)> = names.collect();
+    let mut named: Vec<&str> = Vec::new();
     let grouped = traces.into_iter().zip(&names).map(|(trace, (name, group, is_listed))| {
         let is_first = *is_listed && !named.contains(name);
         named.extend(is_first.then_some(*name));
@@ -94,8 +135,7 @@ fn curve(curve: &Curve, sampled: usize, together: &mut usize) -> Scatter {
             Told::Nothing | Told::Each(_) => places.extend(&stroke.places),
         }
     }
-    let pen = Line::default().color(curve.pen.colour.screen.as_str());
-    let pen = pen.dash(curve.pen.dash.name()).width(curve.pen.width);
+    let pen = line(&curve.pen);
     let pen = if curve.course == Course::Steps { pen.shape("hv") } else { pen };
     // A line through one point is invisible.
     let is_sampled = matches!(curve.told, Told::Template(..));
@@ -114,6 +154,13 @@ fn curve(curve: &Curve, sampled: usize, together: &mut usize) -> Scatter {
             trace.marker(marker.color(curve.pen.colour.screen.as_str()))
         }
         None => trace,
+    };
+    let trace = match curve.errors.is_empty() {
+        true => trace,
+        false => {
+            let bars = bars().array(curve.errors.clone()).color(curve.pen.colour.screen.as_str());
+            trace.error_y(bars.thickness(1.0).width(2.0))
+        }
     };
     let trace = if curve.opacity < 1.0 { trace.opacity(curve.opacity) } else { trace };
     let trace = match curve.labels.is_empty() {
@@ -136,6 +183,45 @@ fn curve(curve: &Curve, sampled: usize, together: &mut usize) -> Scatter {
             trace.hovertext(told).hoverinfo("text")
         }
     }
+}
+
+/// Line of a pen on a screen.
+fn line(pen: &Pen) -> Line {
+    let (dash, width) = pen.screen.unwrap_or((pen.dash, pen.width));
+    Line::default().color(pen.colour.screen.as_str()).dash(dash.name()).width(width)
+}
+
+/// Joins several lines into one, with gaps between them.
+fn joined(lines: impl IntoIterator<Item = Vec<Place>>) -> (Vec<f64>, Vec<f64>) {
+    let mut places: Vec<Option<Place>> = Vec::new();
+    for line in lines {
+        places.extend((!places.is_empty()).then_some(None));
+        places.extend(line.into_iter().map(Some));
+    }
+    columns(&places)
+}
+
+/// Trace of upright lines.
+fn uprights(uprights: &Uprights, panel: &Panel) -> Scatter {
+    let (low, high) = panel.y.range;
+    let lines = uprights.lines.iter().map(|line| vec![(line.x, low), (line.x, high)]);
+    scatter(&uprights.name, "lines", joined(lines)).line(line(&uprights.pen)).hoverinfo("skip")
+}
+
+/// Trace of rectangles.
+fn areas(areas: &Areas, panel: &Panel) -> Scatter {
+    let (low, high) = panel.y.range;
+    let strip = (high - STRIP * (high - low), high);
+    let corners = areas.areas.iter().map(|area| {
+        let ((left, right), (foot, head)) = (area.across, area.upwards.unwrap_or(strip));
+        vec![(left, foot), (left, head), (right, head), (right, foot), (left, foot)]
+    });
+    let told = areas.areas.iter().enumerate();
+    let told = told.flat_map(|(index, area)| vec![escaped(&area.words); if index == 0 { 5 } else { 6 }]);
+    let pen = Line::default().color(areas.fill.as_str()).width(0.0);
+    let trace = scatter(areas.name, "lines", joined(corners)).line(pen);
+    let trace = trace.fill("toself").fillcolor(areas.fill.as_str());
+    trace.hovertext(told.collect::<Vec<String>>()).hoverinfo("text")
 }
 
 /// Words at all points of a curve: those of its labels at the last point of every stroke.
@@ -163,18 +249,13 @@ fn grid(of: &Cells, panel: &Panel) -> (Heat, Option<String>) {
     let columns: Vec<&[Band]> = of.columns.chunks(wide).collect();
     let largest = |rows: &[Vec<Option<f64>>], column: usize| {
         let all = rows.iter().flat_map(|row| row[column * wide..].iter().take(wide).flatten());
-        all.copied()
-            .filter(|value| value.is_finite())
-            .max_by(f64::total_cmp)
-            .map_or(f32::NAN, |value| value as f32)
+        all.copied().filter(|value| value.is_finite()).max_by(f64::total_cmp)
     };
-    let least = panel.ramp.as_ref().filter(|ramp| ramp.is_logarithmic).map(|ramp| ramp.range.0 as f32);
-    let shown = |value: f32| match least {
-        Some(least) if !value.is_nan() => value.max(least).log10(),
-        _ => value,
+    let least = panel.ramp.as_ref().filter(|ramp| ramp.is_logarithmic).map(|ramp| ramp.range.0);
+    let shown = |value: f64| least.map_or(value, |least| value.max(least).log10()) as f32;
+    let row = |rows: &[Vec<Option<f64>>]| {
+        (0..columns.len()).map(|column| largest(rows, column).map_or(f32::NAN, shown)).collect()
     };
-    let row =
-        |rows: &[Vec<Option<f64>>]| (0..columns.len()).map(|column| shown(largest(rows, column))).collect();
     let values: Vec<Vec<f32>> = of.values.chunks(high).map(row).collect();
     let middle = |bands: &[Band]| bands[bands.len() / 2].value;
     let rad_s = |bands: &&[Band]| vec![(middle(bands) * std::f64::consts::TAU / 60.0) as f32];
@@ -190,7 +271,7 @@ fn grid(of: &Cells, panel: &Panel) -> (Heat, Option<String>) {
     let y = of.rows.chunks(high).map(middle).collect();
     let words = (wide * high > 1).then(|| format!("{} {}", wide * high, of.merged));
     let told: Vec<String> = of.told.iter().map(|line| escaped(line)).collect();
-    (cells((x, y), (values, data), &told.join("<br>"), ("x", "y", "coloraxis")), words)
+    (cells((x, y), (values, data), &told.join("<br>")), words)
 }
 
 /// Trace of marks.
@@ -272,11 +353,12 @@ fn axes(figure: Figure, panels: &[Panel]) -> Figure {
     let shared = (0..panels.len()).filter(|index| !panels[*index].is_apart);
     let lowest = shared.min_by(|a, b| foot(a).total_cmp(&foot(b))).unwrap_or(0);
     let x = if panels.len() > 1 { x.anchor(format!("y{}", name(lowest))) } else { x };
-    let has_cells = |panel: &&Panel| panel.layers.iter().any(|layer| matches!(layer, Layer::Cells(_)));
+    let has_cells =
+        |panel: &&Panel| panel.layers.iter().any(|layer| matches!(layer, Layer::Cells(_) | Layer::Heat(_)));
     let coloured = panels.iter().find(has_cells).and_then(|panel| Some((panel, panel.ramp.as_ref()?)));
     let figure = match coloured {
         Some((panel, ramp)) => {
-            let [low, high] = panel.domain.unwrap_or([0.0, 1.0]);
+            let [low, high] = panel.domain.filter(|_| panel.across.is_none()).unwrap_or([0.0, 1.0]);
             let scale = if ramp.is_logarithmic { logarithmic } else { linear };
             figure.attribute("coloraxis", scale(ramp.range, &ramp.title, (low, high)))
         }
@@ -293,20 +375,24 @@ fn axes(figure: Figure, panels: &[Panel]) -> Figure {
             Some(domain) => y.domain(domain),
             None => y,
         };
+        let is_tied = panel.across.is_some() && index > 0;
+        let y = if is_tied { y.matches("y") } else { y };
         let figure = figure.axis(&format!("yaxis{}", name(index)), y);
-        match panel.is_apart {
-            true => figure.axis(
-                &format!("xaxis{}", name(index)),
-                upright(&panel.x).anchor(format!("y{}", name(index))),
-            ),
-            false => figure,
+        if !panel.is_apart {
+            return figure;
         }
+        let x = upright(&panel.x).anchor(format!("y{}", name(index)));
+        let x = match panel.across {
+            Some(across) => x.domain(across).nticks(4u32).tickangle(0.0),
+            None => x,
+        };
+        figure.axis(&format!("xaxis{}", name(index)), if is_tied { x.matches("x") } else { x })
     })
 }
 
 /// Axis of the figure with the title, range and scale of one of the sketch.
 fn upright(of: &sketch::Axis) -> Axis {
-    let (axis, (low, high)) = (axis(&of.title), of.range);
+    let (axis, (low, high)) = (axis(of.short.as_ref().unwrap_or(&of.title)), of.range);
     let axis = match of.kind {
         Kind::Logarithmic => return axis.kind("log").range([low.log10(), high.log10()]).exponentformat("e"),
         Kind::Speeds => axis.exponentformat("none"),

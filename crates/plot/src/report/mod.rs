@@ -49,7 +49,7 @@ pub fn sweep(head: &Head, sweep: &Sweep) -> String {
         (warnings::section(&warnings::sweep(map, critical)))
         (credentials::sweep(map, critical))
         h2 { "Interaction map" }
-        (drawing(&super::interaction_map(map, of_sensor.cloned(), campbell, VerticalAxis::EngineOrder, Window::default(), LevelColour::Plain)))
+        (drawing(&super::interaction_map(map, of_sensor, campbell, VerticalAxis::EngineOrder, Window::default(), LevelColour::Plain)))
         h2 { "Critical speeds" }
         (tables::critical_speeds(critical))
         h2 { "Largest responses" }

@@ -45,7 +45,7 @@ pub fn surface(surface: &FieldSurface, view: SurfaceView) -> String {
     let at_rest: Vec<[f64; 3]> = surface.nodes.iter().map(|node| camera.project(*node)).collect();
 
     let words = paragraphs(surface, camera, stretch);
-    let (heading, bottom) = heading::heading(LEFT, &surface.title, &words);
+    let (heading, bottom) = heading::heading(LEFT, &surface.title, &words, None);
     let seen = |places: &[[f64; 3]]| places.iter().map(|place| (place[0], place[1])).collect::<Vec<_>>();
     let all = [seen(&displaced), seen(&at_rest)].concat();
     let diagram = Diagram::of_one_scale(&all, (LEFT, bottom + 24.0), PLOT);
@@ -93,7 +93,7 @@ fn bar(levels: &Levels, surface: &FieldSurface, diagram: &Diagram) -> Element {
     let colour = &surface.colour;
     let unit = if colour.unit.is_empty() { String::new() } else { format!(", {}", colour.unit) };
     let title = format!("{}{unit}", colour.quantity);
-    colour_bar::draw_colours(levels.stops(), &scale, diagram.right() + 26.0, &levels.borders, &title)
+    colour_bar::draw(levels.stops(), &scale, diagram.right() + 26.0, &levels.borders, &title)
 }
 
 /// Surface as the drawing shows it.

@@ -132,6 +132,21 @@ fn a_large_map_is_thinned_by_its_largest() {
     assert!(text.len() < 12 << 20, "{} bytes", text.len());
 }
 
+/// Panels of a sheet share their legend: a click hides a name in all of them.
+#[test]
+fn maps_of_a_sheet_share_their_legend() {
+    let sheet = json!(figure::map_sheet(&vec![map(); 3], Window::default(), LevelColour::Plain));
+    let traces = sheet["data"].as_array().unwrap();
+    let lobes: Vec<&Value> =
+        traces.iter().filter(|trace| trace["name"] == "engine orders of lobes").collect();
+    assert_eq!(lobes.len(), 3);
+    assert!(lobes.iter().all(|trace| trace["legendgroup"] == "engine orders of lobes"));
+    assert!(lobes[1..].iter().all(|trace| trace["showlegend"] == false), "named once");
+    assert_eq!((&lobes[0]["showlegend"], &lobes[2]["xaxis"]), (&Value::Null, &json!("x3")));
+    assert_eq!(sheet["layout"]["xaxis3"]["matches"], "x");
+    assert_eq!(sheet["layout"]["annotations"][2]["text"], "all nodal diameters");
+}
+
 #[test]
 fn peaks_have_the_errors_of_the_table() {
     let figure = json!(figure::critical_speeds(&critical()));

@@ -38,7 +38,7 @@ macro_rules! maps {
             window: Window,
             colour: LevelColour,
         ) -> $form {
-            crate::interaction_map(of, critical.cloned(), campbell, axis, window, colour).$pen()
+            crate::interaction_map(of, critical, campbell, axis, window, colour).$pen()
         }
 
         pub(crate) fn fixed_frame_map(
@@ -48,7 +48,7 @@ macro_rules! maps {
             window: Window,
             colour: LevelColour,
         ) -> $form {
-            crate::fixed_frame_map(of, critical.cloned(), axis, window, colour).$pen()
+            crate::fixed_frame_map(of, critical, axis, window, colour).$pen()
         }
     };
 }
