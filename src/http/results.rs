@@ -99,7 +99,7 @@ pub(super) async fn get_critical_speeds(
     let by_utilisation = |table: &mut CriticalSpeeds| {
         most_utilised_first(&mut table.critical_speeds, |speed| speed.utilisation);
     };
-    rank.ranked(Forms::drawn_by(|table| plot::critical_speeds(table)), request, by_utilisation)?
+    rank.ranked(Forms::drawn_by(plot::critical_speeds), request, by_utilisation)?
         .of_document(&state, download, &job, Document::part(CRITICAL_SPEEDS, query.sensor))
         .await
 }
@@ -154,8 +154,8 @@ pub(super) async fn get_campbell(
     let job = find(&state, &whose, id).await?;
     resolved::<ResolvedModalAnalysis>(&job, JobKind(&MODAL_ANALYSIS))?;
     let forms = match FrameWord::frame(query.frame) {
-        Frame::Rotating => Forms::drawn_by(|found| plot::campbell(found)),
-        Frame::Fixed => Forms::drawn_by(|found| plot::campbell_fixed_frame(found)),
+        Frame::Rotating => Forms::drawn_by(plot::campbell),
+        Frame::Fixed => Forms::drawn_by(plot::campbell_fixed_frame),
     };
     forms.of_document(&state, download, &job, CAMPBELL).await
 }

@@ -16,7 +16,7 @@ const HIGHEST_ORDER: u32 = 30;
 pub(super) const NAMED: usize = 16;
 
 /// Natural frequencies over speed, those of a nodal diameter under one name, with engine orders and both kinds of crossings.
-pub fn campbell(campbell: &Campbell) -> Drawing<'static> {
+pub fn campbell(campbell: &Campbell) -> Drawing<'_> {
     let frequencies = campbell.branches();
     let frequencies = frequencies.iter().flat_map(|(_, table)| table.iter().flatten().flatten()).copied();
     let highest = frequencies.filter(|f| f.is_finite()).fold(0.0, f64::max);

@@ -16,7 +16,7 @@ use rubmap_analysis::result::{Campbell, Table, Wave};
 /// Frequencies at which waves of the wheel are seen from beside it, over speed: f + iΩ/2π of those that travel with the rotation,
 /// |f − iΩ/2π| of those against it, and |f − i·n·Ω/2π| of the superharmonics n of Eq. 11. Where a line falls to zero the wave stands still
 /// before the casing: the linear criterion's critical speeds.
-pub fn campbell_fixed_frame(campbell: &Campbell) -> Drawing<'static> {
+pub fn campbell_fixed_frame(campbell: &Campbell) -> Drawing<'_> {
     let curves = curves(campbell);
     let mut kinds: Vec<Seen> = Vec::new();
     for curve in &curves {

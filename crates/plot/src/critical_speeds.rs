@@ -17,7 +17,7 @@ const ROW_HEIGHT: f64 = 34.0;
 
 /// Peaks of the response over speed with their errors, and below them the crossings of the linear prediction, a row for each superharmonic;
 /// each peak is tied to the crossing nearest to it.
-pub fn critical_speeds(critical: &CriticalSpeeds) -> Drawing<'static> {
+pub fn critical_speeds(critical: &CriticalSpeeds) -> Drawing<'_> {
     let rows = rows(critical);
     let title = format!("Critical speeds: {}", critical.sensor);
     let sketch = Sketch::new("critical_speeds", title, words(critical)).high(420 + 34 * rows.len());
