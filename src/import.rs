@@ -1,6 +1,6 @@
-//! Import of packages, which is no job: received or written beside the models, read and checked, kept as a model.
+//! Import of model packages: receives or writes the file, reads and checks it, stores it as a model.
 //!
-//! Uploads come through all of it; what the generator makes is written, read and kept by the same.
+//! Uploads and the generator share it; it needs no job.
 
 use std::fs::File;
 use std::io::{self, BufWriter, ErrorKind};
@@ -12,9 +12,7 @@ use tempfile::TempPath;
 use tokio::io::AsyncWriteExt;
 use tokio_util::bytes::Bytes;
 
-use crate::analysis::error::Violation;
-use crate::analysis::request::Sensor;
-use crate::analysis::run::{self, ModelFacts, PlacedSensor};
+use crate::analysis::run::ModelFacts;
 use crate::dynamics::nodes::SectorNode;
 use crate::memory::Memory;
 use crate::package::raw::RawPackage;
@@ -31,7 +29,7 @@ const EXPANSION: u64 = 12;
 /// Bytes of an upload that are written at once.
 const PIECE: usize = 1 << 20;
 
-/// Room in which packages become models.
+/// Importer of model packages.
 #[derive(Debug)]
 pub struct Importer {
     store: Store,
@@ -81,7 +79,7 @@ impl CheckedPackage {
 }
 
 impl Importer {
-    /// Makes a room with threads and memory of its own, for uploads within these limits.
+    /// Creates an importer with threads of its own and the memory that it shares with jobs; the limits are for uploads.
     pub(crate) fn new(
         store: Store,
         threads: CpuPool,
@@ -96,7 +94,7 @@ impl Importer {
     ///
     /// # Errors
     /// [`UploadError::TooLarge`].
-    pub fn expect(&self, declared_bytes: Option<u64>) -> Result<(), UploadError> {
+    pub fn check_size(&self, declared_bytes: Option<u64>) -> Result<(), UploadError> {
         match declared_bytes {
             Some(bytes) if bytes > self.upload_bytes => Err(UploadError::TooLarge(self.upload_bytes)),
             _ => Ok(()),
@@ -118,7 +116,7 @@ impl Importer {
         while let Some(piece) = pieces.next().await {
             let piece = piece.map_err(|error| UploadError::BrokeOff(error.to_string()))?;
             received += piece.len() as u64;
-            self.expect(Some(received))?;
+            self.check_size(Some(received))?;
             seen(&piece);
             file.write_all(&piece).await?;
         }
@@ -154,8 +152,8 @@ impl Importer {
         self.threads.run_parallel(read).await
     }
 
-    /// Keeps a package as a model of `owner`; returns the model and whether it is new. May be repeated where the disk was full.
-    pub async fn keep(
+    /// Stores a package as a model of `owner`; returns the model and whether it is new. May be repeated where the disk was full.
+    pub async fn store(
         &self,
         owner: &str,
         limits: limits::Limits,
@@ -166,29 +164,20 @@ impl Importer {
         self.store.insert_model((owner, limits), id, facts, labels, file).await
     }
 
-    /// Places `sensors` at nodes of a kept model; see [`run::place_sensors`].
-    pub(crate) async fn place(
+    /// Runs `act` with the nodes of a stored package, on a thread of the importer.
+    pub(crate) async fn with_nodes<T: Send + 'static>(
         &self,
         model: &str,
-        sensors: &mut [Sensor],
-    ) -> Result<Result<Result<Vec<PlacedSensor>, Vec<Violation>>, StoreError>, Panicked> {
-        let path = match self.store.package(model).await {
-            Ok(path) => path,
-            Err(error) => return Ok(Err(error)),
-        };
-        let mut placed = sensors.to_vec();
-        let place = move || {
-            let found = run::place_sensors(&mut placed, &read_nodes(&path)?);
-            Ok::<_, StoreError>((placed, found))
-        };
-        Ok(self.threads.run(place).await?.map(|(placed, found)| {
-            sensors.copy_from_slice(&placed);
-            found
-        }))
+        act: impl FnOnce(&[SectorNode]) -> T + Send + 'static,
+    ) -> Result<Result<T, StoreError>, Panicked> {
+        match self.store.package(model).await {
+            Ok(path) => self.threads.run(move || read_nodes(&path).map(|nodes| act(&nodes))).await,
+            Err(error) => Ok(Err(error)),
+        }
     }
 }
 
-/// Nodes of a kept package.
+/// Nodes of a stored package.
 fn read_nodes(path: &Path) -> Result<Vec<SectorNode>, StoreError> {
     package::read_nodes(path, &Limits::default()).map_err(|error| match error {
         PackageError::Io { source } => StoreError::Package(source),

@@ -332,6 +332,14 @@ fn physics_asks_neither_the_environment_nor_the_date() {
 fn the_service_has_floors() {
     for (floor, later) in [
         ("src/store", &["crate::import", "crate::jobs", "crate::http", "crate::app", "crate::cli"][..]),
+        (
+            "src/memory.rs",
+            &["crate::store", "crate::import", "crate::jobs", "crate::http", "crate::app", "crate::cli"],
+        ),
+        (
+            "src/pool.rs",
+            &["crate::store", "crate::import", "crate::jobs", "crate::http", "crate::app", "crate::cli"],
+        ),
         ("src/import.rs", &["crate::jobs", "crate::http", "crate::app", "crate::cli"]),
         ("src/jobs", &["crate::http", "crate::app", "crate::cli"]),
         ("src/http", &["crate::app", "crate::cli"]),

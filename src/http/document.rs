@@ -59,7 +59,7 @@ const COMMON: [Common; 5] = [
     },
 ];
 
-/// Problems that any route may answer, by status; said once, as the answer of every other status.
+/// Problems that any route may answer, by status; listed once, in the `default` answer.
 const EVERYWHERE: [(&str, &str); 11] = [
     ("400", "A parameter is not valid, or the body is not JSON; `errors` has line and column."),
     ("401", "The service wants a token, and the request has none that it knows."),
@@ -77,7 +77,7 @@ const EVERYWHERE: [(&str, &str); 11] = [
     ("507", "The storage is full; Retry-After says when to try again."),
 ];
 
-/// Name of the answer of every status that a route does not describe.
+/// Name of the `default` answer.
 const REFUSED: &str = "Refused";
 
 /// Name of the problem that routes describe themselves.
@@ -117,7 +117,7 @@ pub fn document() -> OpenApi {
         answers.values_mut().for_each(refer_to_problem);
         answers.insert("default".to_owned(), Ref::from_response_name(REFUSED).into());
     }
-    let asked = asked(&document);
+    let requested = request_schemas(&document);
     let shared = shared_parameters(&mut document);
     let components = document.components.get_or_insert_default();
     label_requests(components);
@@ -134,7 +134,7 @@ pub fn document() -> OpenApi {
     components.headers.insert(TAG.to_owned(), tag().into());
     components.schemas.insert(FIGURE.to_owned(), figure().into());
     for (name, schema) in &mut components.schemas {
-        if let (RefOr::T(Schema::Object(schema)), false) = (schema, asked.contains(name)) {
+        if let (RefOr::T(schema), false) = (schema, requested.contains(name)) {
             absent_rather_than_null(schema);
         }
     }
@@ -221,8 +221,8 @@ fn component(parameter: &Parameter) -> String {
         .collect()
 }
 
-/// Names of the schemas of which requests are made.
-fn asked(document: &OpenApi) -> BTreeSet<String> {
+/// Names of all schemas that bodies of requests use.
+fn request_schemas(document: &OpenApi) -> BTreeSet<String> {
     let mut names = BTreeSet::new();
     let mut open: Vec<serde_json::Value> = Vec::new();
     let operations =
@@ -250,9 +250,20 @@ fn asked(document: &OpenApi) -> BTreeSet<String> {
     names
 }
 
-/// Takes `null` out of the fields of an answer that need not be there: they are left out instead.
-fn absent_rather_than_null(answer: &mut Object) {
-    let Object { properties, required, .. } = answer;
+/// Removes `null` from the optional fields of an answer: they are left out instead.
+fn absent_rather_than_null(answer: &mut Schema) {
+    let Object { properties, required, .. } = match answer {
+        Schema::Object(object) => object,
+        Schema::AllOf(parts) => {
+            for part in &mut parts.items {
+                if let RefOr::T(part) = part {
+                    absent_rather_than_null(part);
+                }
+            }
+            return;
+        }
+        _ => return,
+    };
     for (_, property) in properties.iter_mut().filter(|(name, _)| !required.contains(*name)) {
         match property {
             RefOr::T(Schema::Object(Object { schema_type, .. })) => {
@@ -273,7 +284,7 @@ fn absent_rather_than_null(answer: &mut Object) {
     }
 }
 
-/// Makes a problem with a description of its own a reference to that which says what a problem is.
+/// Replaces a problem that has only a description of its own by a reference to the common one, with that description.
 fn refer_to_problem(answer: &mut RefOr<Response>) {
     if let RefOr::T(Response { description, headers, content, .. }) = answer
         && headers.is_empty()
@@ -333,7 +344,7 @@ fn add_forms(operation: &mut Operation, forms: &[Form]) {
     let responses = &mut operation.responses.responses;
     if let Some(RefOr::T(answer)) = responses.get_mut("200") {
         for form in forms.iter().filter(|form| **form != Form::Json) {
-            // Of what is no text there is nothing more to say (OpenAPI 3.1, 4.8.14).
+            // Binary content has no schema (OpenAPI 3.1, 4.8.14).
             let schema = match form {
                 Form::Csv | Form::Svg => Some(RefOr::T(Object::with_type(Type::String).into())),
                 Form::Plotly => Some(RefOr::Ref(Ref::from_schema_name(FIGURE))),

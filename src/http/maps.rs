@@ -64,7 +64,7 @@ pub(super) async fn get_interaction_map(
             Some(MapColour::Utilisation) => LevelColour::Utilisation,
             Some(MapColour::Plain) | None => LevelColour::Plain,
         };
-        return draw(&state, job, part, (axis, colour), answer).await;
+        return draw(&state, job, part, axis, colour, answer).await;
     }
     if part.sheet {
         return Err(Problem::parameter(
@@ -97,7 +97,8 @@ async fn draw(
     state: &AppState,
     job: Job,
     mut part: Part,
-    (axis, colour): (VerticalAxis, LevelColour),
+    axis: VerticalAxis,
+    colour: LevelColour,
     answer: Answer,
 ) -> Result<Response, Problem> {
     let (request, _) = sweep(&job)?;
@@ -119,29 +120,36 @@ async fn draw(
             critical.map(|critical| serde_json::from_str(&critical)).transpose()?;
         Ok::<_, Problem>((maps, critical))
     };
-    let seen = (axis, colour, frame, sheet);
+    let seen = Seen { axis, colour, frame, is_sheet: sheet, window };
     if answer.form == Form::Plotly {
         let read = move || Ok::<_, Problem>((read()?, leave));
         let ((maps, critical), leave) = stream::blocking(read).await??;
-        return Ok(answer.figure(leave, move || drawing(&maps, critical.as_ref(), seen, window).figure()));
+        return Ok(answer.figure(leave, move || drawing(&maps, critical.as_ref(), seen).figure()));
     }
     let draw = move || {
         let (maps, critical) = read()?;
-        Ok(drawing(&maps, critical.as_ref(), seen, window).svg())
+        Ok(drawing(&maps, critical.as_ref(), seen).svg())
     };
     answer.drawn(state, leave, draw).await
 }
 
-/// Drawing of one map, or of a sheet of one map per nodal diameter.
-fn drawing<'a>(
-    maps: &'a [InteractionMap],
-    critical: Option<&CriticalSpeeds>,
-    (axis, colour, frame, sheet): (VerticalAxis, LevelColour, Frame, bool),
+/// Choices of a reader about the drawing of a map.
+#[derive(Debug, Clone, Copy)]
+struct Seen {
+    axis: VerticalAxis,
+    colour: LevelColour,
+    frame: Frame,
+    /// Whether all maps are drawn on one sheet.
+    is_sheet: bool,
     window: Window,
-) -> Drawing<'a> {
+}
+
+/// Drawing of one map, or of a sheet of one map per nodal diameter.
+fn drawing<'a>(maps: &'a [InteractionMap], critical: Option<&CriticalSpeeds>, seen: Seen) -> Drawing<'a> {
+    let Seen { axis, colour, frame, is_sheet, window } = seen;
     match (maps, frame) {
         ([map], Frame::Fixed) => plot::fixed_frame_map(map, critical, axis, window, colour),
-        ([map], Frame::Rotating) if !sheet => {
+        ([map], Frame::Rotating) if !is_sheet => {
             plot::interaction_map(map, critical, None, axis, window, colour)
         }
         (maps, _) => plot::map_sheet(maps, window, colour),

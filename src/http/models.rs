@@ -154,7 +154,7 @@ pub(super) async fn create_model(
         return kinds::accept(&state, &whose, key, received).await;
     }
     let importer = &state.importer;
-    importer.expect(declared_bytes(request.headers()))?;
+    importer.check_size(declared_bytes(request.headers()))?;
     let labels = query.labels()?;
     let path = request.uri().path_and_query().map_or("", PathAndQuery::as_str);
     let mut digest = idempotency::start(path);
@@ -165,7 +165,7 @@ pub(super) async fn create_model(
         return Ok(response);
     }
     let package = importer.check(upload).await??;
-    let (model, new) = importer.keep(&whose.owner, state.limits, &labels, &package).await??;
+    let (model, new) = importer.store(&whose.owner, state.limits, &labels, &package).await??;
     let CheckedPackage { facts, id, .. } = &package;
     tracing::info!(model.id = id, name = facts.name, new, "received a model");
     let answer = Answer {

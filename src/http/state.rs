@@ -30,7 +30,7 @@ pub struct AppState {
     pub limits: Limits,
     /// Jobs that are queued and computed.
     pub jobs: Jobs,
-    /// Room in which packages become models.
+    /// Importer of model packages.
     pub importer: Arc<Importer>,
     /// Memory that all reductions together may take, bytes; `None` where it is not known.
     pub memory_bytes: Option<u64>,

@@ -37,7 +37,7 @@ pub(super) struct Engine {
     pub(super) store: Store,
     pub(super) tasks: Tasks,
     pub(super) computing: Arc<Computing>,
-    /// Room in which packages are read and written.
+    /// Importer of model packages.
     pub(super) importer: Arc<Importer>,
     /// Threads that make plans, which are wanted at once.
     pub(super) planner: Planner,

@@ -207,7 +207,11 @@ impl Jobs {
         if !run::name_nodes(sensors) {
             return Ok(Ok(Vec::new()));
         }
-        Ok(self.engine.importer.place(model, sensors).await??)
+        let mut placed = sensors.to_vec();
+        let place = move |nodes: &[_]| (run::place_sensors(&mut placed, nodes), placed);
+        let (found, placed) = self.engine.importer.with_nodes(model, place).await??;
+        sensors.copy_from_slice(&placed);
+        Ok(found)
     }
 
     /// Checks what only the reduction of a scene can tell, if it is stored; returns the reduction.

@@ -105,7 +105,7 @@ impl Runner {
         Ok(Self { engine, stop, workers, helpers })
     }
 
-    /// Room in which packages become models.
+    /// Importer of model packages.
     pub fn importer(&self) -> Arc<Importer> {
         Arc::clone(&self.engine.importer)
     }

@@ -73,7 +73,7 @@ fn map(campaign: &Campaign, parameter: usize, top: f64) -> Panel<'static> {
         columns: cells.iter().map(|cell| Band { from: cell.from, to: cell.to, value: cell.rpm }).collect(),
         values: rows.iter().map(row).collect(),
         rows: rows.iter().map(|row| row.band).collect(),
-        told: vec![
+        hover: vec![
             "%{x:,.1f} rpm".to_owned(),
             format!("{} %{{y:.4~g}}", name(campaign, parameter)),
             format!("{}: %{{z:.4~g}}", short(campaign)),

@@ -139,7 +139,7 @@ fn nodes(map: &ForceMap, cells: &[Cell], quantity: ForceQuantity, top: f64) -> P
         columns: cells.iter().map(|cell| Band { from: cell.from, to: cell.to, value: cell.rpm }).collect(),
         rows: node_bands(nodes),
         values: (0..nodes).map(|node| cells.iter().map(|cell| value(cell, node)).collect()).collect(),
-        told: vec![
+        hover: vec![
             "%{x:,.1f} rpm (%{customdata[0]:,.1f} rad/s)".to_owned(),
             "contact node %{y}".to_owned(),
             format!("{}: %{{z:.4~g}}", quantity.short(map)),

@@ -65,9 +65,9 @@ impl From<Element> for Layer<'_> {
     }
 }
 
-/// Words that the pointer shows on a curve of the figure.
+/// Text under the pointer on a curve of the figure.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Told {
+pub(super) enum Hover {
     /// No words.
     Nothing,
     /// Words, and Plotly's template for the point below them.
@@ -89,7 +89,7 @@ pub(super) enum Course {
     History,
 }
 
-/// Part of a curve without a gap in the legend, with its words in the drawing.
+/// Path of a curve in the drawing, with its title; all strokes of a curve are one trace of the figure.
 #[derive(Debug, Clone)]
 pub(super) struct Stroke {
     /// Points; a missing one is a gap.
@@ -106,7 +106,7 @@ pub(super) struct Curve {
     pub(super) strokes: Vec<Stroke>,
     pub(super) pen: Pen,
     pub(super) course: Course,
-    pub(super) told: Told,
+    pub(super) hover: Hover,
     /// Words at the end of every stroke.
     pub(super) labels: Vec<String>,
     /// Whether the drawing has words of its own in the place of the labels.
@@ -138,7 +138,7 @@ impl Curve {
             strokes: strokes.into_iter().collect(),
             pen,
             course: Course::Straight,
-            told: Told::Nothing,
+            hover: Hover::Nothing,
             labels: Vec::new(),
             has_texts: false,
             errors: Vec::new(),
@@ -173,12 +173,12 @@ impl Curve {
 
     /// Sets the words under the pointer: these, and below them a template for the point.
     pub(super) fn over(self, words: impl Into<String>, point: impl Into<String>) -> Self {
-        Self { told: Told::Template(words.into(), point.into()), ..self }
+        Self { hover: Hover::Template(words.into(), point.into()), ..self }
     }
 
     /// Sets the words of every point under the pointer.
     pub(super) fn each(self, words: Vec<String>) -> Self {
-        Self { told: Told::Each(words), ..self }
+        Self { hover: Hover::Each(words), ..self }
     }
 
     /// Leaves the curve out of the legend of the figure.
@@ -354,7 +354,7 @@ pub(super) struct Cells {
     /// Values as `[row][column]`; none where there is no result.
     pub(super) values: Vec<Vec<Option<f64>>>,
     /// Plotly's templates for the words of a cell, line by line.
-    pub(super) told: Vec<String>,
+    pub(super) hover: Vec<String>,
     /// Whether columns are speeds in rpm, of which the figure has rad/s as well.
     pub(super) has_speeds: bool,
     /// Words of the figure where neighbours are merged, after their number.

@@ -7,7 +7,7 @@ use super::heading;
 use super::key::{Flow, Key};
 use super::labels::{Labels, traced};
 use super::layer::{
-    Area, Areas, Bars, Cells, Course, Curve, Layer, Mark, Marks, Place, Stroke, Told, Upright, Uprights,
+    Area, Areas, Bars, Cells, Course, Curve, Hover, Layer, Mark, Marks, Place, Stroke, Upright, Uprights,
 };
 use super::marks::spread;
 use super::pixels::Pixels;
@@ -153,13 +153,15 @@ fn curve(panel: &Panel, curve: &Curve, clip: Option<String>) -> Element {
         Some(clip) => strokes.set("clip-path", clip),
         None => strokes,
     };
-    let points = curve.strokes.iter().flat_map(|stroke| &stroke.places).flatten();
+    // Words are those of places, gaps among them.
+    let places = curve.strokes.iter().flat_map(|stroke| &stroke.places).enumerate();
+    let points = places.filter_map(|(index, place)| Some((index, (*place)?)));
     let marks = curve.look.iter().flat_map(|look| {
-        points.clone().enumerate().filter_map(|(index, (x, y))| {
-            let mark = look.draw(diagram.inside(*x, *y)?, look.radius, None);
-            Some(match &curve.told {
-                Told::Each(words) => mark.set("class", "point").title(words.get(index)?),
-                Told::Nothing | Told::Template(..) => mark,
+        points.clone().filter_map(|(index, (x, y))| {
+            let mark = look.draw(diagram.inside(x, y)?, look.radius, None);
+            Some(match &curve.hover {
+                Hover::Each(words) => mark.set("class", "point").title(words.get(index)?),
+                Hover::Nothing | Hover::Template(..) => mark,
             })
         })
     });
@@ -251,7 +253,7 @@ fn marks(panel: &Panel, marks: &Marks) -> Element {
         let lengths =
             bars.iter().flat_map(|bars| bars.lengths.iter().zip(&marks.marks).map(move |both| (bars, both)));
         let known = lengths.filter(|(_, (length, _))| length.is_finite());
-        known.filter_map(|(bars, (length, mark))| bar(panel, bars, mark, (*length, is_level))).collect()
+        known.filter_map(|(bars, (length, mark))| bar(panel, bars, mark, *length, is_level)).collect()
     };
     let standing = marks.stems.is_some();
     let drawn = marks.marks.iter().filter(|_| !standing).filter_map(|mark| {
@@ -296,7 +298,7 @@ fn stems(panel: &Panel) -> Element {
 }
 
 /// Error bar of a mark with caps, cut off at the frame.
-fn bar(panel: &Panel, bars: &Bars, mark: &Mark, (length, is_level): (f64, bool)) -> Option<Element> {
+fn bar(panel: &Panel, bars: &Bars, mark: &Mark, length: f64, is_level: bool) -> Option<Element> {
     const CAP: f64 = 3.5;
     let (x, y) = panel.diagram.inside(mark.place.0, mark.place.1)?;
     let (scale, range, at) = match is_level {

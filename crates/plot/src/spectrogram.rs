@@ -163,7 +163,7 @@ fn cells(view: &View<'_>, found: &Cells<'_>, unit: &str) -> layer::Cells {
         columns: found.columns.iter().map(band).collect(),
         values: both().map(|(row, _)| row.iter().map(|cell| Some(cell.as_ref()?.0)).collect()).collect(),
         data: both().map(|(row, y)| row.iter().map(|cell| tell(y.value, cell)).collect()).collect(),
-        told: vec![
+        hover: vec![
             "%{customdata[2]:,.1f} rpm, at %{customdata[3]:.4~g} s".to_owned(),
             format!("engine order {order}, {frequency} Hz"),
             format!("%{{customdata[0]:.3~g}} {unit}"),

@@ -45,7 +45,7 @@ pub fn wear_map(wear: &WearMap, point: &Point, units: &Units) -> Drawing<'static
         columns: (0..wear.depths.len()).map(column).collect(),
         rows: node_bands(nodes),
         values: (0..nodes).map(row).collect(),
-        told: vec!["%{x:.1f}°, contact node %{y}".to_owned(), format!("%{{z:.4~g}} {}", units.length)],
+        hover: vec!["%{x:.1f}°, contact node %{y}".to_owned(), format!("%{{z:.4~g}} {}", units.length)],
         has_speeds: false,
         merged: "places around the casing are one cell with the deepest",
         data: Vec::new(),

@@ -1022,7 +1022,7 @@ class BranchTrack(Track):
 
 
 class CampaignDesign(DesignOutcome):
-    compared: NotRequired[DesignOutcome | None]
+    compared: NotRequired[DesignOutcome]
     index: int
     values: list[float]
 
@@ -1466,15 +1466,15 @@ class StiffeningReport(TypedDict):
 
 class StudyRun(Setting):
     cost: Cost
-    energy_residual: NotRequired[float | None]
-    errors: NotRequired[Errors | None]
-    message: NotRequired[str | None]
+    energy_residual: NotRequired[float]
+    errors: NotRequired[Errors]
+    message: NotRequired[str]
     pareto: NotRequired[list[Quantity]]
     status: PointStatus
-    steady: NotRequired[SteadyReport | None]
+    steady: NotRequired[SteadyReport]
     time_s: float
     unknowns: int
-    verdict: NotRequired[Verdict | None]
+    verdict: NotRequired[Verdict]
 
 
 class ValidityCheck(TypedDict):
@@ -1866,7 +1866,7 @@ class ModalAnalysisPlan(TypedDict):
 class ModelBody(ModelFacts):
     created_at: str
     id: str
-    notes: NotRequired[str | None]
+    notes: NotRequired[str]
     size_bytes: int
     tags: list[str]
 
@@ -2179,8 +2179,8 @@ class Branches(BranchesHead):
 
 
 class JobDetail(JobBody):
-    choice: NotRequired[Chosen | None]
-    posted: NotRequired[PostedBody | None]
-    posted_to: NotRequired[str | None]
-    reduction: NotRequired[ReductionReport | None]
+    choice: NotRequired[Chosen]
+    posted: NotRequired[PostedBody]
+    posted_to: NotRequired[str]
+    reduction: NotRequired[ReductionReport]
     request: ResolvedBody

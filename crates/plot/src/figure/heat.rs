@@ -45,7 +45,7 @@ pub(super) fn cells(heat: &Heat<'_>) -> Cells {
         columns: columns.collect(),
         rows: rows.iter().map(|row| Band { from: row.band.0, to: row.band.1, value: row.middle }).collect(),
         values,
-        told: vec![
+        hover: vec![
             "%{x:,.1f} rpm (%{customdata[2]:,.1f} rad/s)".to_owned(),
             format!("{orders} {order}, {frequency} Hz"),
             format!("%{{customdata[0]:.3~g}} {}", heat.map.sensor.unit(&heat.map.units)),

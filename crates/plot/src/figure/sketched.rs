@@ -9,7 +9,7 @@ use super::heat;
 use super::marks::{bars, scatter, template};
 use super::text::escaped;
 use super::thinned;
-use crate::layer::{Areas, Band, Bars, Cells, Course, Curve, Layer, Marks, Place, Told, Uprights};
+use crate::layer::{Areas, Band, Bars, Cells, Course, Curve, Hover, Layer, Marks, Place, Uprights};
 use crate::merged::{MOST, together};
 use crate::sketch::{self, Kind, Panel, Sketch, Zoom};
 use crate::style::{Look, Pen};
@@ -21,18 +21,18 @@ const STRIP: f64 = 0.04;
 pub(crate) fn figure(sketch: &Sketch) -> Figure {
     let layers = || sketch.panels.iter().flat_map(|panel| &panel.layers);
     let sampled = layers().filter_map(|layer| match layer {
-        Layer::Curve(curve) if matches!(curve.told, Told::Template(..)) => Some(curve.strokes.len()),
+        Layer::Curve(curve) if matches!(curve.hover, Hover::Template(..)) => Some(curve.strokes.len()),
         _ => None,
     });
     let sampled = sampled.sum();
-    let mut together = 1;
+    let mut thinned_by = 1;
     let (mut traces, mut grids, mut merged) = (Vec::new(), Vec::new(), Vec::new());
     for (index, panel) in sketch.panels.iter().enumerate() {
         let x = if panel.is_apart { axis_name("x", index) } else { "x".to_owned() };
         let y = axis_name("y", index);
         for layer in &panel.layers {
             let trace = match layer {
-                Layer::Curve(found) => curve(found, sampled, &mut together),
+                Layer::Curve(found) => curve(found, sampled, &mut thinned_by),
                 Layer::Marks(found) | Layer::Shown(found) => marks(found, panel),
                 Layer::Uprights(found) => uprights(found, panel),
                 Layer::Areas(found) => areas(found, panel),
@@ -60,7 +60,7 @@ pub(crate) fn figure(sketch: &Sketch) -> Figure {
         .chain(&sketch.footnote)
         .chain(&merged);
     let words = words.filter(|words| !words.is_empty()).cloned();
-    let words: Vec<String> = words.chain(thinned::words(together)).collect();
+    let words: Vec<String> = words.chain(thinned::words(thinned_by)).collect();
     let figure = Figure::new(sketch.kind, &sketch.title, &words);
     let figure = sketch.meta.iter().fold(figure, |figure, (name, value)| figure.meta(name, value));
     if let Some(words) = &sketch.nothing {
@@ -120,25 +120,25 @@ fn columns(places: &[Option<Place>]) -> (Vec<f64>, Vec<f64>) {
 }
 
 /// Trace of a curve, thinned to what a screen shows of so many strokes unless its points have words of their own.
-fn curve(curve: &Curve, sampled: usize, together: &mut usize) -> Scatter {
+fn curve(curve: &Curve, sampled: usize, thinned_by: &mut usize) -> Scatter {
     let mut places: Vec<Option<Place>> = Vec::new();
     for (index, stroke) in curve.strokes.iter().enumerate() {
         places.extend((index > 0).then_some(None));
-        match &curve.told {
-            Told::Template(..) => {
+        match &curve.hover {
+            Hover::Template(..) => {
                 let gap = (f64::NAN, f64::NAN);
                 let all = stroke.places.iter().map(|place| place.unwrap_or(gap)).collect();
                 let (left, here) = thinned::thinned(all, sampled);
-                *together = here.max(*together);
+                *thinned_by = here.max(*thinned_by);
                 places.extend(left.into_iter().map(Some));
             }
-            Told::Nothing | Told::Each(_) => places.extend(&stroke.places),
+            Hover::Nothing | Hover::Each(_) => places.extend(&stroke.places),
         }
     }
     let pen = line(&curve.pen);
     let pen = if curve.course == Course::Steps { pen.shape("hv") } else { pen };
     // A line through one point is invisible.
-    let is_sampled = matches!(curve.told, Told::Template(..));
+    let is_sampled = matches!(curve.hover, Hover::Template(..));
     let has_point = !is_sampled && curve.strokes.iter().any(|stroke| stroke.places.len() == 1);
     let mode = match (&curve.look, curve.labels.is_empty()) {
         (Some(_), _) => "lines+markers",
@@ -167,13 +167,13 @@ fn curve(curve: &Curve, sampled: usize, together: &mut usize) -> Scatter {
         true => trace,
         false => trace.text(ends(curve)).textposition("bottom left"),
     };
-    match &curve.told {
-        Told::Nothing => trace.hoverinfo("skip"),
-        Told::Template(words, point) if words.is_empty() => trace.hovertemplate(template(&escaped(point))),
-        Told::Template(words, point) => {
+    match &curve.hover {
+        Hover::Nothing => trace.hoverinfo("skip"),
+        Hover::Template(words, point) if words.is_empty() => trace.hovertemplate(template(&escaped(point))),
+        Hover::Template(words, point) => {
             trace.hovertemplate(template(&format!("{}<br>{}", escaped(words), escaped(point))))
         }
-        Told::Each(words) => {
+        Hover::Each(words) => {
             let mut words = words.iter().map(|words| escaped(words));
             let mut told = Vec::new();
             for (index, stroke) in curve.strokes.iter().enumerate() {
@@ -270,7 +270,7 @@ fn grid(of: &Cells, panel: &Panel) -> (Heat, Option<String>) {
     };
     let y = of.rows.chunks(high).map(middle).collect();
     let words = (wide * high > 1).then(|| format!("{} {}", wide * high, of.merged));
-    let told: Vec<String> = of.told.iter().map(|line| escaped(line)).collect();
+    let told: Vec<String> = of.hover.iter().map(|line| escaped(line)).collect();
     (cells((x, y), (values, data), &told.join("<br>")), words)
 }
 
@@ -348,7 +348,7 @@ fn stems(marks: &Marks, foot: f64) -> ErrorBars {
 fn axes(figure: Figure, panels: &[Panel]) -> Figure {
     let Some(first) = panels.first() else { return figure };
     let name = |index: usize| if index == 0 { String::new() } else { format!("{}", index + 1) };
-    let x = upright(&first.x);
+    let x = axis_of(&first.x);
     let foot = |index: &usize| panels[*index].domain.map_or(0.0, |domain| domain[0]);
     let shared = (0..panels.len()).filter(|index| !panels[*index].is_apart);
     let lowest = shared.min_by(|a, b| foot(a).total_cmp(&foot(b))).unwrap_or(0);
@@ -365,7 +365,7 @@ fn axes(figure: Figure, panels: &[Panel]) -> Figure {
         None => figure,
     };
     panels.iter().enumerate().fold(figure.axis("xaxis", x), |figure, (index, panel)| {
-        let y = upright(&panel.y);
+        let y = axis_of(&panel.y);
         let y = match panel.is_apart {
             true => y.anchor(format!("x{}", name(index))),
             false if index == lowest => y,
@@ -381,7 +381,7 @@ fn axes(figure: Figure, panels: &[Panel]) -> Figure {
         if !panel.is_apart {
             return figure;
         }
-        let x = upright(&panel.x).anchor(format!("y{}", name(index)));
+        let x = axis_of(&panel.x).anchor(format!("y{}", name(index)));
         let x = match panel.across {
             Some(across) => x.domain(across).nticks(4u32).tickangle(0.0),
             None => x,
@@ -391,20 +391,20 @@ fn axes(figure: Figure, panels: &[Panel]) -> Figure {
 }
 
 /// Axis of the figure with the title, range and scale of one of the sketch.
-fn upright(of: &sketch::Axis) -> Axis {
-    let (axis, (low, high)) = (axis(of.short.as_ref().unwrap_or(&of.title)), of.range);
-    let axis = match of.kind {
+fn axis_of(described: &sketch::Axis) -> Axis {
+    let (axis, (low, high)) = (axis(described.short.as_ref().unwrap_or(&described.title)), described.range);
+    let axis = match described.kind {
         Kind::Logarithmic => return axis.kind("log").range([low.log10(), high.log10()]).exponentformat("e"),
         Kind::Speeds => axis.exponentformat("none"),
         Kind::Turn => axis.dtick(45.0).ticksuffix("°"),
         Kind::Names => {
             let (values, names): (Vec<f64>, Vec<String>) =
-                of.ticks.iter().map(|(value, name)| (*value, escaped(name))).unzip();
+                described.ticks.iter().map(|(value, name)| (*value, escaped(name))).unzip();
             axis.tickvals(values).ticktext(names).zeroline(false)
         }
         Kind::Linear => axis,
     };
-    match of.zoom {
+    match described.zoom {
         Zoom::Same => axis.range([low, high]),
         Zoom::Free => axis,
         Zoom::OneScale => axis.scaleanchor("x").scaleratio(1.0),

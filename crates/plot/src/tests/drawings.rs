@@ -16,7 +16,7 @@ use super::pens::svg::{
 };
 use super::stresses::{of_sweep, stressed_critical, stressed_map};
 use super::studies::{RUNS, first_revolutions, study};
-use super::{critical, decoded, map, modes, point, units, waves};
+use super::{SPEEDS_RPM, critical, decoded, map, modes, of_class, point, units, waves};
 use crate::{
     ForceQuantity, Frame, HaighColour, HistoryQuantity, LevelColour, PngError, SectionView, SpectrogramUnit,
     SurfaceView, VerticalAxis, Window, png, surface,
@@ -391,6 +391,19 @@ fn other_keys_explain_what_is_there_only() {
         has(&key(&section(&sector(5), SectionView::Meridional)), "casing")
             && !has(&still(sector(5)), "casing")
     );
+}
+
+#[test]
+fn marks_after_a_speed_without_result_have_their_own_words() {
+    let drawing = force_map(&contact(3), ForceQuantity::Peak);
+    let read = Document::parse(&drawing).unwrap();
+    let speeds = of_class(&read, "point").map(|mark| {
+        let words = mark.last_element_child().and_then(|title| title.text()).unwrap();
+        words.split_once(" rpm").unwrap().0.parse().unwrap()
+    });
+    let speeds: Vec<f64> = speeds.collect();
+    let computed = [0, 1, 3, 4].map(|speed| SPEEDS_RPM[speed].round());
+    assert!(speeds.len() >= 4 && speeds.chunks(4).all(|curve| curve == computed), "{speeds:?}");
 }
 
 /// Lines of nodal diameter n at engine order k are seen at k ± n.

@@ -55,7 +55,12 @@ pub enum FrictionLaw {
     Disc,
 }
 
-impl Effects<'_> {
+impl<'a> Effects<'a> {
+    /// Friction of tips that slide forwards, if the scene has that law.
+    pub(crate) fn sliding(&self) -> Option<Friction<'a>> {
+        self.friction.filter(|friction| friction.law == FrictionLaw::Sliding)
+    }
+
     /// Whether forces act that are known beforehand: excitation or the Euler force.
     pub(crate) fn forces_are_known(&self) -> bool {
         !self.excitation.is_empty() || self.euler_force.is_some()

@@ -112,7 +112,12 @@ pub(super) struct March<'a> {
 struct Steppings(Vec<(u32, Stepping)>);
 
 impl Steppings {
-    fn of(&mut self, march: &March<'_>, sector: &ReducedSector, band: u32) -> Result<&Stepping, NotRunnable> {
+    fn in_band(
+        &mut self,
+        march: &March<'_>,
+        sector: &ReducedSector,
+        band: u32,
+    ) -> Result<&Stepping, NotRunnable> {
         let place = match self.0.iter().position(|(of, _)| *of == band) {
             Some(place) => place,
             None => {
@@ -166,24 +171,25 @@ impl<'a> March<'a> {
     pub(super) fn stepping(&self, sector: &ReducedSector, band: u32) -> Result<Stepping, NotRunnable> {
         let request = self.request();
         let highest = self.highest_band();
-        let of_highest = self.ready(sector, request, self.lowest_of(highest))?;
+        let of_highest = self.stepping_at(sector, request, self.lowest_of(highest))?;
         let mut stepping = match of_highest.scheme {
             _ if band == highest => of_highest,
             Scheme::MasslessBoundary { kept_modes } => {
                 let mut kept = request.clone();
                 kept.integration.scheme = SchemeChoice::MasslessBoundary;
                 kept.integration.kept_modes = AutoOr::Fixed(kept_modes as u32);
-                self.ready(sector, &kept, self.lowest_of(band))?
+                self.stepping_at(sector, &kept, self.lowest_of(band))?
             }
             Scheme::CentralDifferences | Scheme::ExactModal => {
-                self.ready(sector, request, self.lowest_of(band))?
+                self.stepping_at(sector, request, self.lowest_of(band))?
             }
         };
         stepping.discretisation = stepping.discretisation.sampled(self.samples);
         Ok(stepping)
     }
 
-    fn ready(
+    /// Stepping of a scene at one speed, run in parts.
+    fn stepping_at(
         &self,
         sector: &ReducedSector,
         request: &ResolvedSweep,
@@ -237,7 +243,7 @@ impl<'a> March<'a> {
                 if !share(0.0) {
                     return Err(AnalysisError::Cancelled);
                 }
-                let taken = steppings.of(self, sector, segment.band).and_then(|stepping| {
+                let taken = steppings.in_band(self, sector, segment.band).and_then(|stepping| {
                     if so_far.scheme.as_ref().is_none_or(|(band, _)| segment.band < *band) {
                         so_far.scheme = Some((segment.band, stepping.report.clone()));
                     }

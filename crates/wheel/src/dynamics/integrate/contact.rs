@@ -8,7 +8,7 @@ use super::super::clearance_drift::ClearanceDrift;
 use super::super::contact::coating::{Coating, WornCoating};
 use super::super::contact::delassus::Delassus;
 use super::super::contact::flexibility::{outward_normals, ridge};
-use super::super::effects::{Effects, Friction, FrictionLaw};
+use super::super::effects::{Effects, Friction};
 use super::super::energy::EffectWork;
 use super::super::flexible_casing::CasingMotion;
 use super::super::oscillators::Oscillators;
@@ -79,10 +79,9 @@ impl Contact {
         let (stride, sectors) = (rows.stride, fourier.sectors());
         let gaps = Gaps::new(simulation, casing, stride);
         let elastic = gaps.shift.as_ref().and_then(|shift| shift.casing.as_ref());
-        let law = Law::new(simulation, oscillators, fourier, elastic, sectors * stride);
+        let law = Law::new(simulation, oscillators, fourier, elastic, stride);
         let delassus = delassus(simulation, oscillators, fourier, stride, elastic);
-        let slides = effects.friction.filter(|friction| friction.law == FrictionLaw::Sliding);
-        let sliding = slides.map(|friction| Sliding::new(simulation, friction));
+        let sliding = effects.sliding().map(|friction| Sliding::new(simulation, friction));
         let force_stride = applied(&rows, sliding.as_ref(), &law).stride;
         let Effects { coating, orbit, clearance_change, clearance_drift, .. } = effects;
         let length = casing.length_scale(simulation.reach())
@@ -313,8 +312,7 @@ fn delassus(
     let normals = outward_normals(simulation.contact_nodes);
     let symmetric = symmetric_flexibility(simulation, oscillators, &normals, &normals);
     let ridge = ridge(&symmetric, simulation.wheel.sectors);
-    let slides = simulation.effects.friction.filter(|friction| friction.law == FrictionLaw::Sliding);
-    let mut delassus = match slides {
+    let mut delassus = match simulation.effects.sliding() {
         None if !simulation.wheel.turns() => Delassus::new(&symmetric, ridge, stride, fourier),
         friction => {
             let from = friction.map_or(normals.as_slice(), |friction| friction.directions);

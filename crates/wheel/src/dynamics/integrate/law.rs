@@ -2,7 +2,6 @@
 
 use super::super::contact::coating::WornCoating;
 use super::super::contact::delassus::Delassus;
-use super::super::effects::FrictionLaw;
 use super::super::flexible_casing::CasingMotion;
 use super::super::oscillators::Oscillators;
 use super::super::oscillators::rows::Rows;
@@ -48,17 +47,18 @@ pub(super) struct Solution<'a> {
 }
 
 impl Law {
-    /// Law of a scene whose tips may touch at `size` places; `casing` is the elastic one, if there is one.
+    /// Law of the scene. `stride` is the number of contact nodes of a sector, padded to whole vectors; `casing` the elastic casing, if there is
+    /// one.
     pub(super) fn new(
         simulation: &Simulation<'_>,
         oscillators: &Oscillators,
         fourier: &SectorFourier,
         casing: Option<&CasingMotion>,
-        size: usize,
+        stride: usize,
     ) -> Self {
         let Simulation { wheel, effects, contact_nodes, .. } = *simulation;
-        let slides = effects.friction.is_some_and(|friction| friction.law == FrictionLaw::Sliding);
-        let is_symmetric = !slides && !wheel.turns();
+        let size = wheel.sectors * stride;
+        let is_symmetric = effects.sliding().is_none() && !wheel.turns();
         if let Some(coating) = effects.coating {
             let solver = match is_symmetric {
                 true => CoatedSolver::Symmetric(Box::new(BranchSolver::new(size))),
@@ -68,7 +68,6 @@ impl Law {
             let worn = WornCoating::new(coating.clone(), contact_nodes, wheel.sectors, steps);
             return Self::Coated(solver, Box::new(worn));
         }
-        let stride = size / wheel.sectors;
         let disc = effects
             .friction
             .and_then(|friction| Disc::new(simulation, friction, oscillators, fourier, casing, stride));

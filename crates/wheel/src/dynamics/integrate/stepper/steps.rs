@@ -1,7 +1,8 @@
 //! The step loop.
 //!
-//! How contact forces move the wheel and whether effects do is a [`Motion`], with a loop of its own each, compiled for each kind of vectors:
-//! scenes without effects do not even ask for them. What is rare in a step, or no part of its arithmetic, is called from [`super::kernels`].
+//! One loop per [`Motion`], compiled for each kind of vectors. The loops of scenes without effects contain neither drive nor casing motion;
+//! the shift of the gaps and the law of contact are options that [`super::Contact`] tests. What is rare in a step, or no part of its
+//! arithmetic, is called from [`super::kernels`].
 
 use pulp::{Simd, WithSimd};
 
@@ -59,7 +60,7 @@ impl Stepper {
                 Observer::Trace(_) => {}
                 Observer::Recorder { windowed } => {
                     self.statistics.steps += 1;
-                    self.quench::<M>();
+                    self.quench();
                     // What the last one leads to is recorded with its forces.
                     if step < range.steps && self.recorder.reads(self.statistics.steps, *windowed) {
                         self.read(*windowed);
@@ -82,12 +83,10 @@ impl Stepper {
 
     /// Now and then brings to rest what has decayed to nothing.
     #[inline(always)]
-    fn quench<M: Motion>(&mut self) {
+    fn quench(&mut self) {
         if self.decays && self.statistics.steps.is_multiple_of(QUENCHED_STEPS) {
             self.oscillators.quench();
-            if M::EFFECTS
-                && let Some(casing) = self.flexible_casing_mut()
-            {
+            if let Some(casing) = self.flexible_casing_mut() {
                 casing.quench();
             }
         }
@@ -110,12 +109,10 @@ impl WithSimd for Take<'_, '_> {
     }
 }
 
-/// How contact forces move the wheel, and whether anything else does: decided before the loop, which is compiled for each.
+/// Kind of step: the way in which contact forces move the wheel, and whether effects act. Chosen before the loop, which is compiled for each.
 trait Motion {
     /// Whether there is anything to touch.
     const TOUCHES: bool = true;
-    /// Whether there are effects.
-    const EFFECTS: bool = false;
 
     /// Takes the step that ends `now` (Eq. 8), up to the reading of the gaps, after the forces of the instant before were
     /// applied, or under them.
@@ -177,12 +174,10 @@ impl Motion for Massless {
     fn apply<S: Simd>(_: &mut Stepper, _: S) {}
 }
 
-/// Any of these under the effects of the scene, each asked for at every step.
+/// Step with effects of the scene, each tested at every step.
 struct Affected;
 
 impl Motion for Affected {
-    const EFFECTS: bool = true;
-
     #[inline(always)]
     fn predict<S: Simd>(stepper: &mut Stepper, simd: S, now: Instant) {
         let Stepper { fourier, oscillators, drive, contact, energy, massless, .. } = stepper;
