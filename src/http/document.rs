@@ -274,7 +274,7 @@ fn absent_rather_than_null(answer: &mut Schema) {
                 }
             }
             RefOr::T(Schema::OneOf(choice)) => {
-                choice.items.retain(|item| !matches!(item, RefOr::T(Schema::Object(object)) if object.schema_type == SchemaType::Type(Type::Null)));
+                choice.items.retain(|item| !is_null(item));
                 if let [RefOr::Ref(only)] = &choice.items[..] {
                     *property = RefOr::Ref(only.clone());
                 }
@@ -282,6 +282,11 @@ fn absent_rather_than_null(answer: &mut Schema) {
             _ => {}
         }
     }
+}
+
+fn is_null(schema: &RefOr<Schema>) -> bool {
+    let RefOr::T(Schema::Object(object)) = schema else { return false };
+    object.schema_type == SchemaType::Type(Type::Null)
 }
 
 /// Replaces a problem that has only a description of its own by a reference to the common one, with that description.

@@ -63,8 +63,8 @@ pub(super) async fn run(engine: &Engine, job: &Live) -> Result<(), Interruption>
     // The model gets the labels that the job has by now.
     let find = || engine.store.job(job.id);
     let labels = patiently(&job.watch, find).await?.map(|job| job.head.labels).unwrap_or_default();
-    let keep = || engine.importer.store(&job.owner, limits, &labels, &package);
-    let (_, new) = until_written(&job.watch, keep).await?.map_err(Interruption::limit)?;
+    let store = || engine.importer.store(&job.owner, limits, &labels, &package);
+    let (_, new) = until_written(&job.watch, store).await?.map_err(Interruption::limit)?;
     let CheckedPackage { facts, id, .. } = &package;
     tracing::info!(job.id = %job.id, model.id = id, name = facts.name, new, "generated a model");
     finish::complete(engine, job, &[], Some(id)).await

@@ -482,7 +482,7 @@ pub trait Legs: Send + Sync {
 /// Computes a leg for [`Legs::leg`]: `further` takes the course after the leg before, `written` writes the leg.
 ///
 /// # Errors
-/// Those of `further`.
+/// Errors of `further`.
 pub(crate) fn next_leg<C: Serialize + DeserializeOwned, L>(
     course: Option<&str>,
     further: impl FnOnce(Option<C>) -> Result<(L, Option<C>), AnalysisError>,

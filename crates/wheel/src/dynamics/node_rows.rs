@@ -25,7 +25,7 @@ impl NodeRows {
     /// imaginary part of every unknown.
     ///
     /// # Errors
-    /// Those of `row`.
+    /// Errors of `row`.
     pub fn gather<E>(
         nodes: &[SectorNode],
         reduced: &ReducedWheel,
@@ -64,7 +64,7 @@ impl NodeRows {
     /// Joins these nodes to `wheel`, below its contact nodes, at its speed. They can be read, not loaded.
     ///
     /// # Errors
-    /// Those of [`ModalWheel::at`].
+    /// Errors of [`ModalWheel::at`].
     pub fn join(
         &self,
         mut wheel: ModalWheel,

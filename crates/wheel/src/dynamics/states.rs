@@ -35,7 +35,7 @@ impl WheelStates {
     /// States in the coordinates of `reduced` from the modes of `wheel`, which is `reduced` at its speed.
     ///
     /// # Errors
-    /// Those of [`ModalWheel::at`].
+    /// Errors of [`ModalWheel::at`].
     pub fn of(
         modes: &ModalStates,
         wheel: &ModalWheel,
