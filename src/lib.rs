@@ -9,8 +9,8 @@
 //!
 //! ```text
 //! crates/numerics ← crates/wheel (dynamics ← response) ← crates/analysis ← src (kinds ← store ← import ← jobs ← http ← app ← cli)
-//!                        ↑ crates/model (package, impeller)       ↑ crates/plot
-//! crates/solid (mesh, stress) ← model, analysis
+//!                        ↑ crates/model (package, assembly, impeller)      ↑ crates/plot
+//! crates/solid (elements, stress) ← model, analysis
 //! ```
 //!
 //! What is absent, and stays absent:
@@ -39,7 +39,7 @@ pub mod tokens;
 pub mod version;
 
 pub use rubmap_analysis as analysis;
-pub use rubmap_model::{impeller, package};
+pub use rubmap_model::{assembly, impeller, package};
 pub use rubmap_numerics as numerics;
 pub use rubmap_plot as plot;
 pub use rubmap_solid as solid;

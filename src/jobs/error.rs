@@ -163,7 +163,7 @@ impl From<ImpellerError> for Interruption {
             ImpellerError::Parameter { .. }
             | ImpellerError::Field { .. }
             | ImpellerError::Jacobian { .. } => FailureCause::Refused,
-            ImpellerError::NotPositiveDefinite => FailureCause::Model,
+            ImpellerError::CanMove(_) => FailureCause::Model,
         };
         Self::Failed(Failure { cause, message, violations: Vec::new() })
     }

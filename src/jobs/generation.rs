@@ -8,7 +8,8 @@ use super::finish;
 use super::patience::{patiently, until_written};
 use super::progress::PhaseMonitor;
 use crate::analysis::monitor::Monitor;
-use crate::impeller::{generate, generation_bytes, impeller_sector};
+use crate::assembly::assembly_bytes;
+use crate::impeller::{ImpellerError, generate, impeller_sector};
 use crate::import::CheckedPackage;
 use crate::kinds::generation::Generation;
 use crate::package::Limits;
@@ -28,7 +29,8 @@ pub(super) async fn run(engine: &Engine, job: &Live) -> Result<(), Interruption>
     let (nodes, needed_bytes) = engine
         .computing
         .run(&job.watch, move || {
-            impeller_sector(&asked).map(|sector| (sector.mesh.nodes.len(), generation_bytes(&sector)))
+            let sector = impeller_sector(&asked)?.made_of(&asked.material);
+            Ok::<_, ImpellerError>((sector.mesh.nodes.len(), assembly_bytes(&sector)))
         })
         .await??;
 

@@ -1,7 +1,8 @@
 //! Rotating uniform cantilever (Wright, Smith, Thresher and Wang, J. Appl. Mech. 49, 1982): flap against the table, lag² = flap² − Ω².
 
+use rubmap::assembly::SectorMatrices;
 use rubmap::impeller::mesh::ElementOrder::{self, Linear, Quadratic};
-use rubmap::impeller::{CantileverParameters, Material, SectorMatrices, cantilever, cantilever_mesh};
+use rubmap::impeller::{CantileverParameters, Material, cantilever, cantilever_mesh};
 
 use crate::eigen::{dense_eigenvalues, lowest_real};
 
@@ -31,7 +32,7 @@ impl Beam {
             material: Material { youngs_modulus: 1.0, poissons_ratio, density: 1.0, ..Material::default() },
             ..CantileverParameters::default()
         };
-        let matrices = SectorMatrices::assemble(&cantilever_mesh(&p).unwrap(), &p.material).unwrap();
+        let matrices = SectorMatrices::assemble(&cantilever_mesh(&p).unwrap().made_of(&p.material)).unwrap();
         Self { matrices, unit: (1.0_f64 / 12.0).sqrt() / slenderness.powi(2) }
     }
 

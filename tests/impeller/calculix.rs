@@ -10,13 +10,12 @@ use std::fmt::Write as _;
 use std::process::Command;
 
 use nalgebra::Vector3;
+use rubmap::assembly::SectorMatrices;
 use rubmap::impeller::mesh::{ElementOrder, Elements, SectorMesh};
-use rubmap::impeller::{
-    ImpellerParameters, Material, MeshDensities, SectorMatrices, Splitter, cylindrical_frame,
-    impeller_sector, to_package,
-};
+use rubmap::impeller::{ImpellerParameters, Material, MeshDensities, Splitter, impeller_sector};
 
 use crate::eigen::{harmonic, hertz, lowest};
+use crate::packed::{cylindrical_frame, packed};
 
 const MODES: usize = 4;
 
@@ -196,7 +195,7 @@ fn nodal_stresses(frd: &str, nodes: usize) -> Vec<[f64; 6]> {
 
 /// Largest difference of the frequencies, relative, over all nodal diameters.
 fn frequency_difference(sector: &SectorMesh, p: &ImpellerParameters, theirs: &Answer) -> f64 {
-    let package = to_package("impeller", sector, &p.material, &p.units, p.top_speed_rad_s).unwrap();
+    let package = packed("impeller", sector, &p.material, &p.units, p.top_speed_rad_s);
     assert_eq!(theirs.frequencies.len(), p.sectors / 2 + 1);
     let mut worst = 0.0_f64;
     for (i, theirs) in theirs.frequencies.iter().enumerate() {
@@ -212,7 +211,7 @@ fn frequency_difference(sector: &SectorMesh, p: &ImpellerParameters, theirs: &An
 
 /// Largest differences of displacement and of stress under the centrifugal load, in parts of the largest of each.
 fn static_differences(sector: &SectorMesh, material: &Material, speed: f64, theirs: &Answer) -> [f64; 2] {
-    let prestress = SectorMatrices::assemble(sector, material).unwrap().prestress;
+    let prestress = SectorMatrices::assemble(&sector.made_of(material)).unwrap().prestress;
     let square = speed * speed;
     let largest = theirs.displacements.iter().map(|u| Vector3::from(*u).norm()).fold(0.0, f64::max);
     let mut displacement = 0.0_f64;

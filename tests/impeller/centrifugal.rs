@@ -3,11 +3,12 @@
 use nalgebra::{Matrix3, Vector3};
 use rubmap::analysis::stress::StressMaker;
 use rubmap::analysis::tip_growth::TipGrowth;
-use rubmap::impeller::{impeller_sector, to_package};
+use rubmap::impeller::impeller_sector;
 use rubmap::package::{self, Limits};
 use rubmap::solid::frame::AxisFrame;
 
 use crate::calculix::{calculix, twenty_node_impeller};
+use crate::packed::packed;
 
 /// Relative precision with which CalculiX prints displacements, and stress at nodes after extrapolation by a table of four digits.
 const PRINTED: [f64; 2] = [1e-6, 1e-4];
@@ -21,7 +22,7 @@ fn the_static_part_of_stress_is_that_of_calculix() {
     let speed = p.top_speed_rad_s;
     let Some(theirs) = calculix(&sector, &p.material, speed) else { return };
     let file = tempfile::NamedTempFile::new().unwrap();
-    package::write(&to_package("impeller", &sector, &p.material, &p.units, speed).unwrap(), &file).unwrap();
+    package::write(&packed("impeller", &sector, &p.material, &p.units, speed), &file).unwrap();
     let limits = Limits::default();
     let mesh = package::read_mesh(file.path(), &limits).unwrap().unwrap();
     let nodes = package::read_nodes(file.path(), &limits).unwrap();

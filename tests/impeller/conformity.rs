@@ -2,8 +2,11 @@
 
 use std::collections::{HashMap, HashSet};
 
-use rubmap::impeller::element::{EDGES, Hex8, Hex20, Hexahedron, gauss_points};
 use rubmap::impeller::mesh::{Elements, HexMesh, SectorMesh};
+use rubmap::solid::element::ElementKind;
+use rubmap::solid::gauss::{GaussPoint, gauss_points};
+use rubmap::solid::jacobian;
+use rubmap::solid::natural::EDGES;
 
 /// Corners of each face, counter-clockwise seen from outside.
 const FACES: [[usize; 4]; 6] =
@@ -80,21 +83,20 @@ pub(crate) fn check_conforming(mesh: &HexMesh, size: f64) {
 
 /// Volume ∫ dV of a mesh by 3 × 3 × 3 Gauss points (exact for these elements); every determinant on the way must be positive.
 pub(crate) fn volume(mesh: &HexMesh) -> f64 {
-    fn of<E: Hexahedron<N>, const N: usize>(mesh: &HexMesh, elements: &[[usize; N]]) -> f64 {
-        let weighted = elements.iter().flat_map(|nodes| {
-            let element = E::from(nodes.map(|n| mesh.nodes[n]));
-            gauss_points(3).iter().map(move |point| {
-                let determinant = element.jacobian(point.xi).determinant();
-                assert!(determinant > 0.0, "{determinant}");
-                determinant * point.weight
-            })
-        });
-        weighted.sum()
-    }
-    match &mesh.elements {
-        Elements::Linear(elements) => of::<Hex8, 8>(mesh, elements),
-        Elements::Quadratic(elements) => of::<Hex20, 20>(mesh, elements),
-    }
+    let kind = match mesh.elements {
+        Elements::Linear(_) => ElementKind::QM6,
+        Elements::Quadratic(_) => ElementKind::C3D20,
+    };
+    let of = |e: usize| {
+        let positions: Vec<[f64; 3]> = mesh.elements.nodes_of(e).iter().map(|&n| mesh.nodes[n]).collect();
+        let part = |point: &GaussPoint| {
+            let determinant = jacobian(kind, &positions, point.xi).determinant();
+            assert!(determinant > 0.0, "{determinant}");
+            determinant * point.weight
+        };
+        gauss_points(3).iter().map(part).sum::<f64>()
+    };
+    (0..mesh.elements.len()).map(of).sum()
 }
 
 /// Checks that the high face is the low face turned by 2π/N, to a few roundings of sine and cosine, and that the two

@@ -5,10 +5,11 @@ use std::io::Read;
 use std::path::PathBuf;
 
 use rubmap::dynamics::sector::Units;
+use rubmap::impeller::Material;
 use rubmap::impeller::mesh::{Elements, HexMesh, SectorMesh};
-use rubmap::impeller::{Material, to_package};
 
 use crate::eigen::{harmonic, hertz, lowest};
+use crate::packed::packed;
 
 const SECTORS: usize = 10;
 const BORE: f64 = 13.0;
@@ -93,7 +94,7 @@ fn sector(deck: &str) -> SectorMesh {
 fn frequencies_of_impeller_a() {
     let Some(deck) = deck() else { return };
     let units = Units { length: "mm".into(), force: "N".into(), time: "s".into(), mass: "t".into() };
-    let package = to_package("impeller-a", &sector(&deck), &Material::default(), &units, 5000.0).unwrap();
+    let package = packed("impeller-a", &sector(&deck), &Material::default(), &units, 5000.0);
     for (speed, table) in [(0, AT_REST), (2, AT_SPEED)] {
         for (i, expected) in table {
             let mass = harmonic(&package, &package.mass, i);

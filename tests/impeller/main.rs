@@ -17,6 +17,7 @@ mod fixed;
 mod gyroscopic;
 mod impeller_a;
 mod impeller_mesh;
+mod packed;
 mod plate;
 mod presets;
 mod random_wheels;

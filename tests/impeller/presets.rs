@@ -3,11 +3,11 @@
 use std::f64::consts::{PI, TAU};
 
 use rubmap::analysis::run::MeshFacts;
+use rubmap::assembly::SectorDofs;
 use rubmap::dynamics::sector::SectorModel;
 use rubmap::impeller::mesh::ElementOrder;
 use rubmap::impeller::{
-    ImpellerError, ImpellerParameters, ImpellerRequest, PaperCasing, Preset, SectorDofs, generate,
-    impeller_sector,
+    ImpellerError, ImpellerParameters, ImpellerRequest, PaperCasing, Preset, generate, impeller_sector,
 };
 use rubmap::package::{Limits, read, read_mesh, write};
 use rubmap::solid::frame::AxisFrame;
@@ -26,7 +26,7 @@ fn presets_have_the_sizes_they_promise() {
     {
         let parameters = preset.parameters();
         let sector = impeller_sector(&parameters).unwrap();
-        let dofs = SectorDofs::new(&sector);
+        let dofs = SectorDofs::new(&sector.made_of(&parameters.material));
         println!(
             "{preset:?}: {} own DOF, {} rows, {} elements",
             dofs.own,

@@ -1,16 +1,17 @@
 //! Assembled sectors of both element orders: mass, rigid bodies, symmetry, definiteness.
 
 use faer::sparse::{SparseColMat, Triplet};
-use rubmap::impeller::element::Stress;
+use rubmap::assembly::{RestMatrices, SectorMatrices};
 use rubmap::impeller::mesh::{ElementOrder, SectorMesh};
 use rubmap::impeller::{
-    AnnulusParameters, ImpellerParameters, Material, MeshDensities, Preset, RestMatrices, SectorMatrices,
-    annulus_mesh, cylindrical_frame, impeller_sector,
+    AnnulusParameters, ImpellerParameters, Material, MeshDensities, Preset, annulus_mesh, impeller_sector,
 };
 use rubmap::numerics::sparse_cholesky::{SparseCholesky, SymbolicFactor};
 use rubmap::package::raw::RawMatrix;
+use rubmap::solid::material::Stress;
 
 use crate::eigen::dense;
+use crate::packed::cylindrical_frame;
 
 const ORDERS: [ElementOrder; 2] = [ElementOrder::Linear, ElementOrder::Quadratic];
 
@@ -44,7 +45,7 @@ fn mass_of_a_disk_converges_to_density_times_volume() {
                 * (p.outer_radius.powi(2) - p.inner_radius.powi(2))
                 * p.thickness
                 / 6.0;
-            let rest = RestMatrices::assemble(&annulus_mesh(&p).unwrap(), &p.material).unwrap();
+            let rest = RestMatrices::assemble(&annulus_mesh(&p).unwrap().made_of(&p.material));
             // A translation along z is the same in every frame.
             let along_z: Vec<f64> =
                 rest.dofs.list.iter().map(|&(_, c)| f64::from(u8::from(c == 2))).collect();
@@ -62,7 +63,7 @@ fn free_sector_moves_as_a_rigid_body_without_forces() {
     for order in ORDERS {
         let mut sector = impeller(order);
         sector.clamped.fill([false; 3]);
-        let rest = RestMatrices::assemble(&sector, &Material::default()).unwrap();
+        let rest = RestMatrices::assemble(&sector.made_of(&Material::default()));
         let (m, k) = (rest.mass(), rest.stiffness());
         let field = |u: &dyn Fn([f64; 3]) -> [f64; 3]| -> Vec<f64> {
             let component = |&(node, component): &(usize, usize)| {
@@ -103,7 +104,7 @@ fn free_sector_moves_as_a_rigid_body_without_forces() {
 fn matrices_are_symmetric_and_definite() {
     for order in ORDERS {
         let p = ImpellerParameters::default();
-        let matrices = SectorMatrices::assemble(&impeller(order), &p.material).unwrap();
+        let matrices = SectorMatrices::assemble(&impeller(order).made_of(&p.material)).unwrap();
         let (m, k) = (matrices.rest.mass(), matrices.rest.stiffness());
         let place = |e: &(u32, u32, f64)| (e.1, e.0);
         for matrix in [&m, &k, &matrices.stiffness(p.top_speed_rad_s)] {
@@ -120,7 +121,7 @@ fn matrices_are_symmetric_and_definite() {
 #[test]
 fn medium_wheel_stands_its_top_speed() {
     let p = Preset::Medium.parameters();
-    let matrices = SectorMatrices::assemble(&impeller_sector(&p).unwrap(), &p.material).unwrap();
+    let matrices = SectorMatrices::assemble(&impeller_sector(&p).unwrap().made_of(&p.material)).unwrap();
     let von_mises = |s: &Stress| {
         let normal = (s[0] - s[1]).powi(2) + (s[1] - s[2]).powi(2) + (s[2] - s[0]).powi(2);
         (0.5 * normal + 3.0 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5])).sqrt()
@@ -145,7 +146,7 @@ fn any_number_of_threads_gives_the_same_bits() {
     let sector = impeller_sector(&p).unwrap();
     let [one, three] = [1, 3].map(|threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        let matrices = pool.install(|| SectorMatrices::assemble(&sector, &p.material)).unwrap();
+        let matrices = pool.install(|| SectorMatrices::assemble(&sector.made_of(&p.material))).unwrap();
         (matrices.rest.mass(), matrices.stiffness(p.top_speed_rad_s), matrices.prestress.stresses)
     });
     assert!(one == three);

@@ -6,16 +6,19 @@ use std::collections::BTreeMap;
 use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
 use faer::{Mat, Par, Side, c64};
 use nalgebra::SVector;
+use rubmap::assembly::{RestMatrices, SectorDofs};
 use rubmap::dynamics::reduction::{Completeness, NoCheckpoints, ReducedWheel, ReductionOptions, reduce};
-use rubmap::impeller::element::{Hex20, Hexahedron, gauss_points};
 use rubmap::impeller::mesh::{Elements, SectorMesh};
-use rubmap::impeller::{
-    AnnulusParameters, Material, RestMatrices, SectorDofs, annulus_mesh, cylindrical_frame, to_package,
-};
+use rubmap::impeller::{AnnulusParameters, Material, annulus_mesh};
 use rubmap::package::raw::{RawMatrix, RawPackage};
 use rubmap::package::{PackageError, to_sector};
+use rubmap::solid::element::ElementKind;
+use rubmap::solid::gauss::gauss_points;
+use rubmap::solid::jacobian;
+use rubmap::solid::shape::hexahedron::quadratic;
 
 use super::eigen::harmonic;
+use super::packed::{cylindrical_frame, packed};
 
 const SECTORS: usize = 5;
 
@@ -32,14 +35,16 @@ fn mesh(elements: [usize; 3]) -> SectorMesh {
 fn disk(elements: [usize; 3], density: impl Fn(usize) -> f64, shift: f64) -> RawPackage {
     let (sector, material) = (mesh(elements), Material::default());
     let Elements::Quadratic(elements) = &sector.mesh.elements else { unreachable!("quadratic by default") };
-    let dofs = SectorDofs::new(&sector);
+    let made = sector.made_of(&material);
+    let dofs = SectorDofs::new(&made);
     let mut entries: BTreeMap<(u32, u32), f64> = BTreeMap::new();
     for (e, nodes) in elements.iter().enumerate() {
-        let element = Hex20::from(sector.mesh.positions(nodes));
+        let positions = sector.mesh.positions(nodes);
         let tetrahedron = gauss_points(2).iter().filter(|p| p.xi.iter().product::<f64>() > 0.0);
         for point in tetrahedron {
-            let n = SVector::<f64, 20>::from(Hex20::shape_functions(point.xi));
-            let weight = 2.0 * point.weight * element.jacobian(point.xi).determinant();
+            let n = SVector::<f64, 20>::from(quadratic(point.xi));
+            let weight =
+                2.0 * point.weight * jacobian(ElementKind::C3D20, &positions, point.xi).determinant();
             let m = n * n.transpose() * (density(e) * material.density * weight);
             for (a, &row_node) in nodes.iter().enumerate() {
                 for (b, &column_node) in nodes.iter().enumerate() {
@@ -59,13 +64,12 @@ fn disk(elements: [usize; 3], density: impl Fn(usize) -> f64, shift: f64) -> Raw
         }
     }
     let lessened = |row, column, value: f64| if row == column { value * (1.0 - shift) } else { value };
-    let mut package =
-        to_package("disk", &sector, &material, &AnnulusParameters::default().units, 1000.0).unwrap();
+    let mut package = packed("disk", &sector, &material, &AnnulusParameters::default().units, 1000.0);
     package.mass = RawMatrix {
         size: dofs.list.len(),
         entries: entries.iter().map(|(&(c, r), &v)| (r, c, lessened(r, c, v))).collect(),
     };
-    package.stiffness = vec![RestMatrices::assemble(&sector, &material).unwrap().stiffness()];
+    package.stiffness = vec![RestMatrices::assemble(&made).stiffness()];
     package.manifest.stiffness.truncate(1);
     package.manifest.speeds_rad_s = vec![0.0];
     package

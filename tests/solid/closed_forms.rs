@@ -2,12 +2,13 @@
 
 use faer::{Mat, c64};
 use nalgebra::Vector3;
+use rubmap::assembly::SectorMatrices;
 use rubmap::impeller::mesh::ElementOrder;
 use rubmap::impeller::{
-    AnnulusParameters, CantileverParameters, Material, SectorMatrices, annulus, annulus_mesh, cantilever,
-    cantilever_mesh, cylindrical_frame,
+    AnnulusParameters, CantileverParameters, Material, annulus, annulus_mesh, cantilever, cantilever_mesh,
 };
 use rubmap::package::{Limits, raw::RawPackage, read_mesh, write};
+use rubmap::solid::frame::AxisFrame;
 use rubmap::solid::load::centrifugal;
 use rubmap::solid::mesh::SectorMesh;
 use rubmap::solid::stress::{NodalStress, point_stress};
@@ -53,7 +54,7 @@ fn a_rotating_bar() {
         let exact = density * p.width * p.depth * (tip * tip - p.root_radius.powi(2)) / 2.0;
         assert!((pull / exact - 1.0).abs() < 1e-12, "{pull} {exact}");
 
-        let spun = SectorMatrices::assemble(&sector, &p.material).unwrap().prestress;
+        let spun = SectorMatrices::assemble(&sector.made_of(&p.material)).unwrap().prestress;
         let operator = NodalStress::new(&mesh);
         let found = stresses(&operator, &spun.displacements);
         let at_root = density * (tip * tip - p.root_radius.powi(2)) / 2.0;
@@ -80,7 +81,7 @@ fn a_rotating_disk() {
         let sector = annulus_mesh(&p).unwrap();
         let mesh = mesh_of(&annulus(&p).unwrap());
         assert_eq!(mesh.cyclic.len(), sector.cyclic.len(), "pairs of clamped nodes among them");
-        let spun = SectorMatrices::assemble(&sector, &p.material).unwrap().prestress;
+        let spun = SectorMatrices::assemble(&sector.made_of(&p.material)).unwrap().prestress;
         let operator = NodalStress::new(&mesh);
         let found = stresses(&operator, &spun.displacements);
         let (e, nu, rho) = (p.material.youngs_modulus, p.material.poissons_ratio, p.material.density);
@@ -134,11 +135,12 @@ fn points_have_the_generators_stress() {
             AnnulusParameters { elements: [3, 2, 2], element_order: order, ..AnnulusParameters::default() };
         let sector = annulus_mesh(&p).unwrap();
         let mesh = mesh_of(&annulus(&p).unwrap());
-        let spun = SectorMatrices::assemble(&sector, &p.material).unwrap().prestress;
+        let spun = SectorMatrices::assemble(&sector.made_of(&p.material)).unwrap().prestress;
+        let axis = AxisFrame::new(mesh.axis.0, mesh.axis.1).unwrap();
         for (element, expected) in mesh.elements.iter().zip(&spun.stresses) {
             let u: Vec<Vector3<f64>> = (element.nodes.iter())
                 .map(|&node| {
-                    let frame = cylindrical_frame(sector.mesh.angle(node as usize));
+                    let frame = axis.cylindrical(sector.mesh.angle(node as usize));
                     frame.transpose() * Vector3::from(spun.displacements[node as usize])
                 })
                 .collect();

@@ -1,4 +1,5 @@
-//! Sources of models of impeller sectors: [`package`]s as users upload them, and the generator of [`impeller`]s.
+//! Sources of models of impeller sectors: [`package`]s as users upload them, the [`assembly`] of meshes, and the generator of [`impeller`]s.
 
+pub mod assembly;
 pub mod impeller;
 pub mod package;

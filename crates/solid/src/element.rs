@@ -2,11 +2,13 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Shape and displacement functions of an element, by the name that CalculiX has for it.
+/// Shape and displacement functions of an element, by the name that CalculiX has for it, or Abaqus for the pyramids, which CalculiX lacks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub enum ElementKind {
     /// 4-node tetrahedron.
     C3D4,
+    /// 5-node pyramid.
+    C3D5,
     /// 6-node wedge.
     C3D6,
     /// 8-node hexahedron, 2 × 2 × 2 integration points.
@@ -15,6 +17,8 @@ pub enum ElementKind {
     C3D8I,
     /// 10-node tetrahedron.
     C3D10,
+    /// 13-node pyramid.
+    C3D13,
     /// 15-node wedge.
     C3D15,
     /// 20-node hexahedron, 3 × 3 × 3 integration points.
@@ -28,26 +32,30 @@ pub enum ElementKind {
 
 impl ElementKind {
     /// Every kind of element.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 11] = [
         Self::C3D4,
+        Self::C3D5,
         Self::C3D6,
         Self::C3D8,
         Self::C3D8I,
         Self::C3D10,
+        Self::C3D13,
         Self::C3D15,
         Self::C3D20,
         Self::C3D20R,
         Self::QM6,
     ];
 
-    /// Name of the element: that of CalculiX, where it has one.
+    /// Name of the element: that of CalculiX or Abaqus, where they have one.
     pub fn name(self) -> &'static str {
         match self {
             Self::C3D4 => "C3D4",
+            Self::C3D5 => "C3D5",
             Self::C3D6 => "C3D6",
             Self::C3D8 => "C3D8",
             Self::C3D8I => "C3D8I",
             Self::C3D10 => "C3D10",
+            Self::C3D13 => "C3D13",
             Self::C3D15 => "C3D15",
             Self::C3D20 => "C3D20",
             Self::C3D20R => "C3D20R",
@@ -69,9 +77,11 @@ impl ElementKind {
     pub fn nodes(self) -> usize {
         match self {
             Self::C3D4 => 4,
+            Self::C3D5 => 5,
             Self::C3D6 => 6,
             Self::C3D8 | Self::C3D8I | Self::QM6 => 8,
             Self::C3D10 => 10,
+            Self::C3D13 => 13,
             Self::C3D15 => 15,
             Self::C3D20 | Self::C3D20R => 20,
         }
@@ -81,6 +91,7 @@ impl ElementKind {
     pub fn corners(self) -> usize {
         match self {
             Self::C3D4 | Self::C3D10 => 4,
+            Self::C3D5 | Self::C3D13 => 5,
             Self::C3D6 | Self::C3D15 => 6,
             Self::C3D8 | Self::C3D8I | Self::QM6 | Self::C3D20 | Self::C3D20R => 8,
         }

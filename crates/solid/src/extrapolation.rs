@@ -4,6 +4,7 @@
 //! | element | what is laid through the values at the points |
 //! |---|---|
 //! | C3D4 | the one value |
+//! | C3D5, C3D13 (not in CalculiX) | the linear function of least squares |
 //! | C3D6 | straight along ζ, constant in the triangle (CalculiX's own node values alternate from node to node of one triangle, an error of its table) |
 //! | C3D8, C3D8I, QM6 | the trilinear function |
 //! | C3D10 | the linear function, at corners; elsewhere means of both ends of the edge |
@@ -53,7 +54,7 @@ fn fitted(kind: ElementKind, xi: Natural) -> Vec<f64> {
     match kind {
         ElementKind::C3D4 => vec![1.0],
         ElementKind::C3D6 => vec![1.0, z],
-        ElementKind::C3D10 => vec![1.0, x, y, z],
+        ElementKind::C3D5 | ElementKind::C3D10 | ElementKind::C3D13 => vec![1.0, x, y, z],
         ElementKind::C3D15 => vec![1.0, x, y, z, x * z, y * z],
         ElementKind::C3D8 | ElementKind::C3D8I | ElementKind::QM6 | ElementKind::C3D20R => {
             vec![1.0, x, y, z, x * y, y * z, z * x, x * y * z]

@@ -2,8 +2,9 @@
 
 use nalgebra::{Matrix3, SMatrix, Vector3};
 
+use crate::blocks::Blocks;
 use crate::element::ElementKind;
-use crate::material::{Lame, lame_constants};
+use crate::material::Lame;
 use crate::natural::Natural;
 use crate::rule::points;
 use crate::shape::derivatives;
@@ -13,7 +14,7 @@ use crate::shape::derivatives;
 pub(crate) type Recovery = SMatrix<f64, 9, 24>;
 
 /// Jacobian `J_ij = ∂x_i/∂ξ_j`.
-pub(crate) fn jacobian(kind: ElementKind, positions: &[[f64; 3]], xi: Natural) -> Matrix3<f64> {
+pub fn jacobian(kind: ElementKind, positions: &[[f64; 3]], xi: Natural) -> Matrix3<f64> {
     let derivatives = derivatives(kind, xi);
     positions.iter().zip(&derivatives).map(|(&x, dn)| Vector3::from(x) * dn.transpose()).sum()
 }
@@ -24,7 +25,7 @@ pub(crate) struct Gradients {
     /// Gradients at each point: those of the nodes' functions in x, y, z, then those of the incompatible modes, if the element has some.
     pub(crate) at_points: Vec<Vec<Vector3<f64>>>,
     /// Volume that each point stands for.
-    volumes: Vec<f64>,
+    pub(crate) volumes: Vec<f64>,
 }
 
 impl Gradients {
@@ -40,8 +41,11 @@ impl Gradients {
                 derivatives(kind, point.xi).into_iter().map(|dn| turn * dn).collect();
             if kind.has_bubbles() {
                 // Without the factor J0/J, C3D8I fails the patch test on crooked elements; CalculiX leaves it out.
-                let factor = if kind == ElementKind::QM6 { centre.determinant() / determinant } else { 1.0 };
-                at_point.extend((0..3).map(|b| centre_turn.column(b) * (-2.0 * point.xi[b] * factor)));
+                let ratio =
+                    if kind == ElementKind::QM6 { [centre.determinant(), determinant] } else { [1.0; 2] };
+                at_point.extend(
+                    (0..3).map(|b| centre_turn.column(b) * (-2.0 * point.xi[b] * ratio[0] / ratio[1])),
+                );
             }
             gradients.at_points.push(at_point);
             gradients.volumes.push(determinant * point.weight);
@@ -54,24 +58,36 @@ impl Gradients {
         self.at_points.iter().zip(&self.volumes).map(|(at_point, volume)| at_point[node] * *volume).sum()
     }
 
-    /// Recovery of the amplitudes of incompatible modes, which follow the corners statically: `α = −K_αα⁻¹ K_αu u`.
-    pub(crate) fn recovery(&self, youngs_modulus: f64, poissons_ratio: f64) -> Recovery {
-        let Lame { lambda, mu } = lame_constants(youngs_modulus, poissons_ratio);
-        let block = |a: usize, b: usize| -> Matrix3<f64> {
-            let products = self.at_points.iter().zip(&self.volumes);
-            let s: Matrix3<f64> = products.map(|(g, volume)| g[a] * g[b].transpose() * *volume).sum();
-            s * lambda + (s.transpose() + Matrix3::identity() * s.trace()) * mu
-        };
-        let mut k_aa = SMatrix::<f64, 9, 9>::zeros();
-        let mut k_au = Recovery::zeros();
-        for bubble in 0..3 {
-            for other in 0..3 {
-                k_aa.fixed_view_mut::<3, 3>(3 * bubble, 3 * other).copy_from(&block(8 + bubble, 8 + other));
-            }
-            for node in 0..8 {
-                k_au.fixed_view_mut::<3, 3>(3 * bubble, 3 * node).copy_from(&block(8 + bubble, node));
+    /// Elastic stiffness of all functions, those of incompatible modes behind those of the nodes, from `S_ab = ∫ ∇N_a ⊗ ∇N_b dV`:
+    /// `K_ab = λ S_ab + μ S_abᵀ + μ tr(S_ab) 1`.
+    pub(crate) fn elastic(&self, constants: Lame) -> Blocks {
+        let functions = self.at_points.first().map_or(0, Vec::len);
+        let mut blocks = Blocks::zeros(functions);
+        for (gradients, &volume) in self.at_points.iter().zip(&self.volumes) {
+            for a in 0..functions {
+                let weighted = gradients[a] * volume;
+                for b in 0..=a {
+                    blocks[(a, b)] += weighted * gradients[b].transpose();
+                }
             }
         }
+        let Lame { lambda, mu } = constants;
+        for a in 0..functions {
+            for b in 0..=a {
+                let s = blocks[(a, b)];
+                let block = s * lambda + (s.transpose() + Matrix3::identity() * s.trace()) * mu;
+                blocks[(a, b)] = block;
+                blocks[(b, a)] = block.transpose();
+            }
+        }
+        blocks
+    }
+
+    /// Recovery of the amplitudes of incompatible modes, which follow the corners statically: `α = −K_αα⁻¹ K_αu u`.
+    pub(crate) fn recovery(elastic: &Blocks) -> Recovery {
+        let entry = |row: usize, column: usize| elastic[(row / 3, column / 3)][(row % 3, column % 3)];
+        let k_aa = SMatrix::<f64, 9, 9>::from_fn(|i, j| entry(24 + i, 24 + j));
+        let k_au = Recovery::from_fn(|i, j| entry(24 + i, j));
         // K_αα is definite on any element with det J > 0; the fallback leaves the plain trilinear element.
         k_aa.cholesky().map_or_else(Recovery::zeros, |factor| -factor.solve(&k_au))
     }

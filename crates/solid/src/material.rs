@@ -56,6 +56,12 @@ pub fn stress(constants: Lame, h: &Matrix3<f64>) -> Stress {
     Stress::new(normal(0), normal(1), normal(2), shear(0, 1), shear(1, 2), shear(2, 0))
 }
 
+/// Symmetric matrix of a stress.
+pub(crate) fn tensor(stress: &Stress) -> Matrix3<f64> {
+    let [xx, yy, zz, xy, yz, zx] = (*stress).into();
+    Matrix3::new(xx, xy, zx, xy, yy, yz, zx, yz, zz)
+}
+
 /// Fatigue strength: the stress amplitude that a material bears when stress alternates about zero.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]

@@ -1,4 +1,4 @@
-//! Natural coordinates: the cube −1 ≤ ξ, η, ζ ≤ 1, the tetrahedron and the wedge, their corners and edges.
+//! Natural coordinates: the cube −1 ≤ ξ, η, ζ ≤ 1, the tetrahedron, the pyramid and the wedge, their corners and edges.
 
 /// Natural coordinates (ξ, η, ζ).
 pub type Natural = [f64; 3];
@@ -26,6 +26,14 @@ pub(crate) const TETRAHEDRON_CORNERS: [Natural; 4] =
 
 /// Edges of the tetrahedron, in the order of the mid-edge nodes of C3D10.
 pub(crate) const TETRAHEDRON_EDGES: [[usize; 2]; 6] = [[0, 1], [1, 2], [2, 0], [0, 3], [1, 3], [2, 3]];
+
+/// Corners of the pyramid: its base at ζ = 0, counter-clockwise seen from the apex, then the apex.
+pub(crate) const PYRAMID_CORNERS: [Natural; 5] =
+    [[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
+/// Edges of the pyramid, in the order of the mid-edge nodes of C3D13: around the base, then up to the apex.
+pub(crate) const PYRAMID_EDGES: [[usize; 2]; 8] =
+    [[0, 1], [1, 2], [2, 3], [3, 0], [0, 4], [1, 4], [2, 4], [3, 4]];
 
 /// Corners of the wedge.
 pub(crate) const WEDGE_CORNERS: [Natural; 6] =

@@ -4,6 +4,7 @@ use std::sync::LazyLock;
 
 use crate::element::ElementKind;
 use crate::gauss::{GaussPoint, gauss_points};
+use crate::natural::Natural;
 
 static TETRAHEDRON: [LazyLock<Vec<GaussPoint>>; 2] = [
     LazyLock::new(|| vec![GaussPoint { xi: [0.25; 3], weight: 1.0 / 6.0 }]),
@@ -35,11 +36,18 @@ static WEDGE: [LazyLock<Vec<GaussPoint>>; 2] = [
     }),
 ];
 
+static PYRAMID: [LazyLock<Vec<GaussPoint>>; 2] = [
+    LazyLock::new(|| collapsed(gauss_points(2), to_pyramid)),
+    LazyLock::new(|| collapsed(gauss_points(3), to_pyramid)),
+];
+
 /// Points at which an element's stiffness is integrated and its stress is evaluated.
 pub fn points(kind: ElementKind) -> &'static [GaussPoint] {
     match kind {
         ElementKind::C3D4 => &TETRAHEDRON[0],
         ElementKind::C3D10 => &TETRAHEDRON[1],
+        ElementKind::C3D5 => &PYRAMID[0],
+        ElementKind::C3D13 => &PYRAMID[1],
         ElementKind::C3D6 => &WEDGE[0],
         ElementKind::C3D15 => &WEDGE[1],
         ElementKind::C3D8 | ElementKind::C3D8I | ElementKind::C3D20R | ElementKind::QM6 => gauss_points(2),
@@ -47,31 +55,50 @@ pub fn points(kind: ElementKind) -> &'static [GaussPoint] {
     }
 }
 
+/// Points at which an element's mass is integrated.
+///
+/// They are those of stiffness, as CalculiX takes them, where these leave no direction without mass, and a rule of 27 points elsewhere: in
+/// linear tetrahedra and wedges a pattern of alternating signs would have none, in C3D15 and C3D20R even a single element.
+pub fn mass_points(kind: ElementKind) -> &'static [GaussPoint] {
+    match kind {
+        ElementKind::C3D8 | ElementKind::C3D8I | ElementKind::C3D10 | ElementKind::C3D20 => points(kind),
+        _ => fine_points(kind),
+    }
+}
+
 static FINE_TETRAHEDRON: LazyLock<Vec<GaussPoint>> = LazyLock::new(|| {
-    collapsed(|[x, y, z]| {
+    collapsed(gauss_points(3), |[x, y, z]| {
         ([x * (1.0 - y) * (1.0 - z), y * (1.0 - z), z], (1.0 - y) * (1.0 - z).powi(2) / 8.0)
     })
 });
 
-static FINE_WEDGE: LazyLock<Vec<GaussPoint>> =
-    LazyLock::new(|| collapsed(|[x, y, z]| ([x * (1.0 - y), y, 2.0 * z - 1.0], (1.0 - y) / 4.0)));
+static FINE_WEDGE: LazyLock<Vec<GaussPoint>> = LazyLock::new(|| {
+    collapsed(gauss_points(3), |[x, y, z]| ([x * (1.0 - y), y, 2.0 * z - 1.0], (1.0 - y) / 4.0))
+});
 
 /// Rule of 27 points for mass and loads: exact to the third degree at least in any shape.
 pub(crate) fn fine_points(kind: ElementKind) -> &'static [GaussPoint] {
     match kind.corners() {
         4 => &FINE_TETRAHEDRON,
+        5 => &PYRAMID[1],
         6 => &FINE_WEDGE,
         _ => gauss_points(3),
     }
 }
 
+/// Place in the pyramid of a place in the unit cube, with the factor of its weight.
+fn to_pyramid([x, y, z]: [f64; 3]) -> (Natural, f64) {
+    let up = 1.0 - z;
+    ([(2.0 * x - 1.0) * up, (2.0 * y - 1.0) * up, z], 0.5 * up * up)
+}
+
 /// Points of the cube carried over by a map of the unit cube, given with the factor of its weights.
-fn collapsed(map: impl Fn([f64; 3]) -> ([f64; 3], f64)) -> Vec<GaussPoint> {
+fn collapsed(cube: &[GaussPoint], map: impl Fn([f64; 3]) -> (Natural, f64)) -> Vec<GaussPoint> {
     let carried = |point: &GaussPoint| {
         let (xi, factor) = map(point.xi.map(|x| 0.5 * (1.0 + x)));
         GaussPoint { xi, weight: point.weight * factor }
     };
-    gauss_points(3).iter().map(carried).collect()
+    cube.iter().map(carried).collect()
 }
 
 #[cfg(test)]
@@ -96,10 +123,17 @@ mod tests {
                     let wedge = factorial(a) * factorial(b) / factorial(a + b + 2) * along;
                     let fine = integral(fine_points(ElementKind::C3D15), [a, b, c]);
                     assert!((fine - wedge).abs() < 1e-15, "{a} {b} {c}");
+                    let base: f64 = [a, b]
+                        .map(|p| if p % 2 == 0 { 2.0 / f64::from(p + 1) } else { 0.0 })
+                        .iter()
+                        .product();
+                    let pyramid = base * factorial(c) * factorial(a + b + 2) / factorial(a + b + c + 3);
                     let degree = a + b + c;
                     for (kind, exact, to) in [
                         (ElementKind::C3D4, tetrahedron, 1),
                         (ElementKind::C3D10, tetrahedron, 2),
+                        (ElementKind::C3D5, pyramid, 1),
+                        (ElementKind::C3D13, pyramid, 3),
                         (ElementKind::C3D6, wedge, 1),
                         (ElementKind::C3D15, wedge, 2),
                     ] {

@@ -2,7 +2,8 @@
 
 use crate::element::ElementKind;
 use crate::natural::{
-    CORNERS, EDGES, Natural, TETRAHEDRON_CORNERS, TETRAHEDRON_EDGES, WEDGE_CORNERS, WEDGE_EDGES,
+    CORNERS, EDGES, Natural, PYRAMID_CORNERS, PYRAMID_EDGES, TETRAHEDRON_CORNERS, TETRAHEDRON_EDGES,
+    WEDGE_CORNERS, WEDGE_EDGES,
 };
 
 /// Corners, edges and faces of a shape, without regard to functions.
@@ -27,6 +28,12 @@ impl Topology {
                 corners: &TETRAHEDRON_CORNERS,
                 edges: &TETRAHEDRON_EDGES,
                 faces: &[&[0, 2, 1], &[0, 1, 3], &[1, 2, 3], &[2, 0, 3]],
+                nodes,
+            },
+            5 => Self {
+                corners: &PYRAMID_CORNERS,
+                edges: &PYRAMID_EDGES,
+                faces: &[&[0, 3, 2, 1], &[0, 1, 4], &[1, 2, 4], &[2, 3, 4], &[3, 0, 4]],
                 nodes,
             },
             6 => Self {

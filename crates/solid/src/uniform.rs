@@ -5,7 +5,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::frame::AxisFrame;
 use crate::gradients::Gradients;
-use crate::material::stress;
+use crate::material::{stress, tensor};
 use crate::mesh::SectorMesh;
 use crate::rule::fine_points;
 use crate::shape::functions;
@@ -80,9 +80,4 @@ fn fold<T: Default + std::ops::AddAssign>(values: &mut [T], cyclic: &[(u32, u32)
         let of_high = std::mem::take(&mut values[high as usize]);
         values[low as usize] += of_high;
     }
-}
-
-fn tensor(stress: &crate::material::Stress) -> Matrix3<f64> {
-    let [xx, yy, zz, xy, yz, zx] = (*stress).into();
-    Matrix3::new(xx, xy, zx, xy, yy, yz, zx, yz, zz)
 }

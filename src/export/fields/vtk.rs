@@ -18,9 +18,11 @@ pub(super) fn cell(kind: ElementKind) -> (u8, Vec<usize>) {
     let as_is = || (0..kind.nodes()).collect();
     match kind {
         ElementKind::C3D4 => (10, as_is()),
+        ElementKind::C3D5 => (14, as_is()),
         ElementKind::C3D6 => (13, vec![0, 2, 1, 3, 5, 4]),
         ElementKind::C3D8 | ElementKind::C3D8I | ElementKind::QM6 => (12, as_is()),
         ElementKind::C3D10 => (24, as_is()),
+        ElementKind::C3D13 => (27, as_is()),
         ElementKind::C3D15 => (26, vec![0, 2, 1, 3, 5, 4, 8, 7, 6, 11, 10, 9, 12, 14, 13]),
         ElementKind::C3D20 | ElementKind::C3D20R => (25, as_is()),
     }

@@ -7,9 +7,9 @@ use serde::{Deserialize, Serialize};
 use super::blocks::BlockMesher;
 use super::error::ImpellerError;
 use super::material::Material;
-use super::mesh::{ElementOrder, SectorMesh, TipNode};
+use super::mesh::{ElementOrder, SectorMesh};
 use super::ranges::{above, at_least, positive};
-use super::to_package::to_package;
+use crate::assembly::{PackageFacts, TipNode, to_package};
 use crate::package::raw::RawPackage;
 use rubmap_wheel::dynamics::sector::Units;
 
@@ -95,8 +95,17 @@ pub fn annulus_mesh(p: &AnnulusParameters) -> Result<SectorMesh, ImpellerError> 
 /// Makes the disk's package.
 ///
 /// # Errors
-/// [`ImpellerError`] names the parameter at fault; [`ImpellerError::NotPositiveDefinite`] for a free bore.
+/// [`ImpellerError`] names the parameter at fault; [`ImpellerError::CanMove`] for a free bore.
 pub fn annulus(parameters: &AnnulusParameters) -> Result<RawPackage, ImpellerError> {
     let sector = annulus_mesh(parameters)?;
-    to_package("annular disk", &sector, &parameters.material, &parameters.units, parameters.top_speed_rad_s)
+    positive("top_speed_rad_s", parameters.top_speed_rad_s)?;
+    parameters.material.validate()?;
+    sector.mesh.check_jacobians()?;
+    let facts = PackageFacts {
+        name: "annular disk".to_owned(),
+        units: parameters.units.clone(),
+        top_speed_rad_s: parameters.top_speed_rad_s,
+        gyroscopic: false,
+    };
+    Ok(to_package(&facts, &sector.made_of(&parameters.material))?)
 }

@@ -5,7 +5,8 @@
 //! left out. The mid-edge nodes come from the same position function as the corners, so they lie on the true
 //! geometry.
 
-use super::element::{CORNERS, EDGES};
+use rubmap_solid::natural::{CORNERS, EDGES};
+
 use super::mesh::{ElementOrder, Elements, HexMesh};
 
 /// Half-indices of a block's points, or of a point within an element (0, 1 or 2).

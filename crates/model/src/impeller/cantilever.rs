@@ -5,9 +5,9 @@ use serde::{Deserialize, Serialize};
 use super::blocks::BlockMesher;
 use super::error::ImpellerError;
 use super::material::Material;
-use super::mesh::{ElementOrder, SectorMesh, TipNode};
+use super::mesh::{ElementOrder, SectorMesh};
 use super::ranges::{at_least, positive};
-use super::to_package::to_package;
+use crate::assembly::{PackageFacts, TipNode, to_package};
 use crate::package::raw::RawPackage;
 use rubmap_wheel::dynamics::sector::Units;
 
@@ -98,11 +98,14 @@ pub fn cantilever_mesh(p: &CantileverParameters) -> Result<SectorMesh, ImpellerE
 /// [`ImpellerError`] names the parameter at fault.
 pub fn cantilever(parameters: &CantileverParameters) -> Result<RawPackage, ImpellerError> {
     let sector = cantilever_mesh(parameters)?;
-    to_package(
-        "rotating cantilever",
-        &sector,
-        &parameters.material,
-        &parameters.units,
-        parameters.top_speed_rad_s,
-    )
+    positive("top_speed_rad_s", parameters.top_speed_rad_s)?;
+    parameters.material.validate()?;
+    sector.mesh.check_jacobians()?;
+    let facts = PackageFacts {
+        name: "rotating cantilever".to_owned(),
+        units: parameters.units.clone(),
+        top_speed_rad_s: parameters.top_speed_rad_s,
+        gyroscopic: false,
+    };
+    Ok(to_package(&facts, &sector.made_of(&parameters.material))?)
 }

@@ -1,5 +1,6 @@
 //! Errors of the finite-element generator.
 
+use crate::assembly::CanMove;
 use crate::package::error::ManifestProblem;
 
 /// Refusals of the generator; each names the field or the element at fault.
@@ -38,9 +39,9 @@ pub enum ImpellerError {
         /// Smallest Jacobian determinant over the element's corners and integration points.
         determinant: f64,
     },
-    /// Stiffness matrix at rest that has no Cholesky factor.
-    #[error("the sector's stiffness at rest is not positive definite: is anything clamped?")]
-    NotPositiveDefinite,
+    /// Sector that can move as a rigid body.
+    #[error(transparent)]
+    CanMove(#[from] CanMove),
 }
 
 /// Problem of a field, apart from its range.

@@ -1,13 +1,10 @@
 //! Isotropic, linear elastic material.
 
-use nalgebra::Matrix3;
-use rubmap_solid::material::{self, FatigueStrength, Lame};
+use rubmap_solid::material::{self, FatigueStrength};
 use serde::{Deserialize, Serialize};
 
 use super::error::ImpellerError;
 use super::ranges::positive;
-
-pub use rubmap_solid::material::Stress;
 
 /// Isotropic linear elasticity, in the model's consistent units. Default: titanium (`Ti-6Al-4V`) in mm-t-s-N.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -89,15 +86,5 @@ impl Material {
             ultimate_strength: self.ultimate_strength,
             fatigue_strength: self.fatigue_strength.clone(),
         }
-    }
-
-    /// Lamé constants λ and μ, `σ = λ tr(ε) 1 + 2μ ε`.
-    pub fn lame_constants(&self) -> Lame {
-        material::lame_constants(self.youngs_modulus, self.poissons_ratio)
-    }
-
-    /// Stress under the displacement gradient `h_ij = ∂u_i/∂x_j`.
-    pub fn stress(&self, h: &Matrix3<f64>) -> Stress {
-        material::stress(self.lame_constants(), h)
     }
 }

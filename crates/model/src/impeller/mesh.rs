@@ -1,6 +1,14 @@
 //! Hexahedral mesh of one sector and its connection to the rest of the wheel.
 
+use rubmap_solid::element::ElementKind;
+use rubmap_solid::mesh::{Element, ElementSet, SectorMesh as SolidMesh};
 use serde::{Deserialize, Serialize};
+
+use super::material::Material;
+use crate::assembly::{MeshedSector, TipNode};
+
+/// Name of the only element set.
+const SET: &str = "WHEEL";
 
 /// Nodes and hexahedra, in Cartesian coordinates; z is the axis of rotation.
 #[derive(Debug, Clone, Default)]
@@ -18,7 +26,7 @@ pub enum Elements {
     /// 8-node hexahedra.
     Linear(Vec<[usize; 8]>),
     /// 20-node serendipity hexahedra: the mid-edge nodes follow the corners in the order of
-    /// [`EDGES`](super::element::EDGES).
+    /// [`EDGES`](rubmap_solid::natural::EDGES).
     Quadratic(Vec<[usize; 20]>),
 }
 
@@ -82,15 +90,6 @@ impl ElementOrder {
     }
 }
 
-/// Tip node that may touch the casing.
-#[derive(Debug, Clone, Copy)]
-pub struct TipNode {
-    /// Index of the node.
-    pub node: usize,
-    /// Outward unit normal in (r, θ, z) components at the node.
-    pub normal: [f64; 3],
-}
-
 /// Mesh of one sector with its supports, its cyclic faces and its contact nodes.
 #[derive(Debug, Clone)]
 pub struct SectorMesh {
@@ -122,5 +121,32 @@ impl HexMesh {
     /// Positions of an element's nodes.
     pub fn positions<const N: usize>(&self, nodes: &[usize; N]) -> [[f64; 3]; N] {
         nodes.map(|node| self.nodes[node])
+    }
+}
+
+impl SectorMesh {
+    /// Sector of one material; ids of nodes and elements count from 1.
+    pub fn made_of(&self, material: &Material) -> MeshedSector {
+        let elements = &self.mesh.elements;
+        let kind = match elements {
+            Elements::Linear(_) => ElementKind::QM6,
+            Elements::Quadratic(_) => ElementKind::C3D20,
+        };
+        let element = |e: usize| Element {
+            id: e as u64 + 1,
+            kind,
+            set: 0,
+            nodes: elements.nodes_of(e).iter().map(|&node| node as u32).collect(),
+        };
+        let mesh = SolidMesh {
+            sectors: self.sectors,
+            node_ids: (1..=self.mesh.nodes.len() as u64).collect(),
+            nodes: self.mesh.nodes.clone(),
+            axis: ([0.0; 3], [0.0, 0.0, 1.0]),
+            cyclic: self.cyclic.iter().map(|&(low, high)| (low as u32, high as u32)).collect(),
+            elements: (0..elements.len()).map(element).collect(),
+            sets: vec![ElementSet { name: SET.to_owned(), material: material.to_solid() }],
+        };
+        MeshedSector { mesh, clamped: self.clamped.clone(), contact: self.contact.clone() }
     }
 }

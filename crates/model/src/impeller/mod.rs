@@ -1,57 +1,38 @@
 //! Own finite-element models as packages: a parametric centrifugal impeller, and small models for tests.
 //!
-//! [`generate`] runs top to bottom: parameters → sector mesh → M, `K_e` → centrifugal pre-stress → `K_σ` and spin
-//! softening → package. Everything after the mesh knows only [`mesh::SectorMesh`], so another geometry is another
-//! function that makes one ([`cantilever()`], [`annulus()`]), and another element is another [`element::Hexahedron`].
-//!
-//! The matrices are honest: `K(Ω) = K_e + K_σ(Ω) − Ω² M_spin` on the undeformed geometry, exactly linear in Ω²
-//! (docs/method.md, Centrifugal stiffening). Where asked for, the gyroscopic matrix of Coriolis forces joins them.
+//! [`generate`] meshes the sector of its parameters and has it assembled ([`crate::assembly`]). Another geometry is another function that makes a
+//! [`mesh::SectorMesh`] ([`cantilever()`], [`annulus()`]).
 
 mod annulus;
-mod assembly;
 mod blocks;
 mod cantilever;
 mod curves;
-mod dofs;
-pub mod element;
 mod error;
 mod geometry;
-mod gyroscopic;
 mod jacobian;
 mod material;
-mod matrices;
-mod memory;
 pub mod mesh;
 mod parameters;
-mod pattern;
 mod plan;
 mod preset;
-mod prestress;
 mod ranges;
 mod request;
 #[cfg(feature = "schema")]
 mod schema;
 mod sector_mesh;
-mod to_package;
 mod validate;
 
 pub use annulus::{AnnulusParameters, annulus, annulus_mesh};
-pub use assembly::cylindrical_frame;
 pub use cantilever::{CantileverParameters, cantilever, cantilever_mesh};
-pub use dofs::SectorDofs;
 pub use error::{FieldProblem, ImpellerError};
-pub use gyroscopic::gyroscopic_matrix;
 pub use material::Material;
-pub use matrices::{RestMatrices, SectorMatrices};
-pub use memory::generation_bytes;
 pub use parameters::{ImpellerParameters, MeshDensities, Splitter};
 pub use plan::{GenerationPlan, plan_generation};
 pub use preset::{PaperCasing, Preset};
-pub use prestress::PreStress;
 pub use request::ImpellerRequest;
 pub use sector_mesh::impeller_sector;
-pub use to_package::to_package;
 
+use crate::assembly::{PackageFacts, to_package};
 use crate::package::raw::RawPackage;
 
 /// Makes the model package of one impeller sector.
@@ -83,11 +64,11 @@ pub fn generate(parameters: &ImpellerParameters) -> Result<RawPackage, ImpellerE
         "rubmap impeller, {} sectors, outlet radius {} {}",
         parameters.sectors, parameters.outlet_radius, parameters.units.length
     );
-    let mut package =
-        to_package(&name, &sector, &parameters.material, &parameters.units, parameters.top_speed_rad_s)?;
-    if parameters.gyroscopic {
-        package.manifest.gyroscopic = Some("g.npz".to_owned());
-        package.gyroscopic = Some(gyroscopic_matrix(&sector, &parameters.material)?);
-    }
-    Ok(package)
+    let facts = PackageFacts {
+        name,
+        units: parameters.units.clone(),
+        top_speed_rad_s: parameters.top_speed_rad_s,
+        gyroscopic: parameters.gyroscopic,
+    };
+    Ok(to_package(&facts, &sector.made_of(&parameters.material))?)
 }

@@ -2,11 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::dofs::SectorDofs;
 use super::error::ImpellerError;
-use super::memory::generation_bytes;
 use super::parameters::ImpellerParameters;
 use super::sector_mesh::impeller_sector;
+use crate::assembly::{SectorDofs, assembly_bytes};
 
 /// Plan of the generation of a model: its size and memory.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -27,11 +26,11 @@ pub struct GenerationPlan {
 /// # Errors
 /// [`ImpellerError`] names the parameter or the element at fault.
 pub fn plan_generation(parameters: &ImpellerParameters) -> Result<GenerationPlan, ImpellerError> {
-    let sector = impeller_sector(parameters)?;
+    let sector = impeller_sector(parameters)?.made_of(&parameters.material);
     Ok(GenerationPlan {
         nodes: sector.mesh.nodes.len() as u64,
         dofs: SectorDofs::new(&sector).list.len() as u64,
-        memory_bytes: generation_bytes(&sector),
+        memory_bytes: assembly_bytes(&sector),
         settings: parameters.clone(),
     })
 }

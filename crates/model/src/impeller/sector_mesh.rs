@@ -8,8 +8,9 @@
 use super::blocks::BlockMesher;
 use super::error::ImpellerError;
 use super::geometry::Geometry;
-use super::mesh::{SectorMesh, TipNode};
+use super::mesh::SectorMesh;
 use super::parameters::ImpellerParameters;
+use crate::assembly::TipNode;
 
 /// Meshes one sector of the impeller.
 ///

@@ -1,6 +1,7 @@
 //! Shape functions `N_a(ξ)` and their derivatives `∂N_a/∂ξ`, nodes in CalculiX's order.
 
 pub mod hexahedron;
+mod pyramid;
 mod tetrahedron;
 mod wedge;
 
@@ -11,10 +12,12 @@ use crate::natural::Natural;
 
 /// Shape functions `N_a(ξ)` of every node.
 pub fn functions(kind: ElementKind, xi: Natural) -> Vec<f64> {
-    use ElementKind::{C3D4, C3D6, C3D8, C3D8I, C3D10, C3D15, C3D20, C3D20R, QM6};
+    use ElementKind::{C3D4, C3D5, C3D6, C3D8, C3D8I, C3D10, C3D13, C3D15, C3D20, C3D20R, QM6};
     match kind {
         C3D4 => tetrahedron::linear(xi).map(|(n, _)| n).into(),
         C3D10 => tetrahedron::quadratic(xi).map(|(n, _)| n).into(),
+        C3D5 => pyramid::linear(xi).map(|(n, _)| n).into(),
+        C3D13 => pyramid::quadratic(xi).map(|(n, _)| n).into(),
         C3D6 => wedge::linear(xi).map(|(n, _)| n).into(),
         C3D15 => wedge::quadratic(xi).map(|(n, _)| n).into(),
         C3D8 | C3D8I | QM6 => hexahedron::linear(xi).into(),
@@ -24,10 +27,12 @@ pub fn functions(kind: ElementKind, xi: Natural) -> Vec<f64> {
 
 /// Derivatives `∂N_a/∂ξ` of every node.
 pub fn derivatives(kind: ElementKind, xi: Natural) -> Vec<Vector3<f64>> {
-    use ElementKind::{C3D4, C3D6, C3D8, C3D8I, C3D10, C3D15, C3D20, C3D20R, QM6};
+    use ElementKind::{C3D4, C3D5, C3D6, C3D8, C3D8I, C3D10, C3D13, C3D15, C3D20, C3D20R, QM6};
     match kind {
         C3D4 => tetrahedron::linear(xi).map(|(_, dn)| dn).into(),
         C3D10 => tetrahedron::quadratic(xi).map(|(_, dn)| dn).into(),
+        C3D5 => pyramid::linear(xi).map(|(_, dn)| dn).into(),
+        C3D13 => pyramid::quadratic(xi).map(|(_, dn)| dn).into(),
         C3D6 => wedge::linear(xi).map(|(_, dn)| dn).into(),
         C3D15 => wedge::quadratic(xi).map(|(_, dn)| dn).into(),
         C3D8 | C3D8I | QM6 => hexahedron::linear_derivatives(xi).into(),

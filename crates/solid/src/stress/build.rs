@@ -62,7 +62,7 @@ impl Rows {
                 let first = (nodes + 3 * rows.bubbles.len()) as u32;
                 columns.extend(first..first + 3);
                 let material = &mesh.sets[element.set as usize].material;
-                let recovery = gradients.recovery(material.youngs_modulus, material.poissons_ratio);
+                let recovery = Gradients::recovery(&gradients.elastic(material.lame_constants()));
                 rows.bubbles.push(Bubbles { nodes: corners, recovery: Box::new(recovery) });
             }
             let extrapolation = extrapolation(element.kind);

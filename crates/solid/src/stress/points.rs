@@ -13,7 +13,7 @@ pub fn point_stress(mesh: &SectorMesh, element: &Element, displacements: &[Vecto
     let gradients = Gradients::of(element.kind, &mesh.positions(element));
     let mut values = displacements.to_vec();
     if element.kind.has_bubbles() {
-        let recovery = gradients.recovery(material.youngs_modulus, material.poissons_ratio);
+        let recovery = Gradients::recovery(&gradients.elastic(material.lame_constants()));
         let alpha = recovery * SVector::<f64, 24>::from_fn(|d, _| displacements[d / 3][d % 3]);
         values.extend((0..3).map(|bubble| alpha.fixed_rows::<3>(3 * bubble).into_owned()));
     }

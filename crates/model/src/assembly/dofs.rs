@@ -1,6 +1,6 @@
 //! Numbering of a sector's free displacements.
 
-use super::mesh::SectorMesh;
+use super::sector::MeshedSector;
 
 /// Rows of a sector's matrices: the own DOF node by node (low face and contact nodes among them), then the DOF of the high face in the
 /// order of the cyclic pairs. Clamped DOF are absent.
@@ -16,14 +16,14 @@ pub struct SectorDofs {
 
 impl SectorDofs {
     /// Numbers the free DOF of a sector.
-    pub fn new(sector: &SectorMesh) -> Self {
+    pub fn new(sector: &MeshedSector) -> Self {
         let nodes = sector.mesh.nodes.len();
         let mut is_high = vec![false; nodes];
-        for &(_, high) in &sector.cyclic {
-            is_high[high] = true;
+        for &(_, high) in &sector.mesh.cyclic {
+            is_high[high as usize] = true;
         }
         let own_nodes = (0..nodes).filter(|&node| !is_high[node]);
-        let high_nodes = sector.cyclic.iter().map(|&(_, high)| high);
+        let high_nodes = sector.mesh.cyclic.iter().map(|&(_, high)| high as usize);
         let mut dofs = Self { rows: vec![[None; 3]; nodes], list: Vec::new(), own: 0 };
         for node in own_nodes.chain(high_nodes) {
             for component in (0..3).filter(|&component| !sector.clamped[node][component]) {
@@ -36,10 +36,10 @@ impl SectorDofs {
     }
 
     /// Rows as in [`Self::rows`] with the high face tied to the low one (nodal diameter 0): only own rows remain.
-    pub fn tied_rows(&self, sector: &SectorMesh) -> Vec<[Option<usize>; 3]> {
+    pub fn tied_rows(&self, sector: &MeshedSector) -> Vec<[Option<usize>; 3]> {
         let mut rows = self.rows.clone();
-        for &(low, high) in &sector.cyclic {
-            rows[high] = rows[low];
+        for &(low, high) in &sector.mesh.cyclic {
+            rows[high as usize] = rows[low as usize];
         }
         rows
     }

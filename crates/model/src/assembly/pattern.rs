@@ -2,6 +2,7 @@
 
 use faer::sparse::{SparseColMat, SymbolicSparseColMat};
 use rayon::prelude::*;
+use rubmap_solid::mesh::Element;
 
 use crate::package::raw::RawMatrix;
 
@@ -18,13 +19,9 @@ impl Pattern {
     /// Pattern of `elements` whose nodes have the displacements `numbering`, of `size` rows in all.
     ///
     /// The rows of one node are consecutive; nodes that are tied together share theirs.
-    pub(super) fn new<const N: usize>(
-        elements: &[[usize; N]],
-        numbering: &[[Option<usize>; 3]],
-        size: usize,
-    ) -> Self {
+    pub(super) fn new(elements: &[Element], numbering: &[[Option<usize>; 3]], size: usize) -> Self {
         // A node is known by its first row.
-        let first_row = |&node: &usize| numbering[node].iter().flatten().next().copied();
+        let first_row = |&node: &u32| numbering[node as usize].iter().flatten().next().copied();
         let mut members = vec![0; size];
         for rows in numbering {
             let mut free = rows.iter().flatten();
@@ -33,9 +30,9 @@ impl Pattern {
             }
         }
         let mut below = vec![Vec::new(); size];
-        for nodes in elements {
-            for column in nodes.iter().filter_map(first_row) {
-                below[column].extend(nodes.iter().filter_map(first_row).filter(|&row| row > column));
+        for element in elements {
+            for column in element.nodes.iter().filter_map(first_row) {
+                below[column].extend(element.nodes.iter().filter_map(first_row).filter(|&row| row > column));
             }
         }
         below.par_iter_mut().for_each(|rows| {
