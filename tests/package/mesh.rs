@@ -94,7 +94,7 @@ fn rows() {
             ),
             case(
                 |f| f.line("elements.csv", 2, "2,S8R,WHEEL,2,3,6,5,11,12,15,14"),
-                "elements.csv, line 2: element 2 is of type \"S8R\"; known are C3D4, C3D6, C3D8, C3D8I, C3D10, C3D15, C3D20, C3D20R, QM6. Without its mesh the package is valid, and has no stress",
+                "elements.csv, line 2: element 2 is of type \"S8R\"; known are C3D4, C3D5, C3D6, C3D8, C3D8I, C3D10, C3D13, C3D15, C3D20, C3D20R, QM6. Without its mesh the package is valid, and has no stress",
                 (ELEMENTS, Some(2), None),
             ),
             case(
@@ -104,7 +104,7 @@ fn rows() {
             ),
             case(
                 |f| f.line("elements.csv", 2, "2"),
-                "elements.csv, line 2: element 2 is of type \"\"; known are C3D4, C3D6, C3D8, C3D8I, C3D10, C3D15, C3D20, C3D20R, QM6. Without its mesh the package is valid, and has no stress",
+                "elements.csv, line 2: element 2 is of type \"\"; known are C3D4, C3D5, C3D6, C3D8, C3D8I, C3D10, C3D13, C3D15, C3D20, C3D20R, QM6. Without its mesh the package is valid, and has no stress",
                 (ELEMENTS, Some(2), None),
             ),
             case(
@@ -124,7 +124,7 @@ fn rows() {
             ),
             case(
                 |f| f.line("elements.csv", 2, "2,QM6,WHEEL,2,3,6,5,11,12,15,15"),
-                "elements.csv, line 2: element 2 has node 15 twice; a collapsed element is another type (a wedge C3D6 or C3D15, a tetrahedron C3D4 or C3D10)",
+                "elements.csv, line 2: element 2 has node 15 twice; a collapsed element is another type (a wedge C3D6 or C3D15, a pyramid C3D5 or C3D13, a tetrahedron C3D4 or C3D10)",
                 (ELEMENTS, Some(2), None),
             ),
             case(

@@ -70,7 +70,7 @@ pub enum MeshProblem {
     NoSuch {
         /// Kind of the thing, such as `element set`.
         what: &'static str,
-        /// Its name, shortened.
+        /// Name of the thing, shortened.
         name: String,
     },
     /// Content that a model cannot carry over.

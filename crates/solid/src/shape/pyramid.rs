@@ -5,8 +5,9 @@ use nalgebra::Vector3;
 
 use crate::natural::{Natural, PYRAMID_CORNERS, PYRAMID_EDGES};
 
-/// Height above which the limit along ξ = η = 0 stands for the apex, where the derivatives of rational functions have no value.
-const NEAREST_APEX: f64 = 1e-12;
+/// Least distance from the apex: on ξ = η = 0 it gives the limit of the derivatives, which have no value at the apex itself. Its third power is no
+/// zero.
+const NEAREST_APEX: f64 = 1e-100;
 
 /// Function with its derivative.
 type Value = (f64, Vector3<f64>);

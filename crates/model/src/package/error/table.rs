@@ -125,8 +125,8 @@ pub enum TableProblem {
     },
     /// Element with one node twice.
     #[error(
-        "element {element} has node {node} twice; a collapsed element is another type (a wedge C3D6 or C3D15, a tetrahedron \
-         C3D4 or C3D10)"
+        "element {element} has node {node} twice; a collapsed element is another type (a wedge C3D6 or C3D15, a pyramid C3D5 or \
+         C3D13, a tetrahedron C3D4 or C3D10)"
     )]
     ElementNodeRepeated {
         /// Number of the element.
