@@ -39,7 +39,8 @@ pub mod tokens;
 pub mod version;
 
 pub use rubmap_analysis as analysis;
-pub use rubmap_model::{assembly, impeller, package};
+pub use rubmap_mesh as mesh;
+pub use rubmap_model::{assembly, from_mesh, impeller, package};
 pub use rubmap_numerics as numerics;
 pub use rubmap_plot as plot;
 pub use rubmap_solid as solid;

@@ -13,9 +13,13 @@ pub(crate) fn quoted(text: &str) -> String {
     }
 }
 
-/// Parses an integer from 0.
+/// Largest number of a node or element: so large that no program writes more, so small that sums of them have no overflow.
+const LARGEST: u64 = 1_000_000_000_000_000;
+
+/// Parses an integer from 0 to 10^15.
 pub(crate) fn integer(word: &str, expected: &'static str) -> Result<u64, MeshProblem> {
-    word.trim().parse().map_err(|_| MeshProblem::NotA { text: quoted(word.trim()), expected })
+    let number = word.trim().parse().ok().filter(|&number| number <= LARGEST);
+    number.ok_or_else(|| MeshProblem::NotA { text: quoted(word.trim()), expected })
 }
 
 /// Parses a finite real number, in Fortran's and Nastran's spellings too: `1.5D+3`, `1.5+3`.

@@ -11,6 +11,7 @@ pub mod collapse;
 pub mod error;
 mod fields;
 pub mod format;
+mod inp;
 pub mod mesh_file;
 
 pub use error::{MeshFileError, MeshProblem};
@@ -19,3 +20,16 @@ pub use mesh_file::{FileElement, FileMaterial, MeshFile};
 
 /// Source of the files that a mesh file includes.
 pub type Include<'a> = dyn Fn(&str) -> Result<Vec<u8>, String> + 'a;
+
+/// Reads a mesh file, whose format its content tells.
+///
+/// `include` gives the content of another file by the name under which this one includes it, or says why it cannot.
+///
+/// # Errors
+/// The first problem, with its line and card.
+pub fn read(bytes: &[u8], include: &Include<'_>) -> Result<MeshFile, MeshFileError> {
+    match format::recognised(bytes)? {
+        MeshFormat::Inp => inp::read(bytes, include),
+        _ => Err(MeshProblem::Unknown.at(0, "")),
+    }
+}

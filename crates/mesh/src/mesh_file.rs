@@ -105,6 +105,13 @@ impl MeshFile {
         *self.left_out.entry(kind.to_owned()).or_default() += 1;
     }
 
+    /// Elements that were left out, as ` (left out: 38 of type S4)`; empty if none were.
+    pub(crate) fn left_out_said(&self) -> String {
+        let each = self.left_out.iter().map(|(kind, count)| format!("{count} of type {kind}"));
+        let each: Vec<String> = each.collect();
+        if each.is_empty() { String::new() } else { format!(" (left out: {})", each.join(", ")) }
+    }
+
     /// Adds a note, unless it is there already.
     pub fn note(&mut self, note: String) {
         if !self.notes.contains(&note) {

@@ -15,20 +15,20 @@ const MOST_NEAR: usize = 100;
 const CELL: f64 = 8.0;
 
 /// Nodes by the cell of a grid that they lie in.
-pub(super) struct NodeGrid {
+pub(crate) struct NodeGrid {
     cells: HashMap<[i64; 3], Vec<usize>>,
     nodes: Vec<(u64, [f64; 3])>,
-    pub(super) tolerance: f64,
+    pub(crate) tolerance: f64,
 }
 
 /// Nearest node to a position where there is no node.
-pub(super) struct Nearest {
-    pub(super) node: u64,
-    pub(super) distance: f64,
+pub(crate) struct Nearest {
+    pub(crate) node: u64,
+    pub(crate) distance: f64,
 }
 
 impl NodeGrid {
-    pub(super) fn new(nodes: Vec<(u64, [f64; 3])>, tolerance: f64) -> Self {
+    pub(crate) fn new(nodes: Vec<(u64, [f64; 3])>, tolerance: f64) -> Self {
         let mut cells: HashMap<_, Vec<usize>> = HashMap::new();
         for (k, (_, position)) in nodes.iter().enumerate() {
             cells.entry(cell(*position, CELL * tolerance)).or_default().push(k);
@@ -37,7 +37,7 @@ impl NodeGrid {
     }
 
     /// Node nearest to `position` within the tolerance.
-    pub(super) fn near(&self, position: [f64; 3]) -> Option<u64> {
+    pub(crate) fn near(&self, position: [f64; 3]) -> Option<u64> {
         let corner = |sign: f64| cell(position.map(|x| x + sign * self.tolerance), CELL * self.tolerance);
         let (from, to) = (corner(-1.0), corner(1.0));
         // In a mesh that is finer than the tolerance only a few nodes are compared.
@@ -49,7 +49,7 @@ impl NodeGrid {
     }
 
     /// Node as by [`Self::near`], or the nearest one as an error if it is farther off.
-    pub(super) fn at(&self, position: [f64; 3]) -> Result<u64, Nearest> {
+    pub(crate) fn at(&self, position: [f64; 3]) -> Result<u64, Nearest> {
         if let Some(node) = self.near(position) {
             return Ok(node);
         }
@@ -57,7 +57,7 @@ impl NodeGrid {
     }
 
     /// Node nearest to `position`, in time that grows with the number of nodes.
-    pub(super) fn nearest_of_all(&self, position: [f64; 3]) -> Nearest {
+    pub(crate) fn nearest_of_all(&self, position: [f64; 3]) -> Nearest {
         self.nearest(0..self.nodes.len(), position).unwrap_or(Nearest { node: 0, distance: f64::INFINITY })
     }
 
@@ -69,7 +69,7 @@ impl NodeGrid {
 }
 
 /// Tolerance for a mesh of these positions.
-pub(super) fn tolerance(positions: impl Iterator<Item = [f64; 3]>) -> f64 {
+pub(crate) fn tolerance(positions: impl Iterator<Item = [f64; 3]>) -> f64 {
     let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
     for position in positions {
         for k in 0..3 {

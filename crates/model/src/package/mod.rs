@@ -10,7 +10,7 @@
 //! ([`calculix`]), and [`write()`] makes a file of it. Everything after it is shared.
 
 mod archive;
-mod by_place;
+pub(crate) mod by_place;
 pub mod calculix;
 mod check;
 mod content;

@@ -66,7 +66,7 @@ pub(super) fn in_chord_order(
 }
 
 /// Selection of `count` of the nodes, as evenly spaced along the line as its nodes allow; all if there are fewer.
-pub(super) fn spread(nodes: Vec<(u64, [f64; 3])>, count: usize) -> Vec<(u64, [f64; 3])> {
+pub(crate) fn spread(nodes: Vec<(u64, [f64; 3])>, count: usize) -> Vec<(u64, [f64; 3])> {
     if count >= nodes.len() || count == 0 {
         return nodes;
     }
@@ -98,7 +98,7 @@ fn arc_lengths(positions: impl Iterator<Item = [f64; 3]>) -> Vec<f64> {
 }
 
 /// Adds the normals; `sector` are the positions of all nodes, which tell inside from outside.
-pub(super) fn with_normals(
+pub(crate) fn with_normals(
     nodes: &[(u64, [f64; 3])],
     normals: &Normals,
     frame: &AxisFrame,

@@ -1,5 +1,7 @@
 //! `rubmap import`: a model package from the files of a finite-element program.
 
+mod mesh;
+
 use std::fmt::{self, Write};
 use std::fs::File;
 use std::io::BufWriter;
@@ -17,12 +19,15 @@ use crate::dynamics::sector::Units;
 use crate::package::calculix::{self, CalculixModel, ImportSummary, Normals};
 use crate::package::raw::{Axis, ManifestMesh, MatrixFormat, RawPackage};
 use crate::solid::material::Material;
+use mesh::MeshArgs;
 
 /// Program or table that the files come from.
 #[derive(Debug, Subcommand)]
 pub(super) enum ImportCommand {
     /// CalculiX: mesh from a deck (.inp), matrices from *FREQUENCY, SOLVER=MATRIXSTORAGE (.dof, .sti, .mas)
     Calculix(Box<CalculixArgs>),
+    /// A mesh of one sector: CalculiX or Abaqus (.inp), Gmsh (.msh), Nastran (.bdf), Ansys (.cdb) or VTK (.vtu); matrices are assembled here
+    Mesh(Box<MeshArgs>),
     /// A measured casing: heights over angle and place along the chord (.csv), as `scene.casing.measured` of a request
     Casing(CasingArgs),
 }
@@ -116,6 +121,7 @@ enum ContactOrder {
 pub(super) fn import(command: ImportCommand) -> anyhow::Result<()> {
     match command {
         ImportCommand::Calculix(args) => import_calculix(*args),
+        ImportCommand::Mesh(args) => mesh::import(*args),
         ImportCommand::Casing(args) => import_casing(&args),
     }
 }

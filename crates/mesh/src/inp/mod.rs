@@ -1,0 +1,20 @@
+//! Decks of CalculiX and Abaqus (`.inp`).
+//!
+//! Cards and names are read as both programs do: capitals and blanks do not matter, a card that ends in a comma goes on on the next line,
+//! `*INCLUDE` may be nested. Parts and instances are put together, with the instances' displacement and turn.
+
+mod assembly;
+mod card;
+mod kinds;
+mod reader;
+mod scope;
+mod skipped;
+
+use crate::{Include, MeshFile, MeshFileError};
+
+/// Reads a deck and the files it includes.
+pub(crate) fn read(bytes: &[u8], include: &Include<'_>) -> Result<MeshFile, MeshFileError> {
+    let mut reader = reader::Reader::new(include);
+    reader.file(bytes, 0)?;
+    reader.finish()
+}

@@ -1,0 +1,82 @@
+//! Clamped nodes: of a set, as the file holds them, or the bore.
+
+use rubmap_mesh::MeshFile;
+use rubmap_solid::frame::AxisFrame;
+use rubmap_solid::mesh::SectorMesh;
+
+use super::cyclic::Symmetry;
+use super::error::FromMeshError;
+use super::settings::MeshSettings;
+use super::surface::Face;
+
+/// Largest difference of radii on the bore, in parts of its radius.
+const SAME_RADIUS: f64 = 1e-3;
+
+/// Least radius of a bore, in parts of the wheel's.
+const LEAST_BORE: f64 = 1e-3;
+
+/// Way in which the clamp was chosen.
+#[derive(Debug, Clone, PartialEq)]
+pub enum ClampSource {
+    /// Node set of the settings.
+    Set(String),
+    /// Nodes that the file holds.
+    File,
+    /// Surface of the bore, with its radius.
+    Bore(f64),
+}
+
+/// Whether each node is clamped, and why.
+pub(super) fn clamped(
+    file: &MeshFile,
+    settings: &MeshSettings,
+    mesh: &SectorMesh,
+    surface: &[Face],
+    symmetry: &Symmetry,
+    axis: &AxisFrame,
+) -> Result<(Vec<bool>, ClampSource), FromMeshError> {
+    let (mut clamped, source) = if let Some(name) = &settings.clamp_set {
+        let nodes = super::sets::node_set(file, name)?;
+        (marked(mesh, |id| nodes.binary_search(&id).is_ok()), ClampSource::Set(name.clone()))
+    } else if !file.held.is_empty() {
+        (marked(mesh, |id| file.held.contains(&id)), ClampSource::File)
+    } else {
+        bore(mesh, surface, symmetry, axis)?
+    };
+    if !clamped.contains(&true) {
+        return Err(FromMeshError::NothingClamped);
+    }
+    // A support on one face holds the same node of the next sector.
+    for &(low, high) in &symmetry.pairs {
+        let either = clamped[low as usize] || clamped[high as usize];
+        (clamped[low as usize], clamped[high as usize]) = (either, either);
+    }
+    Ok((clamped, source))
+}
+
+fn marked(mesh: &SectorMesh, is: impl Fn(u64) -> bool) -> Vec<bool> {
+    mesh.node_ids.iter().map(|&id| is(id)).collect()
+}
+
+/// Nodes of the faces at the smallest radius.
+fn bore(
+    mesh: &SectorMesh,
+    surface: &[Face],
+    symmetry: &Symmetry,
+    axis: &AxisFrame,
+) -> Result<(Vec<bool>, ClampSource), FromMeshError> {
+    let radius: Vec<f64> = mesh.nodes.iter().map(|&at| axis.coordinates(at)[0]).collect();
+    let (least, most) =
+        radius.iter().fold((f64::INFINITY, 0.0_f64), |(least, most), &r| (least.min(r), most.max(r)));
+    if least < LEAST_BORE * most {
+        return Err(FromMeshError::NoBore);
+    }
+    let mut clamped = vec![false; mesh.nodes.len()];
+    let at_bore = |node: &u32| radius[*node as usize] <= least * (1.0 + SAME_RADIUS);
+    for (k, face) in surface.iter().enumerate() {
+        if !symmetry.faces.contains(&k) && face.corners().iter().all(at_bore) {
+            face.skin.nodes.iter().for_each(|&node| clamped[node as usize] = true);
+        }
+    }
+    if clamped.contains(&true) { Ok((clamped, ClampSource::Bore(least))) } else { Err(FromMeshError::NoBore) }
+}

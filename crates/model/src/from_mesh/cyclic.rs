@@ -1,0 +1,221 @@
+//! Cyclic faces, found: faces of the skin that a turn by 2π/N carries onto others that look the opposite way.
+
+use std::collections::{BTreeMap, HashSet};
+use std::f64::consts::TAU;
+
+use nalgebra::Vector3;
+use rubmap_mesh::MeshFile;
+use rubmap_solid::frame::{AxisFrame, distance};
+use rubmap_solid::mesh::SectorMesh;
+
+use super::body::grid;
+use super::error::{FromMeshError, NearMiss};
+use super::settings::MeshSettings;
+use super::surface::Face;
+use crate::package::by_place::{NodeGrid, tolerance};
+use crate::package::raw::Axis;
+
+/// Largest number of sectors that is looked for.
+const MOST_SECTORS: f64 = 400.0;
+
+/// Largest difference of unit normals that are still opposite: that of faces whose nodes have few digits.
+const OPPOSITE: f64 = 1e-3;
+
+/// Least circumferential part of the normal of a face that has a say in the number of sectors.
+const CIRCUMFERENTIAL: f64 = 0.1;
+
+/// Least share in the area of the best candidate for another number of sectors to be considered.
+const SHARE: f64 = 0.25;
+
+/// Factor on the tolerance within which faces that miss each other are still told to be near.
+const NEAR: f64 = 1e3;
+
+/// Symmetry of a sector: axis, number of sectors, and pairs of nodes.
+#[derive(Debug, Clone)]
+pub(super) struct Symmetry {
+    pub(super) axis: Axis,
+    pub(super) sectors: usize,
+    /// Pairs (low node, high node) of all nodes of the faces.
+    pub(super) pairs: Vec<(u32, u32)>,
+    /// Places of the low and high faces in the surface.
+    pub(super) faces: HashSet<usize>,
+    /// Largest distance of a turned low node from its high node.
+    pub(super) farthest: f64,
+}
+
+/// Finds the symmetry, as far as neither settings nor file state it.
+pub(super) fn symmetry(
+    file: &MeshFile,
+    settings: &MeshSettings,
+    mesh: &SectorMesh,
+    surface: &[Face],
+) -> Result<Symmetry, FromMeshError> {
+    let stated = file.symmetry.as_ref();
+    let sectors = settings.sectors.or(stated.map(|stated| stated.sectors));
+    if sectors == Some(0) {
+        return Err(FromMeshError::Sectors);
+    }
+    let axes = candidates(file, settings);
+    if sectors == Some(1) {
+        let axis = axes.into_iter().next().ok_or(FromMeshError::AxisWithoutDirection)?;
+        frame(&axis)?;
+        return Ok(Symmetry { axis, sectors: 1, pairs: Vec::new(), faces: HashSet::new(), farthest: 0.0 });
+    }
+    let within = tolerance(mesh.nodes.iter().copied());
+    let mut best: Option<(f64, Symmetry)> = None;
+    for axis in &axes {
+        let about = frame(axis)?;
+        let Some(sectors) = sectors.or_else(|| number(surface, &about, within)) else { continue };
+        let (fits, area) = matched(surface, &about, sectors, within);
+        if best.as_ref().is_some_and(|(other, _)| *other >= area) || fits.is_empty() {
+            continue;
+        }
+        let (pairs, farthest) = paired(mesh, surface, &fits, &about, sectors, within)?;
+        let faces = fits.iter().flat_map(|&(low, high)| [low, high]).collect();
+        best = Some((area, Symmetry { axis: axis.clone(), sectors, pairs, faces, farthest }));
+    }
+    match best {
+        Some((_, symmetry)) => Ok(symmetry),
+        None => Err(near_miss(surface, &axes, sectors, within)?),
+    }
+}
+
+/// Axes to be tried: the given or stated one, else x, y and z through the origin, z first.
+fn candidates(file: &MeshFile, settings: &MeshSettings) -> Vec<Axis> {
+    let stated = file.symmetry.as_ref().map(|stated| {
+        let [from, to] = stated.axis;
+        Axis { origin: from, direction: std::array::from_fn(|k| to[k] - from[k]) }
+    });
+    match settings.axis.clone().or(stated) {
+        Some(axis) => vec![axis],
+        None => [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]
+            .map(|direction| Axis { origin: [0.0; 3], direction })
+            .into(),
+    }
+}
+
+pub(super) fn frame(axis: &Axis) -> Result<AxisFrame, FromMeshError> {
+    AxisFrame::new(axis.origin, axis.direction).ok_or(FromMeshError::AxisWithoutDirection)
+}
+
+/// Number of sectors that faces turned about an axis vote for by their areas: the smallest one with a good share, since flanks of a blade
+/// may fit each other by a smaller turn.
+fn number(surface: &[Face], axis: &AxisFrame, within: f64) -> Option<usize> {
+    let mut places: Vec<([f64; 3], Vector3<f64>, f64)> = (surface.iter())
+        .map(|face| (axis.coordinates(face.centre.into()), face.cylindrical_normal(axis), face.area))
+        .filter(|(_, normal, _)| normal[1].abs() > CIRCUMFERENTIAL)
+        .collect();
+    places.sort_by(|a, b| a.0[0].total_cmp(&b.0[0]));
+    let mut votes: BTreeMap<usize, f64> = BTreeMap::new();
+    for (k, (low, normal, area)) in places.iter().enumerate() {
+        let ring = places[k + 1..].iter().take_while(|(high, ..)| high[0] - low[0] <= within);
+        for (high, other, _) in ring.filter(|(high, ..)| (high[2] - low[2]).abs() <= within) {
+            if (normal + other).norm() > OPPOSITE {
+                continue;
+            }
+            for turn in [high[1] - low[1], low[1] - high[1]] {
+                let angle = turn.rem_euclid(TAU);
+                let sectors = (TAU / angle).round();
+                let fits = (2.0..=MOST_SECTORS).contains(&sectors)
+                    && (angle - TAU / sectors).abs() * low[0] <= within;
+                if fits {
+                    *votes.entry(sectors as usize).or_default() += area;
+                }
+            }
+        }
+    }
+    let most = votes.values().copied().fold(0.0, f64::max);
+    votes.into_iter().find(|(_, area)| *area >= SHARE * most).map(|(sectors, _)| sectors)
+}
+
+/// Pairs (low face, high face) for a number of sectors, and the area of the low ones.
+fn matched(surface: &[Face], axis: &AxisFrame, sectors: usize, within: f64) -> (Vec<(usize, usize)>, f64) {
+    let centres = surface.iter().zip(0..).map(|(face, k)| (k, face.centre.into())).collect();
+    let centres = NodeGrid::new(centres, within);
+    let angle = TAU / sectors as f64;
+    let turned = axis.turned_global(angle);
+    let mut fits = Vec::new();
+    let mut area = 0.0;
+    for (low, face) in surface.iter().enumerate() {
+        let Some(high) = centres.near(axis.turn_point(face.centre.into(), angle)) else { continue };
+        let high = high as usize;
+        // Rows are the turned unit vectors, so that their combination is the turned normal.
+        let normal = turned.tr_mul(&face.normal);
+        // Of two sectors each face is turned onto the other: the low one looks against the rotation.
+        let is_low = sectors > 2 || face.cylindrical_normal(axis)[1] < 0.0;
+        if is_low && (normal + surface[high].normal).norm() <= OPPOSITE {
+            fits.push((low, high));
+            area += face.area;
+        }
+    }
+    (fits, area)
+}
+
+/// Pairs of nodes on the faces, and the largest distance of a turned low node from its partner.
+fn paired(
+    mesh: &SectorMesh,
+    surface: &[Face],
+    fits: &[(usize, usize)],
+    axis: &AxisFrame,
+    sectors: usize,
+    within: f64,
+) -> Result<(Vec<(u32, u32)>, f64), FromMeshError> {
+    let nodes = |side: fn(&(usize, usize)) -> usize| {
+        let mut nodes: Vec<u32> =
+            fits.iter().flat_map(|pair| surface[side(pair)].skin.nodes.clone()).collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        nodes
+    };
+    let (low, high) = (nodes(|pair| pair.0), nodes(|pair| pair.1));
+    let places = grid(mesh, high.iter().copied(), within);
+    let mut pairs = Vec::with_capacity(low.len());
+    let mut taken = HashSet::new();
+    let mut farthest: f64 = 0.0;
+    for &node in &low {
+        let to = axis.turn_point(mesh.nodes[node as usize], TAU / sectors as f64);
+        let partner = places.at(to).map_err(|near| FromMeshError::NoPartner {
+            node: mesh.node_ids[node as usize],
+            sectors,
+            nearest: mesh.node_ids[near.node as usize],
+            distance: near.distance,
+            tolerance: within,
+        })? as u32;
+        if partner == node || !taken.insert(partner) {
+            return Err(FromMeshError::OnAxis { node: mesh.node_ids[node as usize] });
+        }
+        farthest = farthest.max(distance(mesh.nodes[partner as usize], to));
+        pairs.push((node, partner));
+    }
+    match high
+        .iter()
+        .find(|node| !taken.contains(node))
+        .or_else(|| low.iter().find(|node| taken.contains(node)))
+    {
+        Some(&node) => Err(FromMeshError::BothFaces { node: mesh.node_ids[node as usize] }),
+        None => Ok((pairs, farthest)),
+    }
+}
+
+/// Refusal of a mesh whose faces do not fit: how near they come.
+fn near_miss(
+    surface: &[Face],
+    axes: &[Axis],
+    sectors: Option<usize>,
+    within: f64,
+) -> Result<FromMeshError, FromMeshError> {
+    let mut best: Option<NearMiss> = None;
+    for axis in axes {
+        let about = frame(axis)?;
+        let Some(sectors) = sectors.or_else(|| number(surface, &about, NEAR * within)) else { continue };
+        let (fits, _) = matched(surface, &about, sectors, NEAR * within);
+        let turned = |face: &Face| about.turn_point(face.centre.into(), TAU / sectors as f64);
+        let away =
+            fits.iter().map(|&(low, high)| distance(turned(&surface[low]), surface[high].centre.into()));
+        let farthest = away.fold(0.0, f64::max);
+        if fits.len() > best.as_ref().map_or(0, |best| best.faces) {
+            best = Some(NearMiss { sectors, faces: fits.len(), farthest });
+        }
+    }
+    Ok(FromMeshError::NoFaces { sectors, near: best, tolerance: within, axes: axes.len() })
+}

@@ -1,0 +1,246 @@
+//! Refusals of a mesh that makes no model, each with what to do.
+
+use crate::assembly::CanMove;
+
+/// Largest number of names that an error lists.
+const MOST_NAMED: usize = 20;
+
+/// Refusal of a mesh that makes no model.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum FromMeshError {
+    /// Element that is not whole.
+    #[error("element {element} ({kind}{}): {problem}", if *.line > 0 { format!(", line {line}") } else { String::new() })]
+    Element {
+        /// Number of the element.
+        element: u64,
+        /// Kind of the element.
+        kind: &'static str,
+        /// Line of the file, 0 where it has none.
+        line: u64,
+        /// Problem of the element.
+        problem: String,
+    },
+    /// Nodes at one place that are not merged.
+    #[error(
+        "nodes {} and {} are both at ({:.6}, {:.6}, {:.6}){}: the mesh is slit there; merge nodes at the same place",
+        .0.nodes[0], .0.nodes[1], .0.at[0], .0.at[1], .0.at[2],
+        if .0.count > 1 { format!(", as are {} other pairs", .0.count - 1) } else { String::new() }
+    )]
+    Twins(Twin),
+    /// Mesh of several bodies.
+    #[error(
+        "the mesh is {bodies} bodies that share no node: one of {} elements, one of {}, to which element {element} belongs; a model is one \
+         body, so join them or leave the others out",
+        .sizes[0], .sizes[1]
+    )]
+    Bodies {
+        /// Number of bodies.
+        bodies: usize,
+        /// Numbers of elements of the two largest.
+        sizes: [usize; 2],
+        /// First element of the second.
+        element: u64,
+    },
+    /// Element without a material.
+    #[error(
+        "element {element} has no material; give one under `materials`, by a name of the file{} or by `*` for all elements",
+        listed(.known)
+    )]
+    NoMaterial {
+        /// Number of the element.
+        element: u64,
+        /// Element sets and materials of the file.
+        known: Vec<String>,
+    },
+    /// Name of a setting that is neither an element set nor a material of the file.
+    #[error("the file has no element set and no material \"{name}\"{}", listed(.known))]
+    NoSuchMaterial {
+        /// Name in the settings.
+        name: String,
+        /// Element sets and materials of the file.
+        known: Vec<String>,
+    },
+    /// Material of the file without some of its constants.
+    #[error(
+        "the file gives the material \"{material}\" no {what}; give the whole material under `materials`"
+    )]
+    MaterialLacks {
+        /// Name of the material.
+        material: String,
+        /// Constants that are not there.
+        what: &'static str,
+    },
+    /// Material over temperature without a temperature.
+    #[error(
+        "the file tabulates the material \"{material}\" at {rows} temperatures; say under `temperatures` at which the wheel runs"
+    )]
+    Temperature {
+        /// Name of the material.
+        material: String,
+        /// Number of rows.
+        rows: usize,
+    },
+    /// Constant out of its range.
+    #[error("{constant} {value} of the material \"{material}\" {rule}")]
+    Constant {
+        /// Name of the material.
+        material: String,
+        /// Name of the constant.
+        constant: &'static str,
+        /// Value of the constant.
+        value: f64,
+        /// Range of the constant.
+        rule: &'static str,
+    },
+    /// Top speed that is not positive.
+    #[error("the top speed {0} rad/s must be positive")]
+    TopSpeed(f64),
+    /// Number of sectors of 0.
+    #[error("a wheel has at least one sector")]
+    Sectors,
+    /// Axis of rotation without a direction.
+    #[error("the axis of rotation has no direction")]
+    AxisWithoutDirection,
+    /// Mesh without cyclic faces.
+    #[error("{}", no_faces(*.sectors, .near.as_ref(), *.tolerance, *.axes))]
+    NoFaces {
+        /// Number of sectors, if it was given.
+        sectors: Option<usize>,
+        /// Nearest miss, if there is one.
+        near: Option<NearMiss>,
+        /// Largest distance that is accepted.
+        tolerance: f64,
+        /// Number of axes that were tried.
+        axes: usize,
+    },
+    /// Node of a cyclic face without a partner.
+    #[error(
+        "node {node} of the low face turned by 2π/{sectors} meets no node of the high face within {tolerance:.2e}: the nearest is {nearest}, \
+         {distance:.3e} away; mesh both faces alike"
+    )]
+    NoPartner {
+        /// Number of the node.
+        node: u64,
+        /// Number of sectors N.
+        sectors: usize,
+        /// Number of the nearest node.
+        nearest: u64,
+        /// Distance of the nearest node.
+        distance: f64,
+        /// Largest distance that is accepted.
+        tolerance: f64,
+    },
+    /// Node on low and high face at once.
+    #[error(
+        "node {node} is on both cyclic faces; a sector is one pitch between two faces that do not meet away from the axis"
+    )]
+    BothFaces {
+        /// Number of the node.
+        node: u64,
+    },
+    /// Free node on the axis, which belongs to all sectors.
+    #[error(
+        "node {node} of the cyclic faces lies on the axis and belongs to all sectors; clamp it or give the wheel a bore"
+    )]
+    OnAxis {
+        /// Number of the node.
+        node: u64,
+    },
+    /// Node set that is not in the file.
+    #[error("the file has no nodes in a set \"{name}\"{}", listed(.known))]
+    NoSuchSet {
+        /// Name of the set.
+        name: String,
+        /// Node sets of the file.
+        known: Vec<String>,
+    },
+    /// Set without a node of the body.
+    #[error("no node of the set \"{name}\" belongs to an element")]
+    SetElsewhere {
+        /// Name of the set.
+        name: String,
+    },
+    /// Clamp without a node.
+    #[error("no node of the clamp belongs to an element")]
+    NothingClamped,
+    /// Wheel without a bore, and without a stated clamp.
+    #[error(
+        "nothing says where the wheel is held: the file holds no nodes and there is no bore; name a node set with `clamp_set`"
+    )]
+    NoBore,
+    /// Skin without a recognisable tip.
+    #[error("no blade tip was found on the skin; name a node set along the tip with `contact_set`")]
+    NoTip,
+    /// Contact set that is neither a line nor an area.
+    #[error("the nodes of the set \"{name}\" are neither one line nor do they cover faces of the skin")]
+    NoLine {
+        /// Name of the set.
+        name: String,
+    },
+    /// Contact line of too few usable nodes.
+    #[error(
+        "the contact line has {found} free nodes away from the cyclic faces; at least 3 are needed for its normals"
+    )]
+    FewNodes {
+        /// Number of usable nodes.
+        found: usize,
+    },
+    /// Contact nodes without a normal.
+    #[error("{0}")]
+    Normals(String),
+    /// Units that are not consistent.
+    #[error("{0}")]
+    Units(String),
+    /// Sector that can move as a rigid body.
+    #[error(transparent)]
+    CanMove(#[from] CanMove),
+}
+
+/// Two nodes at one place.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Twin {
+    /// Numbers of the nodes.
+    pub nodes: [u64; 2],
+    /// Place of the first.
+    pub at: [f64; 3],
+    /// Number of such pairs.
+    pub count: usize,
+}
+
+/// Faces that almost fit each other.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NearMiss {
+    /// Number of sectors by which they almost fit.
+    pub sectors: usize,
+    /// Number of faces that almost fit.
+    pub faces: usize,
+    /// Largest distance of their centres after the turn.
+    pub farthest: f64,
+}
+
+fn listed(known: &[String]) -> String {
+    if known.is_empty() {
+        return String::new();
+    }
+    let more = if known.len() > MOST_NAMED { ", …" } else { "" };
+    format!(" (it has {}{more})", known.iter().take(MOST_NAMED).cloned().collect::<Vec<_>>().join(", "))
+}
+
+fn no_faces(sectors: Option<usize>, near: Option<&NearMiss>, tolerance: f64, axes: usize) -> String {
+    let by = match sectors {
+        Some(sectors) => format!("no face of the skin turned by 2π/{sectors} meets another"),
+        None => "no turn by 2π/N carries faces of the skin onto others".to_owned(),
+    };
+    let axis = if axes > 1 {
+        " about x, y or z through the origin; give `axis` if it is another, and `sectors`"
+    } else {
+        " about this axis; check `axis` and `sectors`"
+    };
+    let near = near.map_or(String::new(), |near| {
+        format!(
+            ". By 2π/{}, {} faces come within {:.3e} of each other, and {tolerance:.1e} is accepted: mesh both faces alike",
+            near.sectors, near.faces, near.farthest
+        )
+    });
+    format!("{by}{axis}{near}. A single blade has `sectors` 1")
+}

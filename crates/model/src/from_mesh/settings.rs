@@ -1,0 +1,85 @@
+//! Settings of a model that is made from a mesh: all that the file does not say.
+
+use std::collections::BTreeMap;
+
+use rubmap_solid::material::Material;
+use rubmap_wheel::dynamics::sector::Units;
+use serde::{Deserialize, Serialize};
+
+use crate::package::raw::Axis;
+
+/// Number of contact nodes along the tip, unless another is asked for.
+const CONTACT_NODES: usize = 10;
+
+/// Settings of a model that is made from a mesh. The top speed has no default; everything else is read from the file or found from its
+/// geometry where it is left out.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[serde(deny_unknown_fields)]
+pub struct MeshSettings {
+    /// Name of the model; that of the file if left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
+    /// Consistent units of the file (mm, N, s, t if left out).
+    #[serde(default = "default_units")]
+    pub units: Units,
+    /// Highest speed Ω1 of the stiffness matrices, rad/s.
+    pub top_speed_rad_s: f64,
+    /// Number of sectors N; found from the cyclic faces if left out. A single blade on a rigid disk has 1.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sectors: Option<usize>,
+    /// Axis of rotation; stated by the file or found from the cyclic faces (along x, y or z through the origin) if left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schema(value_type = Object))]
+    pub axis: Option<Axis>,
+    /// Materials by element set or by material of the file; `*` is for all elements. They replace those of the file.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    #[cfg_attr(feature = "schema", schema(value_type = Object))]
+    pub materials: BTreeMap<String, Material>,
+    /// Temperature by element set or by material of the file, `*` for all: where the file tabulates a material over temperature.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub temperatures: BTreeMap<String, f64>,
+    /// Node set of the clamp. If left out, the nodes that the file holds are clamped, and if it holds none, those of the bore.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub clamp_set: Option<String>,
+    /// Node set along the blade's tip, a line of nodes or the whole tip; found as the longest tip if left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub contact_set: Option<String>,
+    /// Largest number of contact nodes, evenly spaced.
+    #[serde(default = "default_contact_nodes")]
+    pub contact_nodes: usize,
+    /// Whether the model has the gyroscopic matrix that Coriolis forces need.
+    #[serde(default = "default_gyroscopic")]
+    pub gyroscopic: bool,
+}
+
+fn default_units() -> Units {
+    Units { length: "mm".into(), force: "N".into(), time: "s".into(), mass: "t".into() }
+}
+
+fn default_contact_nodes() -> usize {
+    CONTACT_NODES
+}
+
+fn default_gyroscopic() -> bool {
+    true
+}
+
+impl MeshSettings {
+    /// Settings with a top speed in rad/s and nothing else.
+    pub fn new(top_speed_rad_s: f64) -> Self {
+        Self {
+            name: None,
+            units: default_units(),
+            top_speed_rad_s,
+            sectors: None,
+            axis: None,
+            materials: BTreeMap::new(),
+            temperatures: BTreeMap::new(),
+            clamp_set: None,
+            contact_set: None,
+            contact_nodes: CONTACT_NODES,
+            gyroscopic: true,
+        }
+    }
+}

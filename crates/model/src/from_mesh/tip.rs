@@ -1,0 +1,197 @@
+//! Contact nodes: from a node set, or from the longest blade tip that is found on the skin.
+//!
+//! A tip is a smooth patch of the skin between flanks: it looks in the meridional plane, its edges are convex, and the faces beyond them
+//! look around the wheel. Contact nodes are those nearest to the middle of its thickness.
+
+use std::collections::{BTreeSet, HashMap, HashSet};
+
+use nalgebra::Vector3;
+use rubmap_mesh::MeshFile;
+use rubmap_solid::frame::{AxisFrame, distance};
+use rubmap_solid::mesh::SectorMesh;
+
+use super::cyclic::Symmetry;
+use super::error::FromMeshError;
+use super::midline::{along, midline};
+use super::settings::MeshSettings;
+use super::surface::{Face, sides};
+
+/// Cosine of the largest angle between neighbouring faces of one smooth patch (35°).
+const SMOOTH: f64 = 0.82;
+
+/// Largest circumferential part of a tip's normal, by area.
+const MERIDIONAL: f64 = 0.4;
+
+/// Least circumferential part of a flank's normal.
+const FLANK: f64 = 0.3;
+
+/// Least share of a tip's outline with a convex edge to a flank.
+const BETWEEN_FLANKS: f64 = 0.6;
+
+/// Least share of a tip's outline with a convex edge.
+const CONVEX: f64 = 0.9;
+
+/// Way in which the contact nodes were chosen.
+#[derive(Debug, Clone, PartialEq)]
+pub enum TipSource {
+    /// Line of nodes of this set.
+    Line(String),
+    /// Middle of the patch that this set covers.
+    Area(String),
+    /// Middle of the longest of the tips that were found, and their number.
+    Found(usize),
+}
+
+/// Nodes along the tip, in order.
+pub(super) type Line = Vec<(u64, [f64; 3])>;
+
+/// Nodes along the tip from the end at the smaller radius.
+pub(super) fn tip(
+    file: &MeshFile,
+    settings: &MeshSettings,
+    mesh: &SectorMesh,
+    surface: &[Face],
+    symmetry: &Symmetry,
+    axis: &AxisFrame,
+) -> Result<(Line, TipSource), FromMeshError> {
+    let Some(name) = &settings.contact_set else {
+        let tips = tips(mesh, surface, symmetry, axis);
+        let count = tips.len();
+        let longest = tips.into_iter().max_by(|a, b| a.0.total_cmp(&b.0)).ok_or(FromMeshError::NoTip)?;
+        return Ok((in_order(along(mesh, surface, &longest.1), axis), TipSource::Found(count)));
+    };
+    let nodes = super::sets::node_set(file, name)?;
+    let chosen: HashSet<u32> = (0..)
+        .zip(&mesh.node_ids)
+        .filter(|(_, id)| nodes.binary_search(id).is_ok())
+        .map(|(node, _)| node)
+        .collect();
+    let covered: Vec<usize> = (0..surface.len())
+        .filter(|&k| surface[k].corners().iter().all(|node| chosen.contains(node)))
+        .collect();
+    if covered.is_empty() {
+        let places = (0..).zip(&mesh.node_ids).filter(|(node, _)| chosen.contains(node));
+        let nodes: Line = places.map(|(node, &id)| (id, mesh.nodes[node as usize])).collect();
+        if nodes.is_empty() {
+            return Err(FromMeshError::SetElsewhere { name: name.clone() });
+        }
+        let line = chain(&nodes).ok_or_else(|| FromMeshError::NoLine { name: name.clone() })?;
+        return Ok((in_order(line, axis), TipSource::Line(name.clone())));
+    }
+    Ok((in_order(along(mesh, surface, &covered), axis), TipSource::Area(name.clone())))
+}
+
+/// Line from its end at the smaller radius, or at the smaller height where both ends have one radius.
+fn in_order(mut line: Line, axis: &AxisFrame) -> Line {
+    let place = |node: &(u64, [f64; 3])| axis.coordinates(node.1);
+    if let (Some(first), Some(last)) = (line.first().map(place), line.last().map(place)) {
+        let length = distance(first, last);
+        let backwards =
+            if (first[0] - last[0]).abs() > 1e-2 * length { first[0] > last[0] } else { first[2] > last[2] };
+        if backwards {
+            line.reverse();
+        }
+    }
+    line
+}
+
+/// Nodes as a chain of nearest neighbours from one end to the other; none if they are no single line.
+fn chain(nodes: &[(u64, [f64; 3])]) -> Option<Line> {
+    let farthest = |from: [f64; 3]| {
+        let away = |node: &(u64, [f64; 3])| distance(node.1, from);
+        nodes.iter().max_by(|a, b| away(a).total_cmp(&away(b)).then(b.0.cmp(&a.0))).copied()
+    };
+    let start = farthest(farthest(nodes.first()?.1)?.1)?;
+    let end = farthest(start.1)?;
+    let mut left: Line = nodes.iter().copied().filter(|node| node.0 != start.0).collect();
+    let mut chain = vec![start];
+    while let Some(last) = chain.last().copied()
+        && let Some(k) = (0..left.len()).min_by(|&a, &b| {
+            distance(left[a].1, last.1)
+                .total_cmp(&distance(left[b].1, last.1))
+                .then(left[a].0.cmp(&left[b].0))
+        })
+    {
+        chain.push(left.swap_remove(k));
+    }
+    (chain.last().map(|node| node.0) == Some(end.0)).then_some(chain)
+}
+
+/// Tips on the skin: length of the middle line and faces of each.
+fn tips(
+    mesh: &SectorMesh,
+    surface: &[Face],
+    symmetry: &Symmetry,
+    axis: &AxisFrame,
+) -> Vec<(f64, Vec<usize>)> {
+    let free = || (0..surface.len()).filter(|k| !symmetry.faces.contains(k));
+    let sides = sides(surface, free());
+    let around: Vec<f64> = surface.iter().map(|face| face.cylindrical_normal(axis)[1].abs()).collect();
+    let is_tip = |patch: &BTreeSet<usize>| {
+        let area: f64 = patch.iter().map(|&k| surface[k].area).sum();
+        let turned: f64 = patch.iter().map(|&k| surface[k].area * around[k]).sum();
+        let [outline, convex, flanked] = outline(mesh, surface, &sides, patch, &around);
+        turned <= MERIDIONAL * area && convex >= CONVEX * outline && flanked >= BETWEEN_FLANKS * outline
+    };
+    let patches = patches(surface, &sides, free());
+    let faces = patches.into_iter().filter(is_tip).map(|patch| patch.into_iter().collect::<Vec<_>>());
+    faces.map(|faces| (midline(mesh, surface, &faces).length(), faces)).collect()
+}
+
+/// Smooth patches of some faces.
+fn patches(
+    surface: &[Face],
+    sides: &HashMap<[u32; 2], Vec<usize>>,
+    free: impl Iterator<Item = usize>,
+) -> Vec<BTreeSet<usize>> {
+    let mut seen = HashSet::new();
+    let mut patches = Vec::new();
+    for first in free {
+        if !seen.insert(first) {
+            continue;
+        }
+        let mut patch = BTreeSet::from([first]);
+        let mut open = vec![first];
+        while let Some(face) = open.pop() {
+            for [a, b] in surface[face].edges() {
+                for &other in sides.get(&[a.min(b), a.max(b)]).into_iter().flatten() {
+                    if surface[face].normal.dot(&surface[other].normal) > SMOOTH && seen.insert(other) {
+                        patch.insert(other);
+                        open.push(other);
+                    }
+                }
+            }
+        }
+        patches.push(patch);
+    }
+    patches
+}
+
+/// Lengths of a patch's outline: in all, of convex edges, and of convex edges to a flank.
+fn outline(
+    mesh: &SectorMesh,
+    surface: &[Face],
+    sides: &HashMap<[u32; 2], Vec<usize>>,
+    patch: &BTreeSet<usize>,
+    around: &[f64],
+) -> [f64; 3] {
+    let at = |node: u32| Vector3::from(mesh.nodes[node as usize]);
+    let mut lengths = [0.0; 3];
+    for &face in patch {
+        for [a, b] in surface[face].edges() {
+            let beyond = sides.get(&[a.min(b), a.max(b)]).into_iter().flatten().find(|&&other| other != face);
+            if beyond.is_some_and(|other| patch.contains(other)) {
+                continue;
+            }
+            let length = (at(b) - at(a)).norm();
+            lengths[0] += length;
+            let Some(&other) = beyond else { continue };
+            // Beyond a convex edge the neighbour lies below the face.
+            if surface[face].normal.dot(&(surface[other].centre - at(a))) < 0.0 {
+                lengths[1] += length;
+                lengths[2] += if around[other] >= FLANK { length } else { 0.0 };
+            }
+        }
+    }
+    lengths
+}

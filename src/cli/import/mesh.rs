@@ -1,0 +1,147 @@
+//! `rubmap import mesh`: a model package from a mesh of one sector.
+
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::BufWriter;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, bail};
+use clap::Args;
+
+use super::{axis, describe_findings, units};
+use crate::cli::speed::speed;
+use crate::dynamics::sector::Units;
+use crate::from_mesh::{self, MeshSettings};
+use crate::package::raw::{Axis, MatrixFormat};
+use crate::solid::material::Material;
+
+/// Mesh file, and settings that it does not have.
+#[derive(Debug, Args)]
+pub(in crate::cli) struct MeshArgs {
+    /// Mesh of one sector; its content tells the format
+    file: PathBuf,
+    /// Highest speed of the stiffness matrices, such as 5000 (rad/s) or 48000rpm
+    #[arg(long, value_parser = speed, required_unless_present = "settings")]
+    top_speed: Option<f64>,
+    /// Number of sectors [default: found from the cyclic faces; a single blade has 1]
+    #[arg(long)]
+    sectors: Option<usize>,
+    /// Axis: a point and the direction about which rotation is positive, x,y,z,dx,dy,dz [default: stated by the file, or found along x, y or
+    /// z through the origin]
+    #[arg(long, value_parser = axis, allow_hyphen_values = true)]
+    axis: Option<Axis>,
+    /// Material of an element set, or of a material of the file: NAME=E,NU,DENSITY; without NAME= of all elements [default: those of the
+    /// file]
+    #[arg(long = "material", value_name = "[NAME=]E,NU,DENSITY", value_parser = material)]
+    materials: Vec<(String, [f64; 3])>,
+    /// Temperature at which materials that the file tabulates are taken
+    #[arg(long, allow_hyphen_values = true)]
+    temperature: Option<f64>,
+    /// Node set of the clamp [default: the nodes that the file holds, or else the bore]
+    #[arg(long)]
+    clamp_set: Option<String>,
+    /// Node set along the blade's tip: a line of nodes, or the whole tip, of which the middle is taken [default: the longest tip that is
+    /// found]
+    #[arg(long)]
+    contact_set: Option<String>,
+    /// Largest number of contact nodes, evenly spaced [default: 10]
+    #[arg(long)]
+    contact_nodes: Option<usize>,
+    /// Units of length, force, time and mass of the file [default: mm,N,s,t]
+    #[arg(long, value_parser = units)]
+    units: Option<Units>,
+    /// Name of the model [default: that of the file]
+    #[arg(long)]
+    name: Option<String>,
+    /// JSON file of settings, as `POST /v1/models` takes them; options of this command go before it
+    #[arg(long)]
+    settings: Option<PathBuf>,
+    /// Package to write
+    #[arg(long)]
+    out: PathBuf,
+    /// Format in which the package stores its matrices
+    #[arg(long, value_enum, default_value_t = MatrixFormat::Npz)]
+    matrices: MatrixFormat,
+}
+
+/// Makes the package, checks it as an upload would be, writes it and prints what was found.
+pub(super) fn import(args: MeshArgs) -> anyhow::Result<()> {
+    let name = args.file.display().to_string();
+    let (out, matrices) = (args.out.clone(), args.matrices);
+    let bytes = std::fs::read(&args.file).with_context(|| format!("cannot read {name}"))?;
+    let folder = args.file.parent().unwrap_or(Path::new("")).to_owned();
+    let include = |file: &str| std::fs::read(folder.join(file)).map_err(|error| error.to_string());
+    let file = crate::mesh::read(&bytes, &include).with_context(|| name.clone())?;
+    let settings = settings(args)?;
+    let sector = from_mesh::sector(&file, &settings).with_context(|| name.clone())?;
+    print!("{}", sector.found);
+    let mut package = sector.package().with_context(|| name)?;
+    package.manifest.store_matrices_as(matrices);
+    let findings = crate::package::look_at(package.clone())
+        .context("the model of this mesh does not pass the checks of a package")?;
+    let file = File::create(&out).with_context(|| format!("cannot create {}", out.display()))?;
+    crate::package::write(&package, BufWriter::new(file))
+        .with_context(|| format!("cannot write {}", out.display()))?;
+    let mut text = String::new();
+    describe_findings(&mut text, &findings)?;
+    print!("{text}");
+    println!("Written: {}", out.display());
+    Ok(())
+}
+
+/// Settings of the file, with those of the command line before them.
+fn settings(args: MeshArgs) -> anyhow::Result<MeshSettings> {
+    let mut settings = match &args.settings {
+        None => MeshSettings::new(args.top_speed.unwrap_or_default()),
+        Some(path) => {
+            let text = std::fs::read(path).with_context(|| format!("cannot read {}", path.display()))?;
+            serde_json::from_slice(&text).with_context(|| path.display().to_string())?
+        }
+    };
+    if let Some(top_speed) = args.top_speed {
+        settings.top_speed_rad_s = top_speed;
+    }
+    let stem = args.file.file_stem().map(|stem| stem.to_string_lossy().into_owned());
+    settings.name = args.name.or(settings.name).or(stem);
+    settings.sectors = args.sectors.or(settings.sectors);
+    settings.axis = args.axis.or(settings.axis);
+    settings.clamp_set = args.clamp_set.or(settings.clamp_set);
+    settings.contact_set = args.contact_set.or(settings.contact_set);
+    settings.contact_nodes = args.contact_nodes.unwrap_or(settings.contact_nodes);
+    if let Some(units) = args.units {
+        settings.units = units;
+    }
+    if let Some(temperature) = args.temperature {
+        settings.temperatures = BTreeMap::from([("*".to_owned(), temperature)]);
+    }
+    for (name, constants) in args.materials {
+        if settings.materials.insert(name.clone(), made(constants)).is_some() && args.settings.is_none() {
+            bail!("--material gives {name} twice");
+        }
+    }
+    Ok(settings)
+}
+
+fn made([youngs_modulus, poissons_ratio, density]: [f64; 3]) -> Material {
+    Material {
+        youngs_modulus,
+        poissons_ratio,
+        density,
+        yield_strength: None,
+        ultimate_strength: None,
+        fatigue_strength: None,
+    }
+}
+
+/// Reads a material: `NAME=E,NU,DENSITY`, or without a name for all elements.
+fn material(text: &str) -> Result<(String, [f64; 3]), String> {
+    let (name, constants) = text.rsplit_once('=').unwrap_or(("*", text));
+    let numbers: Result<Vec<f64>, _> = constants.split(',').map(|number| number.trim().parse()).collect();
+    match numbers.as_deref() {
+        Ok(&[e, nu, density]) => Ok((name.trim().to_owned(), [e, nu, density])),
+        _ => {
+            Err("expected Young's modulus, Poisson's ratio and density, such as 114000,0.32,4.43e-9"
+                .to_owned())
+        }
+    }
+}
