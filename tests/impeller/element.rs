@@ -9,7 +9,7 @@ use rubmap::solid::jacobian;
 use rubmap::solid::material::{Material, Stress};
 use rubmap::solid::mesh::{Element, ElementSet, SectorMesh};
 use rubmap::solid::natural::{CORNERS, EDGES};
-use rubmap::solid::rule::points;
+use rubmap::solid::rule::{MassRule, points};
 use rubmap::solid::stress::point_stress;
 
 /// Titanium in mm, N, s, t.
@@ -294,7 +294,7 @@ fn pure_bending_of_one_linear_element_is_exact() {
 /// Sum `Σ m_ab u_a · u_b` of a field.
 fn kinetic(positions: &[[f64; 3]], u: impl Fn(Vector3<f64>) -> Vector3<f64>) -> f64 {
     let nodes = positions.len();
-    let mass = mass(kind(nodes), positions, 2.5);
+    let mass = mass(kind(nodes), positions, 2.5, MassRule::Consistent);
     let u: Vec<Vector3<f64>> = positions.iter().map(|&x| u(Vector3::from(x))).collect();
     let pairs = (0..nodes).flat_map(|a| (0..nodes).map(move |b| (a, b)));
     pairs.map(|(a, b)| mass[(a, b)] * u[a].dot(&u[b])).sum()
@@ -312,7 +312,7 @@ fn has_the_mass_of_a_block(positions: &[[f64; 3]]) {
         let turning = kinetic(positions, |x| translation.cross(&(x - centre)));
         assert!((turning / inertia - 1.0).abs() < 1e-13, "{turning} {inertia}");
     }
-    let mass = mass(kind(positions.len()), positions, density);
+    let mass = mass(kind(positions.len()), positions, density, MassRule::Consistent);
     assert!(mass.cholesky().is_some());
 }
 

@@ -7,6 +7,8 @@ mod calculix;
 mod campaign;
 mod centrifugal;
 mod conformity;
+#[path = "../solid/deck.rs"]
+mod deck;
 mod disk;
 mod disk_mesh;
 mod eigen;
@@ -17,6 +19,9 @@ mod fixed;
 mod gyroscopic;
 mod impeller_a;
 mod impeller_mesh;
+mod mesh_kinds;
+#[path = "../solid/meshes.rs"]
+mod meshes;
 mod packed;
 mod plate;
 mod presets;

@@ -10,7 +10,9 @@ use rubmap::solid::element::ElementKind;
 use rubmap::solid::mesh::{Element, SectorMesh};
 use rubmap::solid::stress::{NodalStress, point_stress};
 
-use crate::meshes::{block, crooked, noise};
+use crate::crooked::{crooked, noise};
+use crate::deck::deck;
+use crate::meshes::block;
 
 /// Relative precision of CalculiX's output: it prints displacements and stresses at points with seven digits. In a mode, stress
 /// comes from differences of displacements that are some hundredth of them.
@@ -30,42 +32,30 @@ struct Answer {
     nodes: Vec<[f64; 6]>,
 }
 
-/// Runs `steps` on the mesh, each of which prints U and S of everything; `None`, with a printed reason, without CalculiX.
-fn calculix(mesh: &SectorMesh, steps: &str) -> Option<Vec<Answer>> {
-    let mut deck = String::from("*NODE, NSET=NALL\n");
-    for (id, [x, y, z]) in mesh.node_ids.iter().zip(&mesh.nodes) {
-        writeln!(deck, "{id}, {x:.14e}, {y:.14e}, {z:.14e}").unwrap();
-    }
-    writeln!(deck, "*ELEMENT, TYPE={}, ELSET=EALL", mesh.elements[0].kind.name()).unwrap();
-    for element in &mesh.elements {
-        let numbers: Vec<String> = std::iter::once(element.id)
-            .chain(element.nodes.iter().map(|&node| mesh.node_ids[node as usize]))
-            .map(|number| number.to_string())
-            .collect();
-        let lines: Vec<String> = numbers.chunks(11).map(|line| line.join(", ")).collect();
-        writeln!(deck, "{}", lines.join(",\n")).unwrap();
-    }
-    let material = &mesh.sets[0].material;
-    writeln!(
-        deck,
-        "*MATERIAL, NAME=M\n*ELASTIC\n{:e}, {:e}\n*DENSITY\n{:e}\n*SOLID SECTION, ELSET=EALL, MATERIAL=M\n{steps}",
-        material.youngs_modulus, material.poissons_ratio, material.density
-    )
-    .unwrap();
+/// Runs CalculiX on a deck; `None`, with a printed reason, without it.
+pub(crate) fn run(deck: &str) -> Option<tempfile::TempDir> {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("block.inp"), deck).unwrap();
-    let output = match Command::new("ccx").args(["-i", "block"]).current_dir(folder.path()).output() {
-        Ok(output) => output,
+    match Command::new("ccx").args(["-i", "block"]).current_dir(folder.path()).output() {
+        Ok(output) => {
+            assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stdout));
+            Some(folder)
+        }
         Err(error) => {
             eprintln!("skipped: CalculiX (`ccx`, package calculix-ccx) cannot be run: {error}");
-            return None;
+            None
         }
-    };
+    }
+}
+
+/// Runs `steps` on the mesh, each of which prints U and S of everything; `None`, with a printed reason, without CalculiX.
+fn calculix(mesh: &SectorMesh, steps: &str) -> Option<Vec<Answer>> {
+    let folder = run(&format!("{}{steps}\n", deck(mesh)))?;
     let read = |extension| {
         std::fs::read_to_string(folder.path().join(format!("block.{extension}"))).unwrap_or_default()
     };
     let (dat, frd) = (read("dat"), read("frd"));
-    assert!(output.status.success() && !dat.is_empty(), "{}", String::from_utf8_lossy(&output.stdout));
+    assert!(!dat.is_empty(), "CalculiX printed nothing");
     Some(parse(mesh, &dat, &frd))
 }
 
@@ -144,7 +134,7 @@ fn differences(mesh: &SectorMesh, answer: &Answer) -> [f64; 2] {
 }
 
 /// Whether CalculiX has the element.
-fn its_own(kind: ElementKind) -> bool {
+pub(crate) fn its_own(kind: ElementKind) -> bool {
     !matches!(kind, ElementKind::QM6 | ElementKind::C3D5 | ElementKind::C3D13)
 }
 

@@ -10,7 +10,8 @@ use rubmap::solid::mesh::{Element, SectorMesh};
 use rubmap::solid::skin::{Cut, skin};
 use rubmap::solid::stress::NodalStress;
 
-use crate::meshes::{block, noise};
+use crate::crooked::noise;
+use crate::meshes::block;
 
 const SECTORS: usize = 5;
 const CELLS: [usize; 3] = [2, 2, 1];

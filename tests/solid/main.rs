@@ -2,6 +2,9 @@
 
 mod calculix;
 mod closed_forms;
+mod crooked;
 mod cyclic;
+mod deck;
+mod matrices;
 mod meshes;
 mod patch;

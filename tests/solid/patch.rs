@@ -8,7 +8,8 @@ use rubmap::solid::material::stress;
 use rubmap::solid::mesh::SectorMesh;
 use rubmap::solid::stress::{NodalStress, point_stress};
 
-use crate::meshes::{block, crooked};
+use crate::crooked::crooked;
+use crate::meshes::block;
 
 /// Displacements in (r, θ, z) of a field in x, y, z.
 pub(crate) fn cylindrical(mesh: &SectorMesh, field: impl Fn([f64; 3]) -> Vector3<f64>) -> Mat<c64> {

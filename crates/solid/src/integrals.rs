@@ -14,7 +14,7 @@ use crate::blocks::Blocks;
 use crate::element::ElementKind;
 use crate::gradients::{Gradients, jacobian};
 use crate::material::{Lame, Stress, tensor};
-use crate::rule::mass_points;
+use crate::rule::{MassRule, mass_points};
 use crate::shape::functions;
 
 /// Elastic stiffness of an element of these node positions, per unit of displacement in x, y, z.
@@ -39,10 +39,10 @@ pub fn stiffness(kind: ElementKind, positions: &[[f64; 3]], constants: Lame) -> 
     condensed
 }
 
-/// Consistent mass `m_ab = ∫ ρ N_a N_b dV`, the same in every direction, at the points of [`mass_points`].
-pub fn mass(kind: ElementKind, positions: &[[f64; 3]], density: f64) -> DMatrix<f64> {
+/// Mass `m_ab = ∫ ρ N_a N_b dV`, the same in every direction, at the points of [`mass_points`].
+pub fn mass(kind: ElementKind, positions: &[[f64; 3]], density: f64, rule: MassRule) -> DMatrix<f64> {
     let mut mass = DMatrix::zeros(positions.len(), positions.len());
-    for point in mass_points(kind) {
+    for point in mass_points(kind, rule) {
         let n = functions(kind, point.xi);
         let share = density * jacobian(kind, positions, point.xi).determinant() * point.weight;
         for (a, na) in n.iter().enumerate() {

@@ -2,6 +2,8 @@
 
 use std::sync::LazyLock;
 
+use serde::{Deserialize, Serialize};
+
 use crate::element::ElementKind;
 use crate::gauss::{GaussPoint, gauss_points};
 use crate::natural::Natural;
@@ -55,13 +57,24 @@ pub fn points(kind: ElementKind) -> &'static [GaussPoint] {
     }
 }
 
+/// Rule by which mass is integrated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum MassRule {
+    /// Consistent mass that is positive definite: the points of stiffness where these suffice (C3D8, C3D8I, C3D20), 27 points elsewhere.
+    #[default]
+    Consistent,
+    /// Points of stiffness in every element, as CalculiX has it. Tetrahedra, wedges and C3D20R may leave motions without mass.
+    AsStiffness,
+}
+
 /// Points at which an element's mass is integrated.
-///
-/// They are those of stiffness, as CalculiX takes them, where these leave no direction without mass, and a rule of 27 points elsewhere: in
-/// linear tetrahedra and wedges a pattern of alternating signs would have none, in C3D15 and C3D20R even a single element.
-pub fn mass_points(kind: ElementKind) -> &'static [GaussPoint] {
-    match kind {
-        ElementKind::C3D8 | ElementKind::C3D8I | ElementKind::C3D10 | ElementKind::C3D20 => points(kind),
+pub fn mass_points(kind: ElementKind, rule: MassRule) -> &'static [GaussPoint] {
+    match (rule, kind) {
+        (MassRule::AsStiffness, _) | (_, ElementKind::C3D8 | ElementKind::C3D8I | ElementKind::C3D20) => {
+            points(kind)
+        }
         _ => fine_points(kind),
     }
 }

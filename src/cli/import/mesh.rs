@@ -14,6 +14,7 @@ use crate::dynamics::sector::Units;
 use crate::from_mesh::{self, MeshSettings};
 use crate::package::raw::{Axis, MatrixFormat};
 use crate::solid::material::Material;
+use crate::solid::rule::MassRule;
 
 /// Mesh file, and settings that it does not have.
 #[derive(Debug, Args)]
@@ -47,6 +48,10 @@ pub(in crate::cli) struct MeshArgs {
     /// Largest number of contact nodes, evenly spaced [default: 10]
     #[arg(long)]
     contact_nodes: Option<usize>,
+    /// Integrate mass at the points of stiffness in every element, as CalculiX does [default: at more points where these leave motions without
+    /// mass]
+    #[arg(long)]
+    mass_as_calculix: bool,
     /// Units of length, force, time and mass of the file [default: mm,N,s,t]
     #[arg(long, value_parser = units)]
     units: Option<Units>,
@@ -108,6 +113,9 @@ fn settings(args: MeshArgs) -> anyhow::Result<MeshSettings> {
     settings.clamp_set = args.clamp_set.or(settings.clamp_set);
     settings.contact_set = args.contact_set.or(settings.contact_set);
     settings.contact_nodes = args.contact_nodes.unwrap_or(settings.contact_nodes);
+    if args.mass_as_calculix {
+        settings.mass = MassRule::AsStiffness;
+    }
     if let Some(units) = args.units {
         settings.units = units;
     }

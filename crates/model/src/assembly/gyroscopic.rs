@@ -14,12 +14,7 @@ pub fn gyroscopic_matrix(sector: &MeshedSector) -> RawMatrix {
     let pattern = Pattern::new(&sector.mesh.elements, &dofs.rows, dofs.list.len());
     let axis = sector.axis().direction();
     let assembly = Assembly::new(sector, &dofs.rows);
-    let values = assembly.matrix(&pattern, |element, _| {
-        integrals::gyroscopic(
-            &integrals::mass(element.kind, &element.positions, element.material.density),
-            axis,
-        )
-    });
+    let values = assembly.matrix(&pattern, |element, _| integrals::gyroscopic(&element.mass(), axis));
     let mut matrix = pattern.raw_matrix(|position| values[position]);
     // A node's own block is 2 m [e×] in any frame: the entries on its diagonal are round-off of the turn.
     matrix.entries.retain(|&(row, column, value)| row != column && value != 0.0);

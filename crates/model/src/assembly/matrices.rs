@@ -38,13 +38,8 @@ impl RestMatrices {
         let dofs = SectorDofs::new(sector);
         let pattern = Pattern::new(&sector.mesh.elements, &dofs.rows, dofs.list.len());
         let assembly = Assembly::new(sector, &dofs.rows);
-        let mass = assembly.matrix(&pattern, |element, _| {
-            let mass = integrals::mass(element.kind, &element.positions, element.material.density);
-            Blocks::scaled(&mass, [1.0; 3])
-        });
-        let elastic = assembly.matrix(&pattern, |element, _| {
-            integrals::stiffness(element.kind, &element.positions, element.material.lame_constants())
-        });
+        let mass = assembly.matrix(&pattern, |element, _| Blocks::scaled(&element.mass(), [1.0; 3]));
+        let elastic = assembly.matrix(&pattern, |element, _| element.stiffness());
         Self { dofs, pattern, mass, elastic }
     }
 
@@ -76,7 +71,7 @@ impl SectorMatrices {
         let spin = assembly.matrix(&rest.pattern, |element, e| {
             let stresses = &prestress.stresses[e];
             let geometric = integrals::geometric_stiffness(element.kind, &element.positions, stresses);
-            let mass = integrals::mass(element.kind, &element.positions, element.material.density);
+            let mass = element.mass();
             Blocks::from_fn(mass.nrows(), |a, b| {
                 across * (geometric[(a, b)] - mass[(a, b)]) + along * geometric[(a, b)]
             })

@@ -38,14 +38,11 @@ pub(super) fn solve(sector: &MeshedSector, dofs: &SectorDofs) -> Result<PreStres
     let origin = Vector3::from(sector.mesh.axis.0);
     let axis = sector.axis().direction();
     let mut solution = assembly.load(dofs.own, |element| {
-        let mass = integrals::mass(element.kind, &element.positions, element.material.density);
-        integrals::centrifugal_load(&mass, &element.positions, origin, axis)
+        integrals::centrifugal_load(&element.mass(), &element.positions, origin, axis)
     });
 
     let pattern = Pattern::new(&sector.mesh.elements, &numbering, dofs.own);
-    let values = assembly.matrix(&pattern, |element, _| {
-        integrals::stiffness(element.kind, &element.positions, element.material.lame_constants())
-    });
+    let values = assembly.matrix(&pattern, |element, _| element.stiffness());
     let stiffness = pattern.into_lower_triangle(values);
     let nodes: Vec<usize> = dofs.list[..dofs.own].iter().map(|&(node, _)| node).collect();
     let symbolic = SymbolicFactor::new(stiffness.symbolic(), &nodes);

@@ -2,6 +2,7 @@
 
 use rubmap_solid::frame::{AxisFrame, Basis};
 use rubmap_solid::mesh::SectorMesh;
+use rubmap_solid::rule::MassRule;
 
 /// Tip node that may touch the casing.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -21,6 +22,8 @@ pub struct MeshedSector {
     pub clamped: Vec<[bool; 3]>,
     /// Contact nodes from leading to trailing edge.
     pub contact: Vec<TipNode>,
+    /// Rule by which mass is integrated.
+    pub mass: MassRule,
 }
 
 impl MeshedSector {

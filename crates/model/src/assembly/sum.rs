@@ -1,12 +1,14 @@
 //! Assembly of element matrices and loads into those of a mesh, in the cylindrical components of each node.
 
-use nalgebra::Vector3;
+use nalgebra::{DMatrix, Vector3};
 use rayon::prelude::*;
 use rubmap_solid::blocks::Blocks;
 use rubmap_solid::element::ElementKind;
 use rubmap_solid::frame::Basis;
+use rubmap_solid::integrals;
 use rubmap_solid::material::Material;
 use rubmap_solid::mesh::{Element, SectorMesh};
+use rubmap_solid::rule::MassRule;
 
 use super::pattern::Pattern;
 use super::sector::MeshedSector;
@@ -19,6 +21,19 @@ pub(super) struct Placed<'a> {
     pub(super) kind: ElementKind,
     pub(super) positions: Vec<[f64; 3]>,
     pub(super) material: &'a Material,
+    rule: MassRule,
+}
+
+impl Placed<'_> {
+    /// Mass of the element over its nodes, the same in every direction.
+    pub(super) fn mass(&self) -> DMatrix<f64> {
+        integrals::mass(self.kind, &self.positions, self.material.density, self.rule)
+    }
+
+    /// Elastic stiffness of the element in x, y, z.
+    pub(super) fn stiffness(&self) -> Blocks {
+        integrals::stiffness(self.kind, &self.positions, self.material.lame_constants())
+    }
 }
 
 /// Mesh of elements whose displacements are numbered.
@@ -28,6 +43,7 @@ pub(super) struct Placed<'a> {
 #[derive(Debug)]
 pub(super) struct Assembly<'a> {
     mesh: &'a SectorMesh,
+    rule: MassRule,
     /// Rows of the r, θ and z displacements of each node, where free; tied nodes share theirs.
     numbering: &'a [[Option<usize>; 3]],
     /// Unit vectors r, θ, z at each node.
@@ -36,12 +52,12 @@ pub(super) struct Assembly<'a> {
 
 impl<'a> Assembly<'a> {
     pub(super) fn new(sector: &'a MeshedSector, numbering: &'a [[Option<usize>; 3]]) -> Self {
-        Self { mesh: &sector.mesh, numbering, frames: sector.frames() }
+        Self { mesh: &sector.mesh, rule: sector.mass, numbering, frames: sector.frames() }
     }
 
     fn placed(&self, element: &Element) -> Placed<'a> {
         let material = &self.mesh.sets[element.set as usize].material;
-        Placed { kind: element.kind, positions: self.mesh.positions(element), material }
+        Placed { kind: element.kind, positions: self.mesh.positions(element), material, rule: self.rule }
     }
 
     /// Sums `matrix(element, e)`, (skew-)symmetric and in x, y, z, over the elements, e being their index: a value per position of

@@ -87,7 +87,7 @@ pub fn sector(file: &MeshFile, settings: &MeshSettings) -> Result<Sector, FromMe
         gyroscopic: settings.gyroscopic,
     };
     let clamped = clamped.into_iter().map(|clamped| [clamped; 3]).collect();
-    Ok(Sector { meshed: MeshedSector { mesh, clamped, contact }, facts, found })
+    Ok(Sector { meshed: MeshedSector { mesh, clamped, contact, mass: settings.mass }, facts, found })
 }
 
 impl Sector {

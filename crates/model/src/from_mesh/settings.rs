@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use rubmap_solid::material::Material;
+use rubmap_solid::rule::MassRule;
 use rubmap_wheel::dynamics::sector::Units;
 use serde::{Deserialize, Serialize};
 
@@ -48,6 +49,9 @@ pub struct MeshSettings {
     /// Largest number of contact nodes, evenly spaced.
     #[serde(default = "default_contact_nodes")]
     pub contact_nodes: usize,
+    /// Rule by which mass is integrated.
+    #[serde(default)]
+    pub mass: MassRule,
     /// Whether the model has the gyroscopic matrix that Coriolis forces need.
     #[serde(default = "default_gyroscopic")]
     pub gyroscopic: bool,
@@ -79,6 +83,7 @@ impl MeshSettings {
             clamp_set: None,
             contact_set: None,
             contact_nodes: CONTACT_NODES,
+            mass: MassRule::default(),
             gyroscopic: true,
         }
     }

@@ -2,6 +2,7 @@
 
 use rubmap_solid::element::ElementKind;
 use rubmap_solid::mesh::{Element, ElementSet, SectorMesh as SolidMesh};
+use rubmap_solid::rule::MassRule;
 use serde::{Deserialize, Serialize};
 
 use super::material::Material;
@@ -147,6 +148,11 @@ impl SectorMesh {
             elements: (0..elements.len()).map(element).collect(),
             sets: vec![ElementSet { name: SET.to_owned(), material: material.to_solid() }],
         };
-        MeshedSector { mesh, clamped: self.clamped.clone(), contact: self.contact.clone() }
+        MeshedSector {
+            mesh,
+            clamped: self.clamped.clone(),
+            contact: self.contact.clone(),
+            mass: MassRule::Consistent,
+        }
     }
 }
