@@ -13,6 +13,7 @@ pub mod error;
 mod fields;
 pub mod format;
 pub mod mesh_file;
+pub mod vtu;
 mod whole;
 
 pub use error::{MeshFileError, MeshProblem};
