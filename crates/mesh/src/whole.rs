@@ -1,6 +1,7 @@
 //! Checks that every format's mesh goes through once it is read.
 
-use crate::{MeshFile, MeshFileError, MeshProblem};
+use crate::error::{MeshFileError, MeshProblem};
+use crate::mesh_file::MeshFile;
 
 /// Checks that a mesh has solid elements and that their nodes are there; `card` is the place of elements in the file.
 pub(crate) fn check(mesh: &MeshFile, card: &str) -> Result<(), MeshFileError> {

@@ -2,9 +2,10 @@
 
 use super::columns::Columns;
 use super::lines::{Fields, Lines};
-use super::listed;
+use super::listed::listed;
+use crate::error::{MeshFileError, MeshProblem};
 use crate::fields::{integer, quoted};
-use crate::{MeshFile, MeshFileError, MeshProblem};
+use crate::mesh_file::MeshFile;
 
 /// Name of the command.
 const CARD: &str = "CMBLOCK";

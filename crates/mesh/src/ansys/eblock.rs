@@ -2,8 +2,8 @@
 
 use super::columns::Columns;
 use super::lines::{Fields, Lines};
+use crate::error::{MeshFileError, MeshProblem};
 use crate::fields::integer;
-use crate::{MeshFileError, MeshProblem};
 
 /// Name of the command.
 pub(super) const CARD: &str = "EBLOCK";

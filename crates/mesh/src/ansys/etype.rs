@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use super::lines::{Fields, Lines};
+use crate::error::{MeshFileError, MeshProblem};
 use crate::fields::{integer, quoted};
-use crate::{MeshFileError, MeshProblem};
 
 /// Element type, as ET and KEYOPT define it.
 #[derive(Debug, Default)]

@@ -1,6 +1,6 @@
 //! Lines of an archive, numbered, and the fields of a command.
 
-use crate::{MeshFileError, MeshProblem};
+use crate::error::{MeshFileError, MeshProblem};
 
 /// Lines of a file, one after the other.
 pub(super) struct Lines<'a> {

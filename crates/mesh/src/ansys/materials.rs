@@ -2,11 +2,11 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::listed;
+use super::listed::listed;
 use super::properties::Properties;
 use super::table::{Curve, Table, together};
-use crate::mesh_file::{DensityRow, ElasticRow, FileMaterial};
-use crate::{MeshFile, MeshFileError, MeshProblem};
+use crate::error::{MeshFileError, MeshProblem};
+use crate::mesh_file::{DensityRow, ElasticRow, FileMaterial, MeshFile};
 
 /// Largest relative difference of constants that are the same but for their rounding in the file.
 const ROUNDING: f64 = 1e-4;

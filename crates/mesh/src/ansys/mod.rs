@@ -8,6 +8,7 @@ mod components;
 mod eblock;
 mod etype;
 mod lines;
+mod listed;
 mod materials;
 mod nblock;
 mod properties;
@@ -26,8 +27,9 @@ use lines::{Fields, Lines};
 use properties::Properties;
 use supports::Supports;
 
-use crate::fields::quoted;
-use crate::{MeshFile, MeshFileError, MeshFormat, MeshProblem};
+use crate::error::{MeshFileError, MeshProblem};
+use crate::format::MeshFormat;
+use crate::mesh_file::MeshFile;
 
 /// Reads an archive.
 ///
@@ -134,17 +136,6 @@ impl Archive {
         }
         Ok(self.mesh)
     }
-}
-
-/// Most names that a note lists.
-const LISTED: usize = 10;
-
-/// Names in a row, the first of many.
-fn listed(names: &[String]) -> String {
-    let first: Vec<String> = names.iter().take(LISTED).map(|name| quoted(name)).collect();
-    let others = names.len() - first.len();
-    let others = if others == 0 { String::new() } else { format!(" and {others} others") };
-    format!("{}{others}", first.join(", "))
 }
 
 /// Name of the set of a material's elements, which no component has.

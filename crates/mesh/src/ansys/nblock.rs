@@ -2,8 +2,9 @@
 
 use super::columns::Columns;
 use super::lines::Lines;
+use crate::error::{MeshFileError, MeshProblem};
 use crate::fields::{integer, real};
-use crate::{MeshFile, MeshFileError, MeshProblem};
+use crate::mesh_file::MeshFile;
 
 /// Name of the command.
 const CARD: &str = "NBLOCK";

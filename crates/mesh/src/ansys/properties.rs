@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::lines::Fields;
 use super::table::Table;
-use crate::MeshProblem;
+use crate::error::MeshProblem;
 use crate::fields::{integer, quoted, real};
 
 /// Properties of all materials.

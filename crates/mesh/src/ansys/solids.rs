@@ -6,8 +6,8 @@ use rubmap_solid::natural::EDGES;
 use super::eblock::{CARD, Raw};
 use super::etype::{ElementType, ElementTypes, Fate};
 use crate::collapse::collapsed;
-use crate::mesh_file::FileElement;
-use crate::{MeshFile, MeshFileError, MeshProblem};
+use crate::error::{MeshFileError, MeshProblem};
+use crate::mesh_file::{FileElement, MeshFile};
 
 /// Puts elements into a mesh, solids only.
 pub(super) fn place(raws: &[Raw], types: &ElementTypes, mesh: &mut MeshFile) -> Result<(), MeshFileError> {
@@ -72,23 +72,20 @@ fn shaped(
 ) -> Result<(ElementKind, Vec<u64>), MeshProblem> {
     let tetrahedron = matches!(kind, ElementKind::C3D4 | ElementKind::C3D10);
     let quadratic = matches!(kind, ElementKind::C3D10 | ElementKind::C3D20 | ElementKind::C3D20R);
-    let (hexahedron, all) = if quadratic { (ElementKind::C3D20, 20) } else { (ElementKind::C3D8, 8) };
-    // Nodes behind the last that is not dropped need not be written.
-    let mut padded = nodes.to_vec();
-    while padded.len() > all && padded.last() == Some(&0) {
-        padded.pop();
-    }
-    let (kind, least) = if tetrahedron && padded.len() > kind.nodes() {
+    let hexahedron = if quadratic { ElementKind::C3D20 } else { ElementKind::C3D8 };
+    let (kind, least) = if tetrahedron && nodes.len() > kind.nodes() {
         (hexahedron, 8)
     } else {
         (kind, if tetrahedron { 4 } else { 8 })
     };
     let full = kind.nodes();
-    let corners = padded.iter().take(least).all(|&node| node != 0);
-    if padded.len() < least || padded.len() > full || !corners {
+    let corners = nodes.iter().take(least).all(|&node| node != 0);
+    if nodes.len() < least || nodes.len() > full || !corners {
         let expected = format!("{full} nodes of element {id} ({})", etype.name());
         return Err(MeshProblem::Expected { expected });
     }
+    // Dropped nodes at the end need not be written.
+    let mut padded = nodes.to_vec();
     padded.resize(full, 0);
     let found = if kind.corners() == 8 { collapsed(kind, &padded) } else { Some((kind, padded.clone())) };
     match found {

@@ -3,8 +3,9 @@
 use std::collections::BTreeMap;
 
 use super::lines::Fields;
+use crate::error::{MeshFileError, MeshProblem};
 use crate::fields::{integer, quoted, real};
-use crate::{MeshFile, MeshFileError, MeshProblem};
+use crate::mesh_file::MeshFile;
 
 /// Name of the command.
 const CARD: &str = "D";

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::MeshProblem;
+use crate::error::MeshProblem;
 
 /// Table of a property.
 #[derive(Debug, Clone)]

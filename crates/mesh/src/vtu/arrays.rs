@@ -7,10 +7,10 @@ use flate2::read::ZlibDecoder;
 use roxmltree::Node;
 
 use super::document::Appended;
-use super::numbers::{Numbers, Type};
+use super::numbers::{Numbers, Type, little};
 use super::source::Source;
+use crate::error::{MeshFileError, MeshProblem};
 use crate::fields::{integer, quoted};
-use crate::{MeshFileError, MeshProblem};
 
 /// Bytes of decoded numbers allowed for each byte of the file: grids of equal cubes take seven, and zlib could make a thousand of one.
 const EXPANSION: usize = 50;
@@ -138,11 +138,6 @@ impl<'a> Arrays<'a> {
     fn header(&self, source: &mut Source) -> Result<u64, MeshProblem> {
         source.take(self.header).map(|bytes| little(&bytes)).ok_or_else(cut)
     }
-}
-
-/// Number whose low byte comes first.
-pub(super) fn little(bytes: &[u8]) -> u64 {
-    bytes.iter().rev().fold(0, |number, &byte| number << 8 | u64::from(byte))
 }
 
 /// Refusal of data that end too early.

@@ -3,7 +3,8 @@
 use rubmap_solid::element::ElementKind;
 
 use crate::collapse::collapsed;
-use crate::{MeshFile, MeshProblem};
+use crate::error::MeshProblem;
+use crate::mesh_file::MeshFile;
 
 /// Fate of the cells of a type.
 enum Fate {

@@ -4,8 +4,8 @@ use roxmltree::Node;
 
 use super::arrays::Arrays;
 use super::numbers::Type;
+use crate::error::{MeshFileError, MeshProblem};
 use crate::fields::quoted;
-use crate::{MeshFileError, MeshProblem};
 
 /// Arrays of points that are numbers of nodes; the first found is taken.
 pub(super) const NODE_NUMBERS: [&str; 5] =

@@ -1,6 +1,6 @@
 //! Parts of a file: its XML, and the data appended behind, which need not be XML.
 
-use crate::{MeshFileError, MeshProblem};
+use crate::error::{MeshFileError, MeshProblem};
 
 /// Beginning of the element that holds appended data.
 const APPENDED: &[u8] = b"<AppendedData";

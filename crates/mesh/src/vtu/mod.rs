@@ -18,9 +18,10 @@ use arrays::Arrays;
 use data::{ELEMENT_NUMBERS, Integers, NODE_NUMBERS};
 use roxmltree::Node;
 
+use crate::error::{MeshFileError, MeshProblem};
 use crate::fields::quoted;
-use crate::mesh_file::FileElement;
-use crate::{MeshFile, MeshFileError, MeshFormat, MeshProblem};
+use crate::format::MeshFormat;
+use crate::mesh_file::{FileElement, MeshFile};
 
 /// Reads a grid.
 ///

@@ -2,8 +2,7 @@
 
 use roxmltree::Node;
 
-use super::arrays::little;
-use crate::MeshProblem;
+use crate::error::MeshProblem;
 use crate::fields::{quoted, real};
 
 /// Number type of an array.
@@ -112,4 +111,9 @@ impl Numbers {
             Self::Integers(_) => Err(MeshProblem::Expected { expected: "Float32 or Float64".to_owned() }),
         }
     }
+}
+
+/// Number whose low byte comes first.
+pub(super) fn little(bytes: &[u8]) -> u64 {
+    bytes.iter().rev().fold(0, |number, &byte| number << 8 | u64::from(byte))
 }
