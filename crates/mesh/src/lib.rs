@@ -7,12 +7,15 @@
 //! A reader carries over all that a model of a sector is made of, or refuses the file with the card and the line of what it cannot carry
 //! over: nothing is dropped in silence. Elements of lines and surfaces are left out and counted by their names. Geometry is judged elsewhere.
 
+pub mod ansys;
 pub mod collapse;
 pub mod error;
 mod fields;
 pub mod format;
 mod inp;
 pub mod mesh_file;
+pub mod vtu;
+mod whole;
 
 pub use error::{MeshFileError, MeshProblem};
 pub use format::MeshFormat;
