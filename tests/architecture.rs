@@ -7,15 +7,16 @@ use syn::visit::Visit;
 use syn::{ItemMod, ItemUse, UseTree};
 
 /// Crates of the workspace and those of its own that each may use: arrows point one way.
-const CRATES: [(&str, &[&str]); 8] = [
+const CRATES: [(&str, &[&str]); 9] = [
     ("crates/numerics", &[]),
     ("crates/wheel", &["numerics"]),
     ("crates/solid", &[]),
-    ("crates/model", &["numerics", "solid", "wheel"]),
+    ("crates/mesh", &["solid"]),
+    ("crates/model", &["mesh", "numerics", "solid", "wheel"]),
     ("crates/analysis", &["numerics", "solid", "wheel"]),
     ("crates/plot", &["analysis", "wheel"]),
     ("crates/script", &[]),
-    (".", &["analysis", "model", "numerics", "plot", "script", "solid", "wheel"]),
+    (".", &["analysis", "mesh", "model", "numerics", "plot", "script", "solid", "wheel"]),
 ];
 
 /// Crates that nothing below the service knows: HTTP, SQL, async, dates.

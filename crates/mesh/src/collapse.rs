@@ -8,7 +8,7 @@ use rubmap_solid::natural::EDGES;
 ///
 /// Corners of one edge of the hexahedron may be one node; where they are, the node on that edge is the same again, or missing, which is
 /// written as 0.
-pub fn collapsed(kind: ElementKind, nodes: &[u64]) -> Option<(ElementKind, Vec<u64>)> {
+pub(crate) fn collapsed(kind: ElementKind, nodes: &[u64]) -> Option<(ElementKind, Vec<u64>)> {
     let corners = &nodes[..8];
     // First corner of the same node, for every corner.
     let same: Vec<usize> =

@@ -1,6 +1,6 @@
 //! Numbers and names as mesh files write them.
 
-use crate::MeshProblem;
+use crate::error::MeshProblem;
 
 /// Most characters of a text that an error repeats.
 const LONGEST: usize = 60;

@@ -1,6 +1,6 @@
 //! Formats of mesh files, recognised by their content.
 
-use crate::{MeshFileError, MeshProblem};
+use crate::error::{MeshFileError, MeshProblem};
 
 /// Format of a mesh file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -7,22 +7,21 @@
 //! A reader carries over all that a model of a sector is made of, or refuses the file with the card and the line of what it cannot carry
 //! over: nothing is dropped in silence. Elements of lines and surfaces are left out and counted by their names. Geometry is judged elsewhere.
 
-pub mod ansys;
-pub mod collapse;
+mod ansys;
+mod collapse;
 pub mod error;
 mod fields;
 pub mod format;
+mod include;
 mod inp;
 pub mod mesh_file;
-pub mod vtu;
+mod vtu;
 mod whole;
 
 pub use error::{MeshFileError, MeshProblem};
 pub use format::MeshFormat;
+pub use include::Include;
 pub use mesh_file::{FileElement, FileMaterial, MeshFile};
-
-/// Source of the files that a mesh file includes.
-pub type Include<'a> = dyn Fn(&str) -> Result<Vec<u8>, String> + 'a;
 
 /// Reads a mesh file, whose format its content tells.
 ///
@@ -33,6 +32,8 @@ pub type Include<'a> = dyn Fn(&str) -> Result<Vec<u8>, String> + 'a;
 pub fn read(bytes: &[u8], include: &Include<'_>) -> Result<MeshFile, MeshFileError> {
     match format::recognised(bytes)? {
         MeshFormat::Inp => inp::read(bytes, include),
+        MeshFormat::Ansys => ansys::read(bytes),
+        MeshFormat::Vtu => vtu::read(bytes),
         _ => Err(MeshProblem::Unknown.at(0, "")),
     }
 }

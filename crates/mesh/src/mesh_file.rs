@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use rubmap_solid::element::ElementKind;
 
-use crate::MeshFormat;
+use crate::format::MeshFormat;
 
 /// Mesh of solid elements, with its sets, materials and supports.
 #[derive(Debug, Clone, PartialEq)]

@@ -35,7 +35,7 @@ use crate::mesh_file::MeshFile;
 ///
 /// # Errors
 /// [`MeshFileError`] with the line and the command at fault.
-pub fn read(bytes: &[u8]) -> Result<MeshFile, MeshFileError> {
+pub(crate) fn read(bytes: &[u8]) -> Result<MeshFile, MeshFileError> {
     let mut archive = Archive {
         mesh: MeshFile::new(MeshFormat::Ansys),
         elements: Vec::new(),

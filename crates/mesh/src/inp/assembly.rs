@@ -2,11 +2,11 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::reader::Support;
 use super::scope::Scope;
+use super::support::Support;
+use crate::error::{MeshFileError, MeshProblem};
 use crate::fields::{quoted, real};
 use crate::mesh_file::MeshFile;
-use crate::{MeshFileError, MeshProblem};
 
 /// Instance of a part: where it is put, and the sets of the assembly that name its nodes and elements.
 #[derive(Debug)]

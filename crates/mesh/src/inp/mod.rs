@@ -9,8 +9,11 @@ mod kinds;
 mod reader;
 mod scope;
 mod skipped;
+mod support;
 
-use crate::{Include, MeshFile, MeshFileError};
+use crate::error::MeshFileError;
+use crate::include::Include;
+use crate::mesh_file::MeshFile;
 
 /// Reads a deck and the files it includes.
 pub(crate) fn read(bytes: &[u8], include: &Include<'_>) -> Result<MeshFile, MeshFileError> {

@@ -6,9 +6,12 @@ use super::assembly::{Instance, assembled};
 use super::card::{Card, normal};
 use super::scope::{ElementBlock, Scope};
 use super::skipped::{REFUSED, is_harmless};
+use super::support::Support;
+use crate::error::{MeshFileError, MeshProblem};
 use crate::fields::{integer, quoted, real};
+use crate::format::MeshFormat;
+use crate::include::Include;
 use crate::mesh_file::{DensityRow, ElasticRow, MeshFile, StatedSymmetry};
-use crate::{Include, MeshFileError, MeshFormat, MeshProblem};
 
 /// Deepest nesting of `*INCLUDE`.
 const DEEPEST_INCLUDE: usize = 20;
@@ -25,14 +28,6 @@ enum Block {
     Instance,
     Axis { sectors: usize, numbers: Vec<f64> },
     Skip,
-}
-
-/// Support of a deck: a node or set, and the components that are held.
-#[derive(Debug)]
-pub(super) struct Support {
-    pub(super) target: String,
-    pub(super) components: [bool; 3],
-    pub(super) line: u64,
 }
 
 /// Reader of a deck.

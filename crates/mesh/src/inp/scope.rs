@@ -7,9 +7,9 @@ use rubmap_solid::element::ElementKind;
 use super::card::{Card, normal};
 use super::kinds::{DeckKind, kind};
 use crate::collapse::collapsed;
+use crate::error::{MeshFileError, MeshProblem};
 use crate::fields::{integer, quoted, real};
 use crate::mesh_file::{FileElement, MeshFile};
-use crate::{MeshFileError, MeshProblem};
 
 /// Nodes, elements and sets under numbers of their own.
 #[derive(Debug, Default)]

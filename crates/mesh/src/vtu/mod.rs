@@ -27,7 +27,7 @@ use crate::mesh_file::{FileElement, MeshFile};
 ///
 /// # Errors
 /// [`MeshFileError`] with the array or section at fault.
-pub fn read(bytes: &[u8]) -> Result<MeshFile, MeshFileError> {
+pub(crate) fn read(bytes: &[u8]) -> Result<MeshFile, MeshFileError> {
     let (text, appended) = document::cut(bytes)?;
     let document = document::parsed(&text)?;
     let root = document.root_element();

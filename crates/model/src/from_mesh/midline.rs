@@ -6,7 +6,9 @@ use nalgebra::Vector3;
 use rubmap_solid::mesh::SectorMesh;
 
 use super::surface::{Face, sides};
-use super::tip::Line;
+
+/// Nodes along a line, in order, with their positions.
+pub(super) type Line = Vec<(u64, [f64; 3])>;
 
 /// Points of a middle line.
 const POINTS: usize = 1001;

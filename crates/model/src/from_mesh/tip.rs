@@ -12,7 +12,7 @@ use rubmap_solid::mesh::SectorMesh;
 
 use super::cyclic::Symmetry;
 use super::error::FromMeshError;
-use super::midline::{along, midline};
+use super::midline::{Line, along, midline};
 use super::settings::MeshSettings;
 use super::surface::{Face, sides};
 
@@ -41,9 +41,6 @@ pub enum TipSource {
     /// Middle of the longest of the tips that were found, and their number.
     Found(usize),
 }
-
-/// Nodes along the tip, in order.
-pub(super) type Line = Vec<(u64, [f64; 3])>;
 
 /// Nodes along the tip from the end at the smaller radius.
 pub(super) fn tip(
