@@ -11,7 +11,9 @@ pub mod collapse;
 pub mod error;
 mod fields;
 pub mod format;
+pub mod gmsh;
 pub mod mesh_file;
+mod solids;
 
 pub use error::{MeshFileError, MeshProblem};
 pub use format::MeshFormat;
