@@ -13,6 +13,7 @@ mod fields;
 pub mod format;
 pub mod gmsh;
 pub mod mesh_file;
+pub mod nastran;
 mod solids;
 
 pub use error::{MeshFileError, MeshProblem};
