@@ -127,7 +127,8 @@ impl Piece {
         let mut fields: Vec<String> = words.by_ref().take(count).collect();
         fields.resize(count, String::new());
         let mark = words.next().unwrap_or_default();
-        if mark.parse::<f64>().is_ok() || words.any(|word| !word.is_empty()) {
+        let is_field = mark.starts_with(|c: char| c.is_ascii_digit() || ['-', '.'].contains(&c));
+        if is_field || words.any(|word| !word.is_empty()) {
             let expected = format!("no more than {count} fields between commas, and a line of continuation");
             return Err(place.error(MeshProblem::Expected { expected }, &first));
         }

@@ -75,9 +75,10 @@ impl Deck {
                 "a card that repeats the one before it",
                 "write every card in full; preprocessors can",
             )),
-            name if name.starts_with("BEGIN") => {
-                Err(card.not_carried("a superelement", "write the model without superelements"))
-            }
+            name if name.starts_with("BEGIN") => Err(card.not_carried(
+                "a second BEGIN, as superelements have it,",
+                "write the model without superelements",
+            )),
             _ => match Solid::of(card)? {
                 Some(solid) => {
                     self.solids.push(solid);

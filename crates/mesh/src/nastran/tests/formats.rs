@@ -52,6 +52,11 @@ fn marks_of_continuation_are_held_against_each_other() {
     for good in ["+A", "+", ""] {
         assert_eq!(with(&card(good)).unwrap().elements.len(), 2, "{good}");
     }
+    // Blanks within a mark, and numbers as marks between commas.
+    let blanks = card("+      1").replace("+A", "+      1");
+    for good in [blanks.as_str(), "CHEXA,2,1,1,2,3,4,5,6,+1\n+1,7,8", "CHEXA,2,1,1,2,3,4,5,6,\n,7,8,,,,,,,"] {
+        assert_eq!(with(good).unwrap().elements.len(), 2, "{good}");
+    }
     let error = with(&card("+B")).unwrap_err();
     assert_eq!(error.to_string(), "line 11 (CHEXA): expected the continuation +A behind its card");
     assert_eq!(deck("+A,1").unwrap_err().to_string(), "line 1: expected a card before its continuation");

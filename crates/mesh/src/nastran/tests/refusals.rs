@@ -48,7 +48,7 @@ fn cards_that_change_the_model() {
         ("DMIG,K", "a matrix"),
         ("PCOMPS,1", "a property of layers or of large strains"),
         ("=,*(1),=", "a card that repeats the one before it"),
-        ("BEGIN SUPER=1", "a superelement"),
+        ("BEGIN SUPER=1", "a second BEGIN, as superelements have it,"),
     ] {
         let found = refusal(cards);
         assert!(found.starts_with("line 10 (") && found.contains(&format!("): {what} cannot be")), "{found}");
