@@ -9,6 +9,7 @@ mod equivalent;
 mod findings;
 #[path = "../properties/fixed.rs"]
 mod fixed;
+mod from_mesh;
 mod gyroscopic;
 mod joints;
 mod mesh;

@@ -12,9 +12,12 @@ mod collapse;
 pub mod error;
 mod fields;
 pub mod format;
+mod gmsh;
 mod include;
 mod inp;
 pub mod mesh_file;
+mod nastran;
+mod solids;
 mod vtu;
 mod whole;
 
@@ -32,8 +35,9 @@ pub use mesh_file::{FileElement, FileMaterial, MeshFile};
 pub fn read(bytes: &[u8], include: &Include<'_>) -> Result<MeshFile, MeshFileError> {
     match format::recognised(bytes)? {
         MeshFormat::Inp => inp::read(bytes, include),
+        MeshFormat::Gmsh => gmsh::read(bytes),
+        MeshFormat::Nastran => nastran::read(bytes, include),
         MeshFormat::Ansys => ansys::read(bytes),
         MeshFormat::Vtu => vtu::read(bytes),
-        _ => Err(MeshProblem::Unknown.at(0, "")),
     }
 }

@@ -110,11 +110,6 @@ pub(super) fn assembled(
             return Err(MeshProblem::NoSuch { what: "material", name }.at(0, "*SOLID SECTION"));
         }
     }
-    for (&id, element) in &whole.elements {
-        if let Some(&node) = element.nodes.iter().find(|node| !whole.nodes.contains_key(node)) {
-            return Err(MeshProblem::NoSuchNode { element: id, node }.at(element.line, "*ELEMENT"));
-        }
-    }
     mesh.held = held(&whole, supports)?;
     let known: BTreeSet<u64> = whole.elements.keys().copied().collect();
     mesh.element_sets = (whole.element_sets.into_iter())
@@ -128,9 +123,7 @@ pub(super) fn assembled(
         let mut seen = BTreeSet::new();
         set.retain(|node| seen.insert(*node));
     });
-    if mesh.elements.is_empty() {
-        return Err(MeshProblem::NoSolids { left_out: mesh.left_out_said() }.at(0, ""));
-    }
+    crate::whole::check(&mesh, "*ELEMENT")?;
     Ok(mesh)
 }
 

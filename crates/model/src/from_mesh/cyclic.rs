@@ -21,11 +21,17 @@ const MOST_SECTORS: f64 = 400.0;
 /// Largest difference of unit normals that are still opposite: that of faces whose nodes have few digits.
 const OPPOSITE: f64 = 1e-3;
 
+/// Largest difference of unit normals of faces that are meant to fit each other.
+const ALMOST_OPPOSITE: f64 = 0.3;
+
 /// Least circumferential part of the normal of a face that has a say in the number of sectors.
 const CIRCUMFERENTIAL: f64 = 0.1;
 
 /// Least share in the area of the best candidate for another number of sectors to be considered.
 const SHARE: f64 = 0.25;
+
+/// Factor on the tolerance within which faces are meant to fit each other.
+const ALMOST: f64 = 100.0;
 
 /// Factor on the tolerance within which faces that miss each other are still told to be near.
 const NEAR: f64 = 1e3;
@@ -66,10 +72,11 @@ pub(super) fn symmetry(
     for axis in &axes {
         let about = frame(axis)?;
         let Some(sectors) = sectors.or_else(|| number(surface, &about, within)) else { continue };
-        let (fits, area) = matched(surface, &about, sectors, within);
+        let (fits, area) = matched(surface, &about, sectors, within, OPPOSITE);
         if best.as_ref().is_some_and(|(other, _)| *other >= area) || fits.is_empty() {
             continue;
         }
+        almost_alike(mesh, surface, &fits, &about, sectors, within)?;
         let (pairs, farthest) = paired(mesh, surface, &fits, &about, sectors, within)?;
         let faces = fits.iter().flat_map(|&(low, high)| [low, high]).collect();
         best = Some((area, Symmetry { axis: axis.clone(), sectors, pairs, faces, farthest }));
@@ -129,7 +136,13 @@ fn number(surface: &[Face], axis: &AxisFrame, within: f64) -> Option<usize> {
 }
 
 /// Pairs (low face, high face) for a number of sectors, and the area of the low ones.
-fn matched(surface: &[Face], axis: &AxisFrame, sectors: usize, within: f64) -> (Vec<(usize, usize)>, f64) {
+fn matched(
+    surface: &[Face],
+    axis: &AxisFrame,
+    sectors: usize,
+    within: f64,
+    opposite: f64,
+) -> (Vec<(usize, usize)>, f64) {
     let centres = surface.iter().zip(0..).map(|(face, k)| (k, face.centre.into())).collect();
     let centres = NodeGrid::new(centres, within);
     let angle = TAU / sectors as f64;
@@ -143,12 +156,43 @@ fn matched(surface: &[Face], axis: &AxisFrame, sectors: usize, within: f64) -> (
         let normal = turned.tr_mul(&face.normal);
         // Of two sectors each face is turned onto the other: the low one looks against the rotation.
         let is_low = sectors > 2 || face.cylindrical_normal(axis)[1] < 0.0;
-        if is_low && (normal + surface[high].normal).norm() <= OPPOSITE {
+        if is_low && (normal + surface[high].normal).norm() <= opposite {
             fits.push((low, high));
             area += face.area;
         }
     }
     (fits, area)
+}
+
+/// Refuses faces that almost fit each other, beside those that do: they are meshed with other nodes.
+fn almost_alike(
+    mesh: &SectorMesh,
+    surface: &[Face],
+    fits: &[(usize, usize)],
+    axis: &AxisFrame,
+    sectors: usize,
+    within: f64,
+) -> Result<(), FromMeshError> {
+    let taken: HashSet<usize> = fits.iter().flat_map(|&(low, high)| [low, high]).collect();
+    let left: Vec<Face> =
+        (surface.iter().zip(0..)).filter(|(_, k)| !taken.contains(k)).map(|(face, _)| face.clone()).collect();
+    let (near, _) = matched(&left, axis, sectors, ALMOST * within, ALMOST_OPPOSITE);
+    let Some(&(low, high)) = near.iter().find(|(low, _)| left[*low].cylindrical_normal(axis)[1] < 0.0) else {
+        return Ok(());
+    };
+    let to = |node: u32| axis.turn_point(mesh.nodes[node as usize], TAU / sectors as f64);
+    let partners = grid(mesh, left[high].skin.nodes.iter().copied(), within);
+    let off = left[low].skin.nodes.iter().map(|&node| (node, partners.nearest_of_all(to(node))));
+    let Some((node, nearest)) = off.max_by(|a, b| a.1.distance.total_cmp(&b.1.distance)) else {
+        return Ok(());
+    };
+    Err(FromMeshError::NoPartner {
+        node: mesh.node_ids[node as usize],
+        sectors,
+        nearest: mesh.node_ids[nearest.node as usize],
+        distance: nearest.distance,
+        tolerance: within,
+    })
 }
 
 /// Pairs of nodes on the faces, and the largest distance of a turned low node from its partner.
@@ -208,7 +252,7 @@ fn near_miss(
     for axis in axes {
         let about = frame(axis)?;
         let Some(sectors) = sectors.or_else(|| number(surface, &about, NEAR * within)) else { continue };
-        let (fits, _) = matched(surface, &about, sectors, NEAR * within);
+        let (fits, _) = matched(surface, &about, sectors, NEAR * within, ALMOST_OPPOSITE);
         let turned = |face: &Face| about.turn_point(face.centre.into(), TAU / sectors as f64);
         let away =
             fits.iter().map(|&(low, high)| distance(turned(&surface[low]), surface[high].centre.into()));

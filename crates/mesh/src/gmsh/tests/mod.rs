@@ -1,0 +1,5 @@
+mod damage;
+mod files;
+mod kinds;
+mod refusals;
+mod sets;

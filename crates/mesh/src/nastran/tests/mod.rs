@@ -1,0 +1,9 @@
+mod damage;
+mod decks;
+mod formats;
+mod kinds;
+mod materials;
+mod refusals;
+mod sets;
+mod supports;
+mod systems;
