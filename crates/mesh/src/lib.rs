@@ -11,6 +11,7 @@ pub mod collapse;
 pub mod error;
 mod fields;
 pub mod format;
+pub mod matrices;
 pub mod mesh_file;
 
 pub use error::{MeshFileError, MeshProblem};
