@@ -22,6 +22,7 @@ mod lines;
 mod mapping;
 mod market;
 mod op4;
+mod op4_binary;
 mod op4_columns;
 mod op4_header;
 mod raw;

@@ -1,21 +1,16 @@
 //! Columns of a matrix of Nastran's OUTPUT4 in text form: whole ones, or strings of rows.
 
+use std::borrow::Cow;
+
 use crate::error::{MeshFileError, MeshProblem};
 use crate::fields;
 
 use super::fortran::each_field;
 use super::lines::Lines;
-use super::op4_header::{FORMAT, Header, part};
-
-/// Receiver of an entry: line, row and column from 0, and text.
-type Take<'a> = dyn FnMut(u64, u32, u32, &str) -> Result<(), MeshProblem> + 'a;
+use super::op4_header::{FORMAT, Header, Number, Take, part, string_head};
 
 /// Reads the columns of a matrix, to the one after the last that marks its end.
-pub(super) fn read(
-    lines: &mut Lines<'_>,
-    header: &Header,
-    mut take: impl FnMut(u64, u32, u32, &str) -> Result<(), MeshProblem>,
-) -> Result<(), MeshFileError> {
+pub(super) fn read(lines: &mut Lines<'_>, header: &Header, take: &mut Take<'_>) -> Result<(), MeshFileError> {
     loop {
         let (number, line) = next(lines, "a column")?;
         let field = |index: usize, expected| {
@@ -28,24 +23,13 @@ pub(super) fn read(
         if column > header.columns {
             return each_field(lines, header.layout, count, FORMAT, |_, _| Ok(()));
         }
-        let index = column.checked_sub(1).and_then(|index| u32::try_from(index).ok());
-        let refused = || MeshProblem::NotA { text: column.to_string(), expected: "a column of the matrix" };
-        let index = index.ok_or_else(|| refused().at(number, FORMAT))?;
+        let column = header.column(column).map_err(|problem| problem.at(number, FORMAT))?;
         if row > 0 {
-            run(lines, header, Run { row, column: index, numbers: count }, &mut take)?;
+            run(lines, header, (row, column), count, take)?;
         } else {
-            strings(lines, header, index, count, &mut take)?;
+            strings(lines, header, column, count, take)?;
         }
     }
-}
-
-/// Run of numbers down a column.
-struct Run {
-    /// First row, from 1.
-    row: u64,
-    /// Column, from 0.
-    column: u32,
-    numbers: u64,
 }
 
 /// Reads the strings of a column, each with its head, until `words` are used up.
@@ -60,50 +44,39 @@ fn strings(
     while left > 0 {
         let (number, line) = next(lines, "a string of entries")?;
         let integer = |text| fields::integer(text, "the head of a string of entries");
-        let head = if header.long_heads {
-            integer(part(&line, 0, 8))
-                .and_then(|length| Ok((length.checked_sub(1), integer(part(&line, 8, 16))?)))
-        } else {
-            integer(&line).map(|both| ((both >> 16).checked_sub(1), both & 0xffff))
+        let head = || {
+            if header.long_heads {
+                string_head(true, integer(part(&line, 0, 8))?, integer(part(&line, 8, 16))?, left)
+            } else {
+                string_head(false, integer(&line)?, 0, left)
+            }
         };
-        let (length, row) = head.map_err(|problem| problem.at(number, FORMAT))?;
-        let length_of_head = if header.long_heads { 2 } else { 1 };
-        let rest = length.and_then(|length| left.checked_sub(length.checked_add(length_of_head)?));
-        let (Some(length), Some(rest)) = (length, rest) else {
-            let expected = "the head of a string that fits into its column";
-            let problem = MeshProblem::NotA { text: fields::quoted(line.trim()), expected };
-            return Err(problem.at(number, FORMAT));
-        };
-        left = rest;
-        let numbers = length / header.words() * header.parts();
-        run(lines, header, Run { row, column, numbers }, take)?;
+        let head = head().map_err(|problem| problem.at(number, FORMAT))?;
+        left = head.words_left;
+        let numbers = if header.is_single() { head.words } else { head.words / 2 };
+        run(lines, header, (head.row, column), numbers, take)?;
     }
     Ok(())
 }
 
-/// Reads a run of numbers.
-fn run(lines: &mut Lines<'_>, header: &Header, run: Run, take: &mut Take<'_>) -> Result<(), MeshFileError> {
-    let first = run.row.checked_sub(1);
-    let end = first.and_then(|first| first.checked_add(run.numbers / header.parts()));
-    let (Some(first), true) = (first, end.is_some_and(|end| end <= header.rows)) else {
-        let expected =
-            format!("rows 1 to {}, not {} numbers from row {} on", header.rows, run.numbers, run.row);
-        return Err(MeshProblem::Expected { expected }.at(lines.number(), FORMAT));
-    };
-    let mut place = 0;
-    each_field(lines, header.layout, run.numbers, FORMAT, |line, field| {
-        let row = first + place / header.parts();
-        place += 1;
-        let too_many = || MeshProblem::NotA { text: row.to_string(), expected: "a row of the matrix" };
-        take(line, u32::try_from(row).map_err(|_| too_many())?, run.column, field)
+/// Reads so many numbers from a row of a column on.
+fn run(
+    lines: &mut Lines<'_>,
+    header: &Header,
+    (row, column): (u64, u32),
+    numbers: u64,
+    take: &mut Take<'_>,
+) -> Result<(), MeshFileError> {
+    let first = header.first_row(row, numbers).map_err(|problem| problem.at(lines.number(), FORMAT))?;
+    let mut places = 0..;
+    each_field(lines, header.layout, numbers, FORMAT, |line, field| {
+        let place = places.next().unwrap_or_default();
+        take(line, header.row(first, place)?, column, Number::Text(field))
     })
 }
 
 /// Next line.
-fn next<'a>(
-    lines: &mut Lines<'a>,
-    expected: &str,
-) -> Result<(u64, std::borrow::Cow<'a, str>), MeshFileError> {
+fn next<'a>(lines: &mut Lines<'a>, expected: &str) -> Result<(u64, Cow<'a, str>), MeshFileError> {
     let cut = MeshProblem::CutShort { expected: expected.to_owned() };
     let number = lines.number();
     lines.next().ok_or_else(|| cut.at(number, FORMAT))

@@ -1,4 +1,4 @@
-//! Header of a matrix of Nastran's OUTPUT4 in text form.
+//! Header of a matrix of Nastran's OUTPUT4, and the heads of the strings of its columns.
 
 use crate::error::MeshProblem;
 use crate::fields;
@@ -11,7 +11,7 @@ use super::raw::Triangles;
 pub(super) const FORMAT: &str = "Nastran OUTPUT4";
 
 /// Layout of numbers where the header tells none.
-const USUAL: Layout = Layout { per_line: 5, width: 16 };
+pub(super) const USUAL: Layout = Layout { per_line: 5, width: 16 };
 
 /// Number of rows from which the heads of strings are in the long form in any case.
 const LONG: u64 = 65_536;
@@ -42,9 +42,14 @@ impl Header {
         let kind = whole(part(line, 24, 32), "the type of the entries")?;
         let format = part(line, 40, line.len());
         let layout = if format.is_empty() { USUAL } else { Layout::parsed(format)? };
-        let long_heads = rows < 0 || rows.unsigned_abs() >= LONG;
         let name = part(line, 32, 40).to_owned();
-        Ok(Self { name, columns, rows: rows.unsigned_abs(), form, kind, layout, long_heads })
+        Ok(Self::new(name, columns, rows, form, kind, layout))
+    }
+
+    /// Header of a matrix, whose number of rows is negative if the heads of strings are long.
+    pub(super) fn new(name: String, columns: u64, rows: i64, form: i64, kind: i64, layout: Layout) -> Self {
+        let long_heads = rows < 0 || rows.unsigned_abs() >= LONG;
+        Self { name, columns, rows: rows.unsigned_abs(), form, kind, layout, long_heads }
     }
 
     /// Triangles that the file holds, of a matrix that is square, real and stored in columns.
@@ -73,18 +78,85 @@ impl Header {
         }
     }
 
-    /// Number of words that an entry counts in the heads of strings.
-    pub(super) fn words(&self) -> u64 {
-        // Numbers of double precision are two words, complex ones twice as many.
-        match self.kind {
-            1 => 1,
-            2 | 3 => 2,
-            _ => 4,
-        }
+    /// Whether numbers are of one word, not two.
+    pub(super) fn is_single(&self) -> bool {
+        matches!(self.kind, 1 | 3)
     }
 
-    /// Number of written numbers of an entry.
-    pub(super) fn parts(&self) -> u64 {
+    /// Number of written numbers of an entry: a complex one has two.
+    fn parts(&self) -> u64 {
         if matches!(self.kind, 1 | 2) { 1 } else { 2 }
     }
+
+    /// Column from 0 of one from 1.
+    pub(super) fn column(&self, column: u64) -> Result<u32, MeshProblem> {
+        let index = column.checked_sub(1).and_then(|index| u32::try_from(index).ok());
+        let expected = "a column of the matrix";
+        index.ok_or_else(|| MeshProblem::NotA { text: column.to_string(), expected })
+    }
+
+    /// Row from 0 of one from 1, from which so many numbers fit into the matrix.
+    pub(super) fn first_row(&self, row: u64, numbers: u64) -> Result<u64, MeshProblem> {
+        let first = row.checked_sub(1);
+        let fits =
+            |first: &u64| first.checked_add(numbers / self.parts()).is_some_and(|end| end <= self.rows);
+        let refused = || MeshProblem::Expected {
+            expected: format!("rows 1 to {}, not {numbers} numbers from row {row} on", self.rows),
+        };
+        first.filter(fits).ok_or_else(refused)
+    }
+
+    /// Row of the number at a place of a run.
+    pub(super) fn row(&self, first: u64, place: u64) -> Result<u32, MeshProblem> {
+        let row = first + place / self.parts();
+        let expected = "a row of the matrix";
+        u32::try_from(row).map_err(|_| MeshProblem::NotA { text: row.to_string(), expected })
+    }
+}
+
+/// Receiver of a number: line, row and column from 0.
+pub(super) type Take<'a> = dyn FnMut(u64, u32, u32, Number<'_>) -> Result<(), MeshProblem> + 'a;
+
+/// Number as a file has it.
+pub(super) enum Number<'a> {
+    Text(&'a str),
+    Binary(f64),
+}
+
+impl Number<'_> {
+    /// Value, which is finite.
+    pub(super) fn value(&self) -> Result<f64, MeshProblem> {
+        match self {
+            Self::Text(text) => fields::real(text, "an entry"),
+            Self::Binary(value) if value.is_finite() => Ok(*value),
+            Self::Binary(value) => Err(MeshProblem::NotA { text: value.to_string(), expected: "an entry" }),
+        }
+    }
+}
+
+/// Head of a string.
+pub(super) struct StringHead {
+    /// Row, from 1.
+    pub(super) row: u64,
+    /// Words of its numbers.
+    pub(super) words: u64,
+    /// Words of the column that are left after the string.
+    pub(super) words_left: u64,
+}
+
+/// Head of a string: length and row in two numbers (BIGMAT), or in the first alone, as 65536 times the length and the row.
+pub(super) fn string_head(
+    long: bool,
+    first: u64,
+    second: u64,
+    words_left: u64,
+) -> Result<StringHead, MeshProblem> {
+    // A length counts one word of the head; a column counts all.
+    let (length, row, head) = if long { (first, second, 2) } else { (first >> 16, first & 0xffff, 1) };
+    let words = length.checked_sub(1);
+    let left = words.and_then(|words| words_left.checked_sub(words.checked_add(head)?));
+    let expected = "the head of a string that fits into its column";
+    let refused = || MeshProblem::NotA { text: format!("{length}, {row}"), expected };
+    let (words, words_left) = words.zip(left).ok_or_else(refused)?;
+    Ok(StringHead { row, words, words_left })
 }

@@ -4,6 +4,7 @@ use crate::error::{MeshFileError, MeshProblem};
 use crate::{fields, format};
 
 use super::lines::{Lines, words};
+use super::op4_binary;
 use super::op4_header::Header;
 
 /// Format of a matrix file.
@@ -25,6 +26,9 @@ pub(super) enum MatrixFormat {
 /// # Errors
 /// [`MeshProblem::NotAMesh`] for a file of another known kind, [`MeshProblem::UnknownMatrix`] for all others.
 pub(super) fn recognised(bytes: &[u8]) -> Result<MatrixFormat, MeshFileError> {
+    if op4_binary::is_binary(bytes) {
+        return Ok(MatrixFormat::Op4);
+    }
     let mut first: Vec<String> = Vec::new();
     first.extend(Lines::new(bytes).take(4).map(|(_, line)| line.trim_end().chars().take(200).collect()));
     let line = |index: usize| first.get(index).map(String::as_str).unwrap_or_default();
@@ -68,11 +72,14 @@ fn by_first_entry(bytes: &[u8]) -> Option<MatrixFormat> {
 
 /// Refusal of a file that is no matrix of a known format.
 fn other(bytes: &[u8]) -> MeshProblem {
-    // A record of a Fortran program is between its lengths; that of the header is 24.
-    if bytes.starts_with(&[24, 0, 0, 0]) || bytes.starts_with(&[0, 0, 0, 24]) {
+    // The length of the header in the order of bytes of other machines, or with integers of eight bytes.
+    if bytes.starts_with(&[0, 0, 0, 24])
+        || bytes.starts_with(&[48, 0, 0, 0])
+        || bytes.starts_with(&[0, 0, 0, 48])
+    {
         return MeshProblem::NotAMesh {
-            found: "an OUTPUT4 file of Nastran in binary form",
-            advice: "write it in text form: ASSIGN OUTPUT4='…',FORMATTED",
+            found: "a binary file of a big-endian program, or of one with integers of eight bytes",
+            advice: "write an OUTPUT4 file in text form: ASSIGN OUTPUT4='…',FORMATTED",
         };
     }
     let begins =

@@ -1,5 +1,6 @@
 //! Tests of all formats together.
 
+mod binary;
 mod hostile;
 mod refusals;
 mod samples;

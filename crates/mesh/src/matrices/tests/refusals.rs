@@ -139,7 +139,7 @@ fn files_of_other_kinds() {
     );
     refused("BEGIN BULK\nGRID,1,,0.,0.,0.\n", None, "this is Nastran bulk data without a DMIG entry");
     refused("*USER ELEMENT,NODES=4,LINEAR\n", None, "this is the matrix of a substructure");
-    refused("\u{18}\0\0\0\u{4}", None, "this is an OUTPUT4 file of Nastran in binary form");
+    refused("\0\0\0\u{18}\u{4}", None, "this is a binary file of a big-endian program");
     refused("", None, "this is no matrix file of a known format");
     refused("hello", None, "this is no matrix file of a known format");
 }
