@@ -28,12 +28,9 @@ pub(super) fn finished(raw: RawMatrix, format: &'static str) -> Result<FileMatri
         let expected = "rows of nodes in x, y or z".to_owned();
         return Err(MeshProblem::Expected { expected }.at(0, format));
     }
-    let mut entries = Vec::new();
-    for entry in raw.entries {
-        if let Some(entry) = kept(&raw.dofs, &fates, entry, format)? {
-            entries.push(entry);
-        }
-    }
+    let entries = raw.entries.into_iter();
+    let entries = entries.filter_map(|entry| kept(&raw.dofs, &fates, entry, format).transpose());
+    let entries = entries.collect::<Result<Vec<RawEntry>, _>>()?;
     let entries = fold::lower(&rows, entries, raw.triangles, format)?;
     let mut clamped: Vec<MatrixRow> = Vec::new();
     let (mut rotations, mut abstracts) = (0, 0);
@@ -63,6 +60,7 @@ fn fates(raw: &RawMatrix) -> (Vec<MatrixRow>, Vec<Fate>) {
     for (index, dof) in raw.dofs.iter().enumerate() {
         fates.push(match dof.kind() {
             DofKind::Rotation => Fate::Rotation,
+            // Displacements become clamped or kept rows below.
             DofKind::Translation(_) | DofKind::Abstract => Fate::Abstract,
         });
         if let DofKind::Translation(row) = dof.kind() {

@@ -35,7 +35,7 @@ use crate::error::{MeshFileError, MeshProblem};
 pub use file_matrix::{FileMatrix, MatrixRow};
 use recognise::MatrixFormat;
 
-/// Reads the only matrix of a file. A mapping is asked for where rows have numbers only, and not looked at otherwise.
+/// Reads the only matrix of a file. A mapping is asked for where rows have numbers only; one that is not needed is left out with a note.
 ///
 /// # Errors
 /// [`MeshFileError`] with the line of an entry that cannot be read or carried over.
@@ -55,9 +55,16 @@ pub fn read_named(
 ) -> Result<FileMatrix, MeshFileError> {
     let format = recognise::recognised(bytes)?;
     let needed = |found, advice| mapping.ok_or_else(|| MeshProblem::NotAMesh { found, advice }.at(0, ""));
+    let named = |raw, format| {
+        let mut matrix = kept::finished(raw, format)?;
+        if mapping.is_some() {
+            matrix.notes.push("Mapping not read: the matrix names its nodes itself.".to_owned());
+        }
+        Ok(matrix)
+    };
     match format {
-        MatrixFormat::AbaqusLabels => kept::finished(abaqus::read_labels(bytes)?, abaqus::FORMAT),
-        MatrixFormat::Dmig => kept::finished(dmig::read(bytes, name)?, dmig::FORMAT),
+        MatrixFormat::AbaqusLabels => named(abaqus::read_labels(bytes)?, abaqus::FORMAT),
+        MatrixFormat::Dmig => named(dmig::read(bytes, name)?, dmig::FORMAT),
         MatrixFormat::AbaqusCoordinates => {
             let mapping = needed(
                 "a matrix of Abaqus in FORMAT=COORDINATE, whose rows name no nodes",

@@ -69,3 +69,10 @@ fn mirrored_entries_may_differ_by_rounding() {
     let matrix = read(text.as_bytes(), Some(b"1 5 UX\n2 5 UY")).unwrap();
     assert_eq!(matrix.entries[1], (1, 0, 1.00000000001));
 }
+
+#[test]
+fn a_mapping_that_is_not_needed_is_told() {
+    let (text, ..) = SAMPLES[0];
+    let matrix = read(text.as_bytes(), Some(b"no mapping")).unwrap();
+    assert_eq!(matrix.notes, ["Mapping not read: the matrix names its nodes itself."]);
+}
