@@ -8,12 +8,13 @@ use std::path::Path;
 use std::sync::Arc;
 
 use futures::{Stream, StreamExt};
-use tempfile::TempPath;
+use tempfile::{NamedTempFile, TempPath};
 use tokio::io::AsyncWriteExt;
 use tokio_util::bytes::Bytes;
 
 use crate::analysis::run::ModelFacts;
 use crate::dynamics::nodes::SectorNode;
+use crate::from_mesh::{self, FromMeshError, MeshSettings, Sector};
 use crate::memory::Memory;
 use crate::package::raw::RawPackage;
 use crate::package::{self, Limits, PackageError};
@@ -76,6 +77,54 @@ impl CheckedPackage {
         let facts = ModelFacts::of_package(&read.sector, read.mesh.as_ref(), &read.findings);
         Ok(Self { facts, id: read.digest, file })
     }
+
+    /// Assembles the matrices of a sector into `file`, beside the models, and reads and checks the package.
+    fn assemble(sector: &Sector, file: NamedTempFile, limits: &Limits) -> Result<Self, PackageError> {
+        let message =
+            |error: FromMeshError| PackageError::Mesh { file: None, line: None, message: error.to_string() };
+        let made = sector.package().map_err(message)?;
+        let (handle, path) = file.into_parts();
+        write_to(handle, &made)?;
+        drop(made);
+        let mut checked = Self::read(path, limits)?;
+        checked.facts.found = sector.found.to_string().lines().map(ToOwned::to_owned).collect();
+        Ok(checked)
+    }
+}
+
+/// Upload before it is checked.
+#[derive(Debug)]
+pub enum Upload {
+    /// Package, with matrices or with a mesh file.
+    Package(TempPath),
+    /// Bare mesh, with the settings of its model.
+    Mesh(TempPath, Box<MeshSettings>),
+}
+
+/// Upload that was read.
+enum Received {
+    Checked(CheckedPackage),
+    /// Sector whose matrices are not assembled yet.
+    Sector(Sector),
+}
+
+impl Upload {
+    fn file(&self) -> &TempPath {
+        let (Self::Package(file) | Self::Mesh(file, _)) = self;
+        file
+    }
+
+    fn read(self, limits: &Limits) -> Result<Received, PackageError> {
+        match self {
+            Self::Package(file) => match from_mesh::sector_of_package(&file, limits)? {
+                Some(sector) => Ok(Received::Sector(sector)),
+                None => CheckedPackage::read(file, limits).map(Received::Checked),
+            },
+            Self::Mesh(file, settings) => {
+                from_mesh::sector_of_mesh(&std::fs::read(&file)?, &settings).map(Received::Sector)
+            }
+        }
+    }
 }
 
 impl Importer {
@@ -136,20 +185,33 @@ impl Importer {
         }
     }
 
-    /// Reads and checks an upload.
-    pub async fn check(
-        &self,
-        upload: TempPath,
-    ) -> Result<Result<CheckedPackage, Box<PackageError>>, Panicked> {
+    /// Reads and checks an upload; assembles the matrices of a mesh.
+    pub async fn check(&self, upload: Upload) -> Result<Result<CheckedPackage, Box<PackageError>>, Panicked> {
         // The expanded size is not known yet; texts of numbers shrink to a fifth or less.
-        let bytes = upload.metadata().map_or(0, |file| file.len().saturating_mul(EXPANSION));
+        let bytes = upload.file().metadata().map_or(0, |file| file.len().saturating_mul(EXPANSION));
         let memory = self.memory.hold_up_to(bytes).await;
         let limits = self.limits.clone();
         let read = move || {
             let _memory = memory;
-            CheckedPackage::read(upload, &limits).map_err(Box::new)
+            upload.read(&limits).map_err(Box::new)
         };
-        self.threads.run_parallel(read).await
+        let sector = match self.threads.run_parallel(read).await? {
+            Ok(Received::Sector(sector)) => sector,
+            Ok(Received::Checked(checked)) => return Ok(Ok(checked)),
+            Err(error) => return Ok(Err(error)),
+        };
+        let memory = self.memory.hold_up_to(sector.assembly_bytes()).await;
+        let file = match self.store.new_upload().await {
+            Ok(file) => file,
+            Err(source) => return Ok(Err(Box::new(source.into()))),
+        };
+        // Made here, the package may be larger than what may be uploaded.
+        let limits = Limits::default();
+        let assemble = move || {
+            let _memory = memory;
+            CheckedPackage::assemble(&sector, file, &limits).map_err(Box::new)
+        };
+        self.threads.run_parallel(assemble).await
     }
 
     /// Stores a package as a model of `owner`; returns the model and whether it is new. May be repeated where the disk was full.

@@ -51,7 +51,7 @@ impl Given {
     }
 }
 
-/// Labels of an uploaded package.
+/// Labels of an upload, and settings of a bare mesh.
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 pub(super) struct LabelQuery {
@@ -61,6 +61,9 @@ pub(super) struct LabelQuery {
     tags: Option<String>,
     /// Notes on an uploaded package: anything worth remembering, in up to 4000 characters.
     notes: Option<String>,
+    /// Settings of the model of a bare mesh (`application/octet-stream`): a JSON object of the schema `MeshSettings`; `top_speed_rad_s` at
+    /// least.
+    pub(super) settings: Option<String>,
 }
 
 impl LabelQuery {
@@ -81,9 +84,14 @@ impl LabelQuery {
         }
     }
 
-    /// Whether the query has no labels.
+    /// Name of the model, if the query has one.
+    pub(super) fn name(&self) -> Option<&str> {
+        self.name.as_deref()
+    }
+
+    /// Whether the query has neither labels nor settings.
     pub(super) fn is_empty(&self) -> bool {
-        self.name.is_none() && self.tags.is_none() && self.notes.is_none()
+        self.name.is_none() && self.tags.is_none() && self.notes.is_none() && self.settings.is_none()
     }
 }
 

@@ -18,8 +18,9 @@ use super::problem::{Kind, Problem, excerpt};
 use super::state::AppState;
 use crate::analysis::result::ReductionReport;
 use crate::analysis::run::ModelFacts;
+use crate::from_mesh::MeshSettings;
 use crate::impeller::ImpellerRequest;
-use crate::import::CheckedPackage;
+use crate::import::{CheckedPackage, Upload};
 use crate::kinds::generation::MODEL_GENERATION;
 use crate::store::idempotency::Answer;
 use crate::store::labels::Labels;
@@ -27,6 +28,8 @@ use crate::store::models::{Deletion, ModelFilter, StoredModel};
 use crate::tokens::Principal;
 
 const JSON: &str = "application/json";
+/// Media type of a bare mesh.
+const MESH: &str = "application/octet-stream";
 
 /// Model with its facts and labels.
 #[derive(Debug, Serialize, ToSchema)]
@@ -90,6 +93,12 @@ pub(super) struct ModelList {
 #[expect(dead_code, reason = "describes the body in the OpenAPI document only")]
 pub(super) struct PackageZip(Vec<u8>);
 
+/// Mesh of one sector: CalculiX or Abaqus (.inp), Gmsh (.msh), Nastran (.bdf), Ansys (.cdb) or VTK (.vtu).
+#[derive(ToSchema)]
+#[schema(value_type = String, format = Binary)]
+#[expect(dead_code, reason = "describes the body in the OpenAPI document only")]
+pub(super) struct MeshBytes(Vec<u8>);
+
 impl From<StoredModel> for ModelBody {
     fn from(model: StoredModel) -> Self {
         let StoredModel { id, facts, labels, size_bytes, created_at, .. } = model;
@@ -104,6 +113,10 @@ impl From<StoredModel> for ModelBody {
 /// A package (`application/zip`) is checked completely before it is stored. A package whose content is known already, whatever its
 /// name and compression, is not stored twice.
 ///
+/// A mesh of one sector becomes a model, too: in a package whose `sector.json` has `mesh_file` and the other fields of `MeshSettings` instead
+/// of matrices, or bare (`application/octet-stream`) with the settings in the query. Its matrices are assembled here; `found` of the model lists
+/// what was found in the mesh.
+///
 /// Parameters of the generator (`application/json`; the preset supplies those that are left out) become a job of kind
 /// `model_generation`. When it is successful its `model` is the id of the model, which is that of an uploaded package with the same
 /// content.
@@ -113,8 +126,9 @@ impl From<StoredModel> for ModelBody {
 #[utoipa::path(post, path = "/v1/models", operation_id = "create_model", tag = "models",
     params(LabelQuery, ("Idempotency-Key" = Option<String>, Header,
         description = "Repeating the request with this key repeats its answer.")),
-    request_body(description = "The model package, one impeller sector; or parameters of the generator.", content(
+    request_body(description = "The model package, one impeller sector; its bare mesh; or parameters of the generator.", content(
         (PackageZip = "application/zip"),
+        (MeshBytes = "application/octet-stream"),
         (ImpellerRequest = "application/json"),
     )),
     responses(
@@ -130,8 +144,8 @@ impl From<StoredModel> for ModelBody {
             content_type = "application/problem+json"),
         (status = 413, description = "The upload is larger than the service allows.", body = Problem,
             content_type = "application/problem+json"),
-        (status = 415, description = "The body is declared as neither application/zip nor \
-            application/json.", body = Problem,
+        (status = 415, description = "The body is declared as none of application/zip, \
+            application/octet-stream and application/json.", body = Problem,
             content_type = "application/problem+json"),
         (status = 422, description = "The package is not valid, `errors` names file and line or field; or a parameter \
             is not, `errors` points at it. Or the idempotency key belongs to another request.", body = Problem,
@@ -144,7 +158,7 @@ pub(super) async fn create_model(
     Parameters(query): Parameters<LabelQuery>,
     request: Request,
 ) -> Result<Response, Problem> {
-    expect_media_type(request.headers(), &["application/zip", "application/x-zip-compressed", JSON])?;
+    expect_media_type(request.headers(), &["application/zip", "application/x-zip-compressed", MESH, JSON])?;
     if is_media_type(request.headers(), JSON) {
         if !query.is_empty() {
             let detail = "beside parameters of the generator name, tags and notes are fields of the body";
@@ -155,6 +169,7 @@ pub(super) async fn create_model(
     }
     let importer = &state.importer;
     importer.check_size(declared_bytes(request.headers()))?;
+    let settings = mesh_settings(&query, is_media_type(request.headers(), MESH))?;
     let labels = query.labels()?;
     let path = request.uri().path_and_query().map_or("", PathAndQuery::as_str);
     let mut digest = idempotency::start(path);
@@ -164,6 +179,10 @@ pub(super) async fn create_model(
     if let Some(response) = key.replay(&state.store, &whose, &fingerprint).await? {
         return Ok(response);
     }
+    let upload = match settings {
+        Some(settings) => Upload::Mesh(upload, Box::new(settings)),
+        None => Upload::Package(upload),
+    };
     let package = importer.check(upload).await??;
     let (model, new) = importer.store(&whose.owner, state.limits, &labels, &package).await??;
     let CheckedPackage { facts, id, .. } = &package;
@@ -180,6 +199,27 @@ pub(super) async fn create_model(
         state.store.insert_answer(&kept).await?;
     }
     Ok(idempotency::respond(&answer))
+}
+
+/// Settings of a bare mesh, which its upload needs and no other has.
+fn mesh_settings(query: &LabelQuery, is_mesh: bool) -> Result<Option<MeshSettings>, Problem> {
+    let wrong = |message: String| Problem::parameter("settings", message);
+    match (&query.settings, is_mesh) {
+        (None, false) => Ok(None),
+        (Some(_), false) => Err(wrong(format!(
+            "settings are those of a bare mesh, which is sent as {MESH}; a package has them in sector.json"
+        ))),
+        (None, true) => {
+            let least = r#"{"top_speed_rad_s": 5000}"#;
+            Err(wrong(format!("a bare mesh needs the settings of its model, {least} at least")))
+        }
+        (Some(text), true) => {
+            let mut settings: MeshSettings =
+                serde_json::from_str(text).map_err(|error| wrong(error.to_string()))?;
+            settings.name = settings.name.or_else(|| query.name().map(ToOwned::to_owned));
+            Ok(Some(settings))
+        }
+    }
 }
 
 /// List models.

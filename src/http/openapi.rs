@@ -7,6 +7,7 @@ use utoipa::OpenApi;
 
 use super::kinds::Receipt;
 use super::state::AppState;
+use crate::from_mesh::MeshSettings;
 
 /// Parts of the document beside its paths.
 #[derive(OpenApi)]
@@ -24,7 +25,7 @@ use super::state::AppState;
             the service's, and with 408 if its body stops coming. Every answer has an `X-Request-Id`, which is the client's \
             own if it sent one of 1 to 64 visible ASCII characters, and under which the service's log has the request.",
     ),
-    components(schemas(Receipt)),
+    components(schemas(Receipt, MeshSettings)),
     tags(
         (name = "models", description = "Impeller sectors."),
         (name = "jobs", description = "Computations on them."),

@@ -400,6 +400,7 @@ mod tests {
             in_si: None,
             digits: None,
             warnings: Vec::new(),
+            found: Vec::new(),
         };
         let upload = store.new_upload().await.unwrap().into_temp_path();
         std::fs::write(&upload, "package").unwrap();

@@ -135,6 +135,10 @@ pub struct ModelFacts {
     /// Sentences about what looks wrong in the package and was accepted.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub warnings: Vec<String>,
+    /// Findings about the mesh that the model was made from: elements, materials, axis, sectors, clamp and contact line, a line each; empty
+    /// for models whose package had matrices.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub found: Vec<String>,
 }
 
 /// Facts about the elements of a package.
@@ -180,6 +184,7 @@ impl ModelFacts {
             in_si: None,
             digits: None,
             warnings: Vec::new(),
+            found: Vec::new(),
         }
     }
 
@@ -247,6 +252,7 @@ impl ModelFacts {
             in_si: None,
             digits: None,
             warnings: Vec::new(),
+            found: Vec::new(),
         }
     }
 }

@@ -21,8 +21,14 @@ pub enum MeshProblem {
          Nastran bulk data, Ansys archives (.cdb) and VTK XML files (.vtu)"
     )]
     Unknown,
-    /// File of a known kind that holds no mesh.
-    #[error("this is {found}, not a mesh; {advice}")]
+    /// File of no known format of matrices.
+    #[error(
+        "this is no matrix file of a known format; known are Abaqus (*MATRIX OUTPUT, FORMAT=MATRIX INPUT or LABELS), Nastran (DMIG on \
+         punch or bulk data, OUTPUT4 in text form) and Ansys (*EXPORT in format MMF, HBMAT in text form, each with its mapping file)"
+    )]
+    UnknownMatrix,
+    /// File of a known kind that is not the kind asked for.
+    #[error("this is {found}; {advice}")]
     NotAMesh {
         /// Kind of the file, such as `a Matrix Market file`.
         found: &'static str,
@@ -49,13 +55,47 @@ pub enum MeshProblem {
         /// Content that should follow.
         expected: String,
     },
-    /// Number given to two nodes or to two elements.
+    /// Number given to two nodes, to two elements, or to two rows of a matrix.
     #[error("{what} {id} is there twice")]
     Twice {
-        /// `node` or `element`.
+        /// `node`, `element` or `row`.
         what: &'static str,
-        /// Number of the node or element.
+        /// Number of the node, element or row.
         id: u64,
+    },
+    /// Position of a matrix for which the file has two entries.
+    #[error("the entry of row {row} and column {column} is there twice")]
+    EntryTwice {
+        /// Row, such as `node 12 component 1`.
+        row: String,
+        /// Column, such as `node 12 component 2`.
+        column: String,
+    },
+    /// Matrix that differs from its transpose.
+    #[error(
+        "the matrix is not symmetric: row {row}, column {column} has {value:e}, but row {column}, column {row} has {mirrored:e}"
+    )]
+    NotSymmetric {
+        /// Row, such as `node 12 component 1`.
+        row: String,
+        /// Column, such as `node 12 component 2`.
+        column: String,
+        /// Entry there.
+        value: f64,
+        /// Entry at the mirrored position.
+        mirrored: f64,
+    },
+    /// Degree of freedom to which a mapping gives two rows.
+    #[error("{dof} has two rows")]
+    TwoRows {
+        /// Degree of freedom, such as `node 12 component 1`.
+        dof: String,
+    },
+    /// File of several matrices, none of which was chosen.
+    #[error("the file has several matrices: {names}; name the one to read")]
+    WhichMatrix {
+        /// Names of the matrices.
+        names: String,
     },
     /// Element with a node that the file does not have.
     #[error("element {element} has node {node}, which the file does not have")]

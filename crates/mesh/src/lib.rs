@@ -15,6 +15,7 @@ pub mod format;
 mod gmsh;
 mod include;
 mod inp;
+pub mod matrices;
 pub mod mesh_file;
 mod nastran;
 mod solids;

@@ -169,6 +169,7 @@ mod tests {
             in_si: None,
             digits: None,
             warnings: Vec::new(),
+            found: Vec::new(),
         }
     }
 

@@ -425,6 +425,9 @@ class MarchReport(TypedDict):
     revolutions: int
 
 
+MassRule: TypeAlias = Literal["consistent", "as_stiffness"]
+
+
 class Material(TypedDict, closed=True):
     density: NotRequired[float]
     fatigue_strength: NotRequired[FatigueStrength | None]
@@ -445,6 +448,9 @@ class Measured(TypedDict, closed=True):
     angles_rad: list[float]
     chord: NotRequired[list[float] | None]
     heights: list[list[float]]
+
+
+MeshBytes: TypeAlias = bytes
 
 
 class MeshDensities(TypedDict, closed=True):
@@ -1255,6 +1261,22 @@ class MeshFacts(TypedDict):
     tip_thickness: NotRequired[float]
 
 
+class MeshSettings(TypedDict, closed=True):
+    axis: NotRequired[dict[str, Any]]
+    clamp_set: NotRequired[str]
+    contact_nodes: NotRequired[int]
+    contact_set: NotRequired[str]
+    gyroscopic: NotRequired[bool]
+    mass: NotRequired[MassRule]
+    materials: NotRequired[dict[str, Any]]
+    mesh_file: NotRequired[str]
+    name: NotRequired[str]
+    sectors: NotRequired[int]
+    temperatures: NotRequired[dict[str, float]]
+    top_speed_rad_s: float
+    units: NotRequired[Units]
+
+
 class ModesBody(TypedDict):
     modes_per_speed: int
     nodal_diameters: list[ShapeFrequencies]
@@ -1613,6 +1635,7 @@ class ModelFacts(TypedDict):
     contact_radius: NotRequired[float]
     contact_spacing: NotRequired[float]
     digits: NotRequired[DigitNoise]
+    found: NotRequired[list[str]]
     gyroscopic: NotRequired[bool]
     in_si: NotRequired[InSi]
     mesh: NotRequired[MeshFacts]

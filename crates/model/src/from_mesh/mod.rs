@@ -15,6 +15,7 @@ mod sets;
 mod settings;
 mod surface;
 mod tip;
+mod upload;
 
 use std::collections::HashSet;
 
@@ -26,6 +27,7 @@ pub use error::FromMeshError;
 pub use found::Found;
 pub use settings::MeshSettings;
 pub use tip::TipSource;
+pub use upload::{sector_of_mesh, sector_of_package};
 
 use crate::assembly::{MeshedSector, PackageFacts, TipNode, assembly_bytes, to_package};
 use crate::package::calculix::{Normals, spread, with_normals};

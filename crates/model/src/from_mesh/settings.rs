@@ -18,6 +18,9 @@ const CONTACT_NODES: usize = 10;
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
 pub struct MeshSettings {
+    /// Name of the mesh file in a package; left out beside a bare mesh.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mesh_file: Option<String>,
     /// Name of the model; that of the file if left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
@@ -73,6 +76,7 @@ impl MeshSettings {
     /// Settings with a top speed in rad/s and nothing else.
     pub fn new(top_speed_rad_s: f64) -> Self {
         Self {
+            mesh_file: None,
             name: None,
             units: default_units(),
             top_speed_rad_s,

@@ -1,11 +1,12 @@
 //! Reader of `sector.json`, with the field of every error as a JSON pointer.
 
+use serde::de::DeserializeOwned;
+
 use super::error::{ManifestProblem, PackageError};
 use super::quote::{bounded_message, quoted};
-use super::raw::Manifest;
 
 /// Parses the manifest's text.
-pub(super) fn parse(text: &[u8]) -> Result<Manifest, PackageError> {
+pub(super) fn parse<T: DeserializeOwned>(text: &[u8]) -> Result<T, PackageError> {
     let text = text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text);
     let mut json = serde_json::Deserializer::from_slice(text);
     let manifest = serde_path_to_error::deserialize(&mut json).map_err(|error| {
@@ -63,10 +64,11 @@ fn pointer(path: &serde_path_to_error::Path) -> String {
 
 #[cfg(test)]
 mod tests {
+    use super::super::raw::Manifest;
     use super::*;
 
     fn refused(text: &str) -> (String, String) {
-        let error = parse(text.as_bytes()).expect_err("refused");
+        let error = parse::<Manifest>(text.as_bytes()).expect_err("refused");
         (error.field().unwrap_or_default().to_owned(), error.to_string())
     }
 

@@ -190,12 +190,13 @@ impl Files {
     }
 }
 
-fn missing(archive: &Archive, file: &str) -> ManifestProblem {
+pub(super) fn missing(archive: &Archive, file: &str) -> ManifestProblem {
     let found_in = archive.names().find_map(|name| name.strip_suffix(file)?.strip_suffix('/'));
     ManifestProblem::FileMissing { file: quoted(file), found_in: found_in.map(quoted) }
 }
 
-fn read_manifest(archive: &Archive, limits: &Limits) -> Result<Manifest, PackageError> {
+/// Content of `sector.json`.
+pub(super) fn manifest_text(archive: &Archive, limits: &Limits) -> Result<Vec<u8>, PackageError> {
     let Some(file) = archive.stored_name(MANIFEST_FILE) else {
         return Err(PackageError::manifest("", missing(archive, MANIFEST_FILE)));
     };
@@ -209,9 +210,13 @@ fn read_manifest(archive: &Archive, limits: &Limits) -> Result<Manifest, Package
             let problem = ManifestProblem::TooLarge { limit_bytes: limits.manifest_bytes };
             return Err(PackageError::manifest("", problem));
         }
-        manifest::parse(&text)
+        Ok(text)
     })?;
     Ok(read.value)
+}
+
+fn read_manifest(archive: &Archive, limits: &Limits) -> Result<Manifest, PackageError> {
+    manifest::parse(&manifest_text(archive, limits)?)
 }
 
 fn read_table<T>(

@@ -56,6 +56,16 @@ pub enum PackageError {
         /// Problem of the line.
         problem: TableProblem,
     },
+    /// Problem of a mesh file, or of the model that it should become.
+    #[error("{}{message}", prefix(.file.as_deref(), None))]
+    Mesh {
+        /// Name of the mesh file inside the package; none for a bare mesh.
+        file: Option<String>,
+        /// Number of the line, from 1, where one line is at fault.
+        line: Option<u64>,
+        /// Message, with the place inside the file.
+        message: String,
+    },
     /// Problem of a matrix file.
     #[error("{}{problem}", prefix(Some(.file), *.line))]
     Matrix {
@@ -73,7 +83,7 @@ impl PackageError {
     pub fn file(&self) -> Option<&str> {
         match self {
             Self::Io { .. } => None,
-            Self::Archive { file, .. } => file.as_deref(),
+            Self::Archive { file, .. } | Self::Mesh { file, .. } => file.as_deref(),
             Self::Manifest { problem: ManifestProblem::FileMissing { file, .. }, .. } => Some(file),
             Self::Manifest { .. } => Some(MANIFEST_FILE),
             Self::Table { file, .. } | Self::Matrix { file, .. } => Some(file),
@@ -84,7 +94,7 @@ impl PackageError {
     pub fn line(&self) -> Option<u64> {
         match self {
             Self::Table { line, .. } => Some(*line),
-            Self::Matrix { line, .. } => *line,
+            Self::Matrix { line, .. } | Self::Mesh { line, .. } => *line,
             Self::Manifest { problem: ManifestProblem::Syntax { line, .. }, .. } => Some(*line as u64),
             _ => None,
         }

@@ -1,0 +1,52 @@
+//! Meshes as they are uploaded: bare, or in a package without matrices.
+
+use std::path::Path;
+
+use rubmap_mesh::MeshFile;
+
+use super::error::FromMeshError;
+use super::settings::MeshSettings;
+use super::{Sector, sector};
+use crate::package::{Limits, MeshPackage, PackageError, read_mesh_package};
+
+/// Sector of the package at `path`; none if the package has matrices.
+///
+/// # Errors
+/// Errors of the archive and of `sector.json`; [`PackageError::Mesh`] for a mesh file that cannot be read or makes no model.
+pub fn sector_of_package(path: &Path, limits: &Limits) -> Result<Option<Sector>, PackageError> {
+    let Some(package) = read_mesh_package::<MeshSettings>(path, limits)? else { return Ok(None) };
+    let MeshPackage { settings, mesh, mut files } = package;
+    let bytes = files.remove(&mesh).unwrap_or_default();
+    let include = |name: &str| {
+        let file = files.get(name).or_else(|| files.get(name.strip_prefix("./")?));
+        file.cloned().ok_or_else(|| "the package has no such file".to_owned())
+    };
+    let file = rubmap_mesh::read(&bytes, &include);
+    made(file, &settings, Some(&mesh)).map(Some)
+}
+
+/// Sector of a bare mesh, which includes no other file.
+///
+/// # Errors
+/// [`PackageError::Mesh`] for a mesh that cannot be read or makes no model.
+pub fn sector_of_mesh(bytes: &[u8], settings: &MeshSettings) -> Result<Sector, PackageError> {
+    let include = |_: &str| Err("put both files into one, or in a zip with sector.json".to_owned());
+    made(rubmap_mesh::read(bytes, &include), settings, None)
+}
+
+fn made(
+    file: Result<MeshFile, rubmap_mesh::MeshFileError>,
+    settings: &MeshSettings,
+    name: Option<&str>,
+) -> Result<Sector, PackageError> {
+    let named = |line: u64, message: String| PackageError::Mesh {
+        file: name.map(ToOwned::to_owned),
+        line: (line > 0).then_some(line),
+        message,
+    };
+    let file = file.map_err(|error| named(error.line, error.to_string()))?;
+    sector(&file, settings).map_err(|error| {
+        let line = if let FromMeshError::Element { line, .. } = error { line } else { 0 };
+        named(line, error.to_string())
+    })
+}
