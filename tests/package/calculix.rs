@@ -31,6 +31,7 @@ pub(crate) fn model(folder: &Path, deck: &str, rest: &str) -> CalculixModel {
         contact_count: None,
         contact_as_listed: false,
         normals: Normals::ContactNodes,
+        gyroscopic: false,
         strengths: None,
         units: Units { length: "mm".into(), force: "N".into(), time: "s".into(), mass: "t".into() },
         name: "imported".into(),

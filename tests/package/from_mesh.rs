@@ -3,12 +3,16 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-use nalgebra::Vector3;
-use rubmap::from_mesh::{self, ClampSource, FromMeshError, MeshSettings, Sector, TipSource};
+use nalgebra::{Matrix3, Vector3};
+use rubmap::from_mesh::{
+    self, ClampSource, FileMatrices, FromMeshError, MeshSettings, Sector, TipSource, package_with_matrices,
+};
 use rubmap::impeller::mesh::ElementOrder;
 use rubmap::impeller::{ImpellerParameters, Material, MeshDensities, Splitter, generate, impeller_sector};
+use rubmap::mesh::matrices::{self, FileMatrix};
 use rubmap::mesh::{self, MeshFile};
-use rubmap::package::raw::{Axis, RawMatrix, RawPackage};
+use rubmap::package::raw::{Axis, Frame, RawDof, RawMatrix, RawPackage};
+use rubmap::package::to_sector;
 use rubmap::solid::frame::AxisFrame;
 use rubmap::solid::mesh::SectorMesh;
 use rubmap::solid::natural::EDGES;
@@ -57,7 +61,7 @@ fn deck(mesh: &SectorMesh) -> String {
     deck
 }
 
-fn read(text: &str) -> MeshFile {
+fn read_mesh(text: &str) -> MeshFile {
     mesh::read(text.as_bytes(), &|_| Err("there is none".to_owned())).unwrap()
 }
 
@@ -72,7 +76,7 @@ fn settings() -> MeshSettings {
 }
 
 fn made(text: &str) -> Result<Sector, FromMeshError> {
-    from_mesh::sector(&read(text), &settings())
+    from_mesh::sector(&read_mesh(text), &settings())
 }
 
 /// Largest difference of two matrices in parts of the largest entry.
@@ -170,7 +174,7 @@ fn the_axis_may_be_another() {
         "{unknown}"
     );
     let axis = Some(Axis { origin: [5.0, -3.0, 8.0], direction: [0.3, 0.4, 1.2] });
-    let sector = from_mesh::sector(&read(&text), &MeshSettings { axis, ..settings() }).unwrap();
+    let sector = from_mesh::sector(&read_mesh(&text), &MeshSettings { axis, ..settings() }).unwrap();
     is_that(&sector.package().unwrap(), &generate(&parameters).unwrap(), 1e-11);
 }
 
@@ -338,7 +342,7 @@ fn settings_that_do_not_fit_are_refused() {
     let with = |change: fn(&mut MeshSettings)| {
         let mut settings = settings();
         change(&mut settings);
-        from_mesh::sector(&read(&text), &settings).map(|_| ()).unwrap_err().to_string()
+        from_mesh::sector(&read_mesh(&text), &settings).map(|_| ()).unwrap_err().to_string()
     };
     for (message, begins) in [
         (with(|s| s.top_speed_rad_s = -1.0), "the top speed -1 rad/s must be positive"),
@@ -357,4 +361,95 @@ fn settings_that_do_not_fit_are_refused() {
     ] {
         assert!(message.starts_with(begins), "{message}");
     }
+}
+
+/// Package in Cartesian components: the generator's are cylindrical, and all three of a node are free.
+fn cartesian(mut package: RawPackage) -> RawPackage {
+    let axis = AxisFrame::new([0.0; 3], [0.0, 0.0, 1.0]).unwrap();
+    let at: BTreeMap<u64, [f64; 3]> = package.nodes.iter().map(|node| (node.id, node.position)).collect();
+    let dofs = package.dofs.clone();
+    let unit = |node: u64| axis.cylindrical(axis.coordinates(at[&node])[1]);
+    let turned = |matrix: &RawMatrix, mirror: f64| {
+        let mut blocks: BTreeMap<(u32, u32), Matrix3<f64>> = BTreeMap::new();
+        for &(r, c, v) in &matrix.entries {
+            for (r, c, v) in [(r, c, v), (c, r, mirror * v)].into_iter().take(if r == c { 1 } else { 2 }) {
+                blocks.entry((r / 3, c / 3)).or_default()[(r as usize % 3, c as usize % 3)] = v;
+            }
+        }
+        let mut entries = Vec::new();
+        for ((a, b), block) in blocks {
+            let frame = |node: u32| unit(dofs[3 * node as usize].node);
+            let block = frame(a).transpose() * block * frame(b);
+            for i in 0..3 {
+                for j in 0..3 {
+                    let (r, c) = (3 * a + i, 3 * b + j);
+                    if r >= c {
+                        entries.push((r, c, block[(i as usize, j as usize)]));
+                    }
+                }
+            }
+        }
+        RawMatrix { size: matrix.size, entries }
+    };
+    package.mass = turned(&package.mass, 1.0);
+    package.stiffness = package.stiffness.iter().map(|matrix| turned(matrix, 1.0)).collect();
+    package.gyroscopic = package.gyroscopic.as_ref().map(|matrix| turned(matrix, -1.0));
+    package
+}
+
+/// Matrix as Abaqus generates it with node labels, one triangle.
+fn labelled(package: &RawPackage, matrix: &RawMatrix) -> String {
+    let dof = |row: u32| package.dofs[row as usize];
+    let line = |&(r, c, v): &(u32, u32, f64)| {
+        format!("{},{},{},{},{v:e}\n", dof(r).node, dof(r).component, dof(c).node, dof(c).component)
+    };
+    matrix.entries.iter().map(line).collect()
+}
+
+/// Matrix as Ansys exports it in Matrix Market form, and its mapping.
+fn market(package: &RawPackage, matrix: &RawMatrix) -> (String, String) {
+    let mut text = format!(
+        "%%MatrixMarket matrix coordinate real symmetric\n{} {} {}\n",
+        matrix.size,
+        matrix.size,
+        matrix.entries.len()
+    );
+    matrix.entries.iter().for_each(|(r, c, v)| writeln!(text, "{} {} {v:e}", r + 1, c + 1).unwrap());
+    let row = |(k, dof): (usize, &RawDof)| {
+        format!("{} {} {}\n", k + 1, dof.node, ["UX", "UY", "UZ"][usize::from(dof.component) - 1])
+    };
+    (
+        text,
+        "Matrix Eqn    Node    DOF\n".to_owned()
+            + &package.dofs.iter().enumerate().map(row).collect::<String>(),
+    )
+}
+
+/// Matrices of other programs with the mesh for the rest: the package that the generator makes, with a gyroscopic matrix from the mass.
+#[test]
+fn matrices_of_other_programs_become_the_package_they_say() {
+    let parameters = impeller(7);
+    let expected = cartesian(generate(&parameters).unwrap());
+    let mesh = deck(&sector_mesh(&parameters));
+    let speeds = expected.manifest.speeds_rad_s.clone();
+    let abaqus = |matrix: &RawMatrix| matrices::read(labelled(&expected, matrix).as_bytes(), None).unwrap();
+    let ansys = |matrix: &RawMatrix| {
+        let (text, mapping) = market(&expected, matrix);
+        matrices::read(text.as_bytes(), Some(mapping.as_bytes())).unwrap()
+    };
+    let read: [&dyn Fn(&RawMatrix) -> FileMatrix; 2] = [&abaqus, &ansys];
+    for read in read {
+        let stiffness = speeds.iter().copied().zip(expected.stiffness.iter().map(read)).collect();
+        let files = FileMatrices { mass: read(&expected.mass), stiffness };
+        let (package, found) = package_with_matrices(read_mesh(&mesh), &settings(), &files).unwrap();
+        assert_eq!((found.sectors, package.manifest.frame), (7, Frame::Cartesian));
+        assert_eq!(package.manifest.speeds_rad_s, speeds);
+        is_that(&package, &expected, 1e-13);
+        to_sector(package).unwrap();
+    }
+    let mut short = abaqus(&expected.mass);
+    short.rows.pop();
+    let files = FileMatrices { mass: short, stiffness: vec![(0.0, abaqus(&expected.stiffness[0]))] };
+    let refused = package_with_matrices(read_mesh(&mesh), &settings(), &files).unwrap_err();
+    assert!(refused.to_string().contains("has a row in one matrix and none in another"), "{refused}");
 }

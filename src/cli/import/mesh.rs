@@ -11,8 +11,9 @@ use clap::Args;
 use super::{axis, describe_findings, units};
 use crate::cli::speed::speed;
 use crate::dynamics::sector::Units;
-use crate::from_mesh::{self, MeshSettings};
-use crate::package::raw::{Axis, MatrixFormat};
+use crate::from_mesh::{self, Found, MeshSettings};
+use crate::mesh::MeshFile;
+use crate::package::raw::{Axis, MatrixFormat, RawPackage};
 use crate::solid::material::Material;
 use crate::solid::rule::MassRule;
 
@@ -24,6 +25,23 @@ pub(in crate::cli) struct MeshArgs {
     /// Highest speed of the stiffness matrices, such as 5000 (rad/s) or 48000rpm
     #[arg(long, value_parser = speed, required_unless_present = "settings")]
     top_speed: Option<f64>,
+    /// Integrate mass at the points of stiffness in every element, as CalculiX does [default: at more points where these leave motions without
+    /// mass]
+    #[arg(long)]
+    mass_as_calculix: bool,
+    #[command(flatten)]
+    options: MeshOptions,
+    /// Package to write
+    #[arg(long)]
+    out: PathBuf,
+    /// Format in which the package stores its matrices
+    #[arg(long, value_enum, default_value_t = MatrixFormat::Npz)]
+    matrices: MatrixFormat,
+}
+
+/// Settings of a sector that its mesh file does not have.
+#[derive(Debug, Args)]
+pub(super) struct MeshOptions {
     /// Number of sectors [default: found from the cyclic faces; a single blade has 1]
     #[arg(long)]
     sectors: Option<usize>,
@@ -48,10 +66,6 @@ pub(in crate::cli) struct MeshArgs {
     /// Largest number of contact nodes, evenly spaced [default: 10]
     #[arg(long)]
     contact_nodes: Option<usize>,
-    /// Integrate mass at the points of stiffness in every element, as CalculiX does [default: at more points where these leave motions without
-    /// mass]
-    #[arg(long)]
-    mass_as_calculix: bool,
     /// Units of length, force, time and mass of the file [default: mm,N,s,t]
     #[arg(long, value_parser = units)]
     units: Option<Units>,
@@ -61,30 +75,43 @@ pub(in crate::cli) struct MeshArgs {
     /// JSON file of settings, as `POST /v1/models` takes them; options of this command go before it
     #[arg(long)]
     settings: Option<PathBuf>,
-    /// Package to write
-    #[arg(long)]
-    out: PathBuf,
-    /// Format in which the package stores its matrices
-    #[arg(long, value_enum, default_value_t = MatrixFormat::Npz)]
-    matrices: MatrixFormat,
 }
 
 /// Makes the package, checks it as an upload would be, writes it and prints what was found.
 pub(super) fn import(args: MeshArgs) -> anyhow::Result<()> {
-    let name = args.file.display().to_string();
-    let (out, matrices) = (args.out.clone(), args.matrices);
-    let bytes = std::fs::read(&args.file).with_context(|| format!("cannot read {name}"))?;
-    let folder = args.file.parent().unwrap_or(Path::new("")).to_owned();
-    let include = |file: &str| std::fs::read(folder.join(file)).map_err(|error| error.to_string());
-    let file = crate::mesh::read(&bytes, &include).with_context(|| name.clone())?;
-    let settings = settings(args)?;
+    let MeshArgs { file: path, top_speed, mass_as_calculix, options, out, matrices } = args;
+    let name = path.display().to_string();
+    let file = read(&path)?;
+    let mut settings = options.settings(&path, top_speed)?;
+    if mass_as_calculix {
+        settings.mass = MassRule::AsStiffness;
+    }
     let sector = from_mesh::sector(&file, &settings).with_context(|| name.clone())?;
-    print!("{}", sector.found);
-    let mut package = sector.package().with_context(|| name)?;
-    package.manifest.store_matrices_as(matrices);
+    let package = sector.package().with_context(|| name)?;
+    write(package, &sector.found, &out, matrices)
+}
+
+/// Reads a mesh file and those that it includes, from its own folder.
+pub(super) fn read(path: &Path) -> anyhow::Result<MeshFile> {
+    let name = path.display();
+    let bytes = std::fs::read(path).with_context(|| format!("cannot read {name}"))?;
+    let folder = path.parent().unwrap_or(Path::new("")).to_owned();
+    let include = |file: &str| std::fs::read(folder.join(file)).map_err(|error| error.to_string());
+    crate::mesh::read(&bytes, &include).with_context(|| name.to_string())
+}
+
+/// Checks a package as an upload would be, writes it and prints what was found.
+pub(super) fn write(
+    mut package: RawPackage,
+    found: &Found,
+    out: &Path,
+    format: MatrixFormat,
+) -> anyhow::Result<()> {
+    print!("{found}");
+    package.manifest.store_matrices_as(format);
     let findings = crate::package::look_at(package.clone())
         .context("the model of this mesh does not pass the checks of a package")?;
-    let file = File::create(&out).with_context(|| format!("cannot create {}", out.display()))?;
+    let file = File::create(out).with_context(|| format!("cannot create {}", out.display()))?;
     crate::package::write(&package, BufWriter::new(file))
         .with_context(|| format!("cannot write {}", out.display()))?;
     let mut text = String::new();
@@ -94,40 +121,35 @@ pub(super) fn import(args: MeshArgs) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Settings of the file, with those of the command line before them.
-fn settings(args: MeshArgs) -> anyhow::Result<MeshSettings> {
-    let mut settings = match &args.settings {
-        None => MeshSettings::new(args.top_speed.unwrap_or_default()),
-        Some(path) => {
-            let text = std::fs::read(path).with_context(|| format!("cannot read {}", path.display()))?;
-            serde_json::from_slice(&text).with_context(|| path.display().to_string())?
+impl MeshOptions {
+    /// Settings of the file of settings, with those of the command line before them.
+    pub(super) fn settings(self, mesh: &Path, top_speed: Option<f64>) -> anyhow::Result<MeshSettings> {
+        let mut settings = match &self.settings {
+            None => MeshSettings::new(top_speed.unwrap_or_default()),
+            Some(path) => {
+                let text = std::fs::read(path).with_context(|| format!("cannot read {}", path.display()))?;
+                serde_json::from_slice(&text).with_context(|| path.display().to_string())?
+            }
+        };
+        settings.top_speed_rad_s = top_speed.unwrap_or(settings.top_speed_rad_s);
+        let stem = mesh.file_stem().map(|stem| stem.to_string_lossy().into_owned());
+        settings.name = self.name.or(settings.name).or(stem);
+        settings.sectors = self.sectors.or(settings.sectors);
+        settings.axis = self.axis.or(settings.axis);
+        settings.clamp_set = self.clamp_set.or(settings.clamp_set);
+        settings.contact_set = self.contact_set.or(settings.contact_set);
+        settings.contact_nodes = self.contact_nodes.unwrap_or(settings.contact_nodes);
+        settings.units = self.units.unwrap_or(settings.units);
+        if let Some(temperature) = self.temperature {
+            settings.temperatures = BTreeMap::from([("*".to_owned(), temperature)]);
         }
-    };
-    if let Some(top_speed) = args.top_speed {
-        settings.top_speed_rad_s = top_speed;
-    }
-    let stem = args.file.file_stem().map(|stem| stem.to_string_lossy().into_owned());
-    settings.name = args.name.or(settings.name).or(stem);
-    settings.sectors = args.sectors.or(settings.sectors);
-    settings.axis = args.axis.or(settings.axis);
-    settings.clamp_set = args.clamp_set.or(settings.clamp_set);
-    settings.contact_set = args.contact_set.or(settings.contact_set);
-    settings.contact_nodes = args.contact_nodes.unwrap_or(settings.contact_nodes);
-    if args.mass_as_calculix {
-        settings.mass = MassRule::AsStiffness;
-    }
-    if let Some(units) = args.units {
-        settings.units = units;
-    }
-    if let Some(temperature) = args.temperature {
-        settings.temperatures = BTreeMap::from([("*".to_owned(), temperature)]);
-    }
-    for (name, constants) in args.materials {
-        if settings.materials.insert(name.clone(), made(constants)).is_some() && args.settings.is_none() {
-            bail!("--material gives {name} twice");
+        for (name, constants) in self.materials {
+            if settings.materials.insert(name.clone(), made(constants)).is_some() && self.settings.is_none() {
+                bail!("--material gives {name} twice");
+            }
         }
+        Ok(settings)
     }
-    Ok(settings)
 }
 
 fn made([youngs_modulus, poissons_ratio, density]: [f64; 3]) -> Material {

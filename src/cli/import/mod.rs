@@ -1,5 +1,6 @@
 //! `rubmap import`: a model package from the files of a finite-element program.
 
+mod matrices;
 mod mesh;
 
 use std::fmt::{self, Write};
@@ -19,6 +20,7 @@ use crate::dynamics::sector::Units;
 use crate::package::calculix::{self, CalculixModel, ImportSummary, Normals};
 use crate::package::raw::{Axis, ManifestMesh, MatrixFormat, RawPackage};
 use crate::solid::material::Material;
+use matrices::MatricesArgs;
 use mesh::MeshArgs;
 
 /// Program or table that the files come from.
@@ -28,6 +30,8 @@ pub(super) enum ImportCommand {
     Calculix(Box<CalculixArgs>),
     /// A mesh of one sector: CalculiX or Abaqus (.inp), Gmsh (.msh), Nastran (.bdf), Ansys (.cdb) or VTK (.vtu); matrices are assembled here
     Mesh(Box<MeshArgs>),
+    /// A mesh of one sector with the matrices of Abaqus, Nastran or Ansys
+    Matrices(Box<MatricesArgs>),
     /// A measured casing: heights over angle and place along the chord (.csv), as `scene.casing.measured` of a request
     Casing(CasingArgs),
 }
@@ -52,7 +56,7 @@ pub(super) struct CalculixArgs {
     #[arg(long)]
     rest: PathBuf,
     /// Speed and job of a stiffness at speed, such as 2500=half or 24000rpm=half; give none, or two (Ω1/2 and Ω1)
-    #[arg(long = "at", value_name = "SPEED=JOB", value_parser = speed_and_job)]
+    #[arg(long = "at", value_name = "SPEED=JOB", value_parser = speed_and_file)]
     at_speed: Vec<(f64, PathBuf)>,
     /// The matrices are those of the whole wheel
     #[arg(long)]
@@ -87,6 +91,9 @@ pub(super) struct CalculixArgs {
     /// CSV of normals, lines node,nx,ny,nz
     #[arg(long)]
     normals: Option<PathBuf>,
+    /// Add the gyroscopic matrix that the mass implies, for Coriolis forces
+    #[arg(long)]
+    gyroscopic: bool,
     /// JSON file of strengths by material or element set, {"NAME": {"yield_strength": …, "ultimate_strength": …,
     /// "fatigue_strength": {"amplitude": …, "source": "…"}}}, which decks do not have [default: none]
     #[arg(long)]
@@ -122,6 +129,7 @@ pub(super) fn import(command: ImportCommand) -> anyhow::Result<()> {
     match command {
         ImportCommand::Calculix(args) => import_calculix(*args),
         ImportCommand::Mesh(args) => mesh::import(*args),
+        ImportCommand::Matrices(args) => matrices::import(*args),
         ImportCommand::Casing(args) => import_casing(&args),
     }
 }
@@ -222,6 +230,7 @@ fn import_calculix(args: CalculixArgs) -> anyhow::Result<()> {
             (None, Some(path)) => Normals::Table(path),
             (None, None) => Normals::ContactNodes,
         },
+        gyroscopic: args.gyroscopic,
         strengths: args.strengths,
         units: args.units,
         name: args.name.unwrap_or(deck_name),
@@ -335,7 +344,7 @@ fn materials(mesh: &ManifestMesh) -> String {
     mesh.sets.iter().map(of_set).collect::<Vec<_>>().join("; ")
 }
 
-fn speed_and_job(text: &str) -> Result<(f64, PathBuf), String> {
+fn speed_and_file(text: &str) -> Result<(f64, PathBuf), String> {
     let (at, job) = text.split_once('=').ok_or("expected SPEED=JOB, such as 2500=half")?;
     Ok((speed(at)?, PathBuf::from(job)))
 }

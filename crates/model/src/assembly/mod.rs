@@ -19,4 +19,5 @@ pub use matrices::{RestMatrices, SectorMatrices};
 pub use memory::assembly_bytes;
 pub use prestress::{CanMove, PreStress};
 pub use sector::{MeshedSector, TipNode};
+pub(crate) use to_package::without_matrices;
 pub use to_package::{PackageFacts, to_package};

@@ -31,7 +31,7 @@ impl MeshedSector {
     ///
     /// # Panics
     /// If the mesh's axis has no direction.
-    pub(super) fn axis(&self) -> AxisFrame {
+    pub(crate) fn axis(&self) -> AxisFrame {
         let (origin, direction) = self.mesh.axis;
         match AxisFrame::new(origin, direction) {
             Some(frame) => frame,

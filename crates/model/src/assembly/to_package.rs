@@ -30,8 +30,22 @@ pub struct PackageFacts {
 /// [`CanMove`] for a sector that nothing clamps.
 pub fn to_package(facts: &PackageFacts, sector: &MeshedSector) -> Result<RawPackage, CanMove> {
     let matrices = SectorMatrices::assemble(sector)?;
+    let speeds_rad_s = [0.0, 0.5 * facts.top_speed_rad_s, facts.top_speed_rad_s];
+    let mut package = without_matrices(facts, sector);
+    let id = |node: usize| sector.mesh.node_ids[node];
+    let dofs = &matrices.rest.dofs.list;
+    package.dofs = dofs.iter().map(|&(n, c)| RawDof { node: id(n), component: c as u8 + 1 }).collect();
+    package.stiffness = speeds_rad_s.iter().map(|&speed| matrices.stiffness(speed)).collect();
+    package.mass = without_zeros(matrices.rest.mass());
+    package.gyroscopic = facts.gyroscopic.then(|| gyroscopic_matrix(sector));
+    package.manifest.speeds_rad_s = speeds_rad_s.to_vec();
+    package.manifest.stiffness = (0..3).map(|s| format!("k{s}.npz")).collect();
+    Ok(package)
+}
+
+/// Package of a sector with all but its rows and matrices.
+pub(crate) fn without_matrices(facts: &PackageFacts, sector: &MeshedSector) -> RawPackage {
     let mesh = &sector.mesh;
-    let speeds_rad_s = vec![0.0, 0.5 * facts.top_speed_rad_s, facts.top_speed_rad_s];
     let id = |node: usize| mesh.node_ids[node];
     let pairs = mesh.cyclic.iter().map(|&(low, high)| [low as usize, high as usize]);
     let free = |[low, _]: &[usize; 2]| sector.clamped[*low] != [true; 3];
@@ -43,10 +57,10 @@ pub fn to_package(facts: &PackageFacts, sector: &MeshedSector) -> Result<RawPack
         sectors: mesh.sectors,
         units: facts.units.clone(),
         axis: Axis { origin, direction },
-        speeds_rad_s: speeds_rad_s.clone(),
+        speeds_rad_s: Vec::new(),
         frame: Frame::Cylindrical,
         mass: "m.npz".to_owned(),
-        stiffness: (0..3).map(|s| format!("k{s}.npz")).collect(),
+        stiffness: Vec::new(),
         gyroscopic: facts.gyroscopic.then(|| "g.npz".to_owned()),
         nodes: "nodes.csv".to_owned(),
         dofs: "dofs.csv".to_owned(),
@@ -54,21 +68,16 @@ pub fn to_package(facts: &PackageFacts, sector: &MeshedSector) -> Result<RawPack
         contact: contact.collect(),
         mesh: Some(ManifestMesh { elements: "elements.csv".to_owned(), sets }),
     };
-    let dofs = &matrices.rest.dofs.list;
-    Ok(RawPackage {
+    let nodes = mesh.node_ids.iter().zip(&mesh.nodes);
+    RawPackage {
         manifest,
-        nodes: mesh
-            .node_ids
-            .iter()
-            .zip(&mesh.nodes)
-            .map(|(&id, &position)| RawNode { id, position })
-            .collect(),
-        dofs: dofs.iter().map(|&(n, c)| RawDof { node: id(n), component: c as u8 + 1 }).collect(),
-        stiffness: speeds_rad_s.iter().map(|&speed| matrices.stiffness(speed)).collect(),
-        mass: without_zeros(matrices.rest.mass()),
-        gyroscopic: facts.gyroscopic.then(|| gyroscopic_matrix(sector)),
+        nodes: nodes.map(|(&id, &position)| RawNode { id, position }).collect(),
+        dofs: Vec::new(),
+        mass: RawMatrix { size: 0, entries: Vec::new() },
+        stiffness: Vec::new(),
+        gyroscopic: None,
         elements: Some(elements(sector)),
-    })
+    }
 }
 
 /// Element table.

@@ -191,6 +191,24 @@ pub enum FromMeshError {
     /// Units that are not consistent.
     #[error("{0}")]
     Units(String),
+    /// Matrices of different rows.
+    #[error(
+        "node {node}, component {component} has a row in one matrix and none in another; export all of one model with the same supports"
+    )]
+    RowsDiffer {
+        /// Number of the node.
+        node: u64,
+        /// Component, 1 to 3.
+        component: u8,
+    },
+    /// Row of a node that the mesh does not have.
+    #[error("the matrices have a row of node {node}, component {component}, which the mesh does not have")]
+    RowWithoutNode {
+        /// Number of the node.
+        node: u64,
+        /// Component, 1 to 3.
+        component: u8,
+    },
     /// Sector that can move as a rigid body.
     #[error(transparent)]
     CanMove(#[from] CanMove),

@@ -10,6 +10,7 @@ mod cyclic;
 pub mod error;
 mod found;
 mod materials;
+mod matrices;
 mod midline;
 mod sets;
 mod settings;
@@ -19,19 +20,21 @@ mod upload;
 
 use std::collections::HashSet;
 
+use nalgebra::Vector3;
 use rubmap_mesh::MeshFile;
 use rubmap_solid::frame::distance;
 
 pub use clamp::ClampSource;
 pub use error::FromMeshError;
 pub use found::Found;
+pub use matrices::{FileMatrices, package_with_matrices};
 pub use settings::MeshSettings;
 pub use tip::TipSource;
 pub use upload::{sector_of_mesh, sector_of_package};
 
-use crate::assembly::{MeshedSector, PackageFacts, TipNode, assembly_bytes, to_package};
+use crate::assembly::{MeshedSector, PackageFacts, TipNode, assembly_bytes, to_package, without_matrices};
 use crate::package::calculix::{Normals, spread, with_normals};
-use crate::package::raw::RawPackage;
+use crate::package::raw::{Frame, RawPackage};
 use crate::package::units;
 
 /// Sector that was made of a mesh, before its matrices are assembled.
@@ -96,6 +99,18 @@ impl Sector {
     /// Peak of the memory, in bytes, while its package is made, written and read back.
     pub fn assembly_bytes(&self) -> u64 {
         assembly_bytes(&self.meshed)
+    }
+
+    /// Package in Cartesian components, without rows and matrices.
+    fn without_matrices(&self) -> RawPackage {
+        let mut package = without_matrices(&self.facts, &self.meshed);
+        let axis = self.meshed.axis();
+        for (contact, tip) in package.manifest.contact.iter_mut().zip(&self.meshed.contact) {
+            let [_, theta, _] = axis.coordinates(self.meshed.mesh.nodes[tip.node]);
+            contact.normal = axis.cylindrical(theta).tr_mul(&Vector3::from(tip.normal)).into();
+        }
+        package.manifest.frame = Frame::Cartesian;
+        package
     }
 
     /// Assembles the matrices and packs them.

@@ -14,6 +14,7 @@ pub(crate) mod by_place;
 pub mod calculix;
 mod check;
 mod content;
+mod coriolis;
 mod digest;
 pub mod error;
 mod findings;
@@ -38,6 +39,7 @@ mod zip_package;
 
 use std::path::Path;
 
+pub use coriolis::gyroscopic_of_mass;
 pub use error::PackageError;
 pub use limits::Limits;
 pub use mesh::read_mesh;

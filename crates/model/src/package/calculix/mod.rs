@@ -36,6 +36,7 @@ pub use no_mesh::NoMesh;
 
 use super::by_place;
 use super::check;
+use super::coriolis::gyroscopic_of_mass;
 use super::raw::{Axis, Frame, Manifest, ManifestContact, RawMatrix, RawNode, RawPackage};
 use deck::Deck;
 use elements::SectorTable;
@@ -147,14 +148,15 @@ pub fn import(model: &CalculixModel) -> Result<(RawPackage, ImportSummary), Calc
         frame: Frame::Cartesian,
         mass: "m.npz".to_owned(),
         stiffness: (0..stiffness.len()).map(|k| format!("k{k}.npz")).collect(),
-        gyroscopic: None,
+        gyroscopic: model.gyroscopic.then(|| "g.npz".to_owned()),
         nodes: "nodes.csv".to_owned(),
         dofs: "dofs.csv".to_owned(),
         cyclic: pairs,
         contact: summary.contact.iter().map(|point| manifest_contact(point, &frame)).collect(),
         mesh: None,
     };
-    let mut package = RawPackage { manifest, nodes, dofs, mass, stiffness, gyroscopic: None, elements: None };
+    let gyroscopic = model.gyroscopic.then(|| gyroscopic_of_mass(&mass, &dofs, &frame));
+    let mut package = RawPackage { manifest, nodes, dofs, mass, stiffness, gyroscopic, elements: None };
     let with_mesh = kept.and_then(|SectorTable { manifest, elements }| {
         package.manifest.mesh = Some(manifest);
         package.elements = Some(elements);

@@ -32,6 +32,8 @@ pub struct CalculixModel {
     pub contact_as_listed: bool,
     /// Source of the contact normals.
     pub normals: Normals,
+    /// Whether the package gets the gyroscopic matrix that its mass implies.
+    pub gyroscopic: bool,
     /// JSON file of strengths by material or element set; without it the package has none.
     pub strengths: Option<PathBuf>,
     /// Consistent units of the deck.
