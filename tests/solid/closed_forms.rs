@@ -9,6 +9,7 @@ use rubmap::impeller::{
 };
 use rubmap::package::{Limits, raw::RawPackage, read_mesh, write};
 use rubmap::solid::frame::AxisFrame;
+use rubmap::solid::inertia::wheel_body;
 use rubmap::solid::load::centrifugal;
 use rubmap::solid::mesh::SectorMesh;
 use rubmap::solid::stress::{NodalStress, point_stress};
@@ -149,4 +150,19 @@ fn points_have_the_generators_stress() {
             }
         }
     }
+}
+
+/// Mass πρt(b² − a²), moment of inertia ½m(a² + b²) and middle of a disk, from curved elements whose error falls with the fourth power of the
+/// angle.
+#[test]
+fn the_body_of_a_disk() {
+    let p = AnnulusParameters { sectors: 24, elements: [4, 2, 1], ..AnnulusParameters::default() };
+    let body = wheel_body(&mesh_of(&annulus(&p).unwrap())).unwrap();
+    let [a2, b2] = [p.inner_radius, p.outer_radius].map(|r| r * r);
+    let volume = std::f64::consts::PI * p.thickness * (b2 - a2);
+    let mass = p.material.density * volume;
+    assert!((body.volume / volume - 1.0).abs() < 2e-6, "{body:?}");
+    assert!((body.mass / mass - 1.0).abs() < 2e-6, "{body:?}");
+    assert!((body.polar_inertia / (0.5 * mass * (a2 + b2)) - 1.0).abs() < 4e-6, "{body:?}");
+    assert!(body.centre.abs() < 1e-12 * p.outer_radius, "{body:?}");
 }

@@ -34,7 +34,15 @@ pub use mesh_file::{FileElement, FileMaterial, MeshFile};
 /// # Errors
 /// The first problem, with its line and card.
 pub fn read(bytes: &[u8], include: &Include<'_>) -> Result<MeshFile, MeshFileError> {
-    match format::recognised(bytes)? {
+    read_as(format::recognised(bytes)?, bytes, include)
+}
+
+/// Reads a mesh file of a known format.
+///
+/// # Errors
+/// The first problem, with its line and card.
+pub fn read_as(format: MeshFormat, bytes: &[u8], include: &Include<'_>) -> Result<MeshFile, MeshFileError> {
+    match format {
         MeshFormat::Inp => inp::read(bytes, include),
         MeshFormat::Gmsh => gmsh::read(bytes),
         MeshFormat::Nastran => nastran::read(bytes, include),

@@ -10,6 +10,8 @@ mod reader;
 mod scope;
 mod skipped;
 mod support;
+#[cfg(test)]
+mod tests;
 
 use crate::error::MeshFileError;
 use crate::include::Include;

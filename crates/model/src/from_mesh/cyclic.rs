@@ -69,6 +69,7 @@ pub(super) fn symmetry(
     }
     let within = tolerance(mesh.nodes.iter().copied());
     let mut best: Option<(f64, Symmetry)> = None;
+    let mut unfit = None;
     for axis in &axes {
         let about = frame(axis)?;
         let Some(sectors) = sectors.or_else(|| number(surface, &about, within)) else { continue };
@@ -76,14 +77,21 @@ pub(super) fn symmetry(
         if best.as_ref().is_some_and(|(other, _)| *other >= area) || fits.is_empty() {
             continue;
         }
-        almost_alike(mesh, surface, &fits, &about, sectors, within)?;
-        let (pairs, farthest) = paired(mesh, surface, &fits, &about, sectors, within)?;
-        let faces = fits.iter().flat_map(|&(low, high)| [low, high]).collect();
-        best = Some((area, Symmetry { axis: axis.clone(), sectors, pairs, faces, farthest }));
+        let pairs = almost_alike(mesh, surface, &fits, &about, sectors, within)
+            .and_then(|()| paired(mesh, surface, &fits, &about, sectors, within));
+        match pairs {
+            Ok((pairs, farthest)) => {
+                let faces = fits.iter().flat_map(|&(low, high)| [low, high]).collect();
+                best = Some((area, Symmetry { axis: axis.clone(), sectors, pairs, faces, farthest }));
+            }
+            Err(error) => unfit = unfit.or(Some(error)),
+        }
     }
-    match best {
-        Some((_, symmetry)) => Ok(symmetry),
-        None => Err(near_miss(surface, &axes, sectors, within)?),
+    match (best, unfit) {
+        (Some((_, symmetry)), _) => Ok(symmetry),
+        // About another axis some faces may fit by chance.
+        (None, Some(error)) => Err(error),
+        (None, None) => Err(near_miss(surface, &axes, sectors, within)?),
     }
 }
 

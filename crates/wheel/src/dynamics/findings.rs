@@ -29,6 +29,9 @@ const USUAL_DENSITY: [f64; 2] = [10.0, 2.3e4];
 /// Wave speeds √(E/ρ), from rubber to diamond, m/s.
 const USUAL_WAVE_SPEED: [f64; 2] = [20.0, 2e4];
 
+/// Speeds of the tips of wheels, m/s: no metal bears more than about 800.
+const USUAL_TIP_SPEED: [f64; 2] = [1.0, 1500.0];
+
 /// Radii of wheels, m.
 const USUAL_RADIUS: [f64; 2] = [1e-3, 20.0];
 
@@ -343,9 +346,30 @@ pub struct InSi {
     pub mass_kg: f64,
     /// Largest distance of a contact node from the axis, m.
     pub contact_radius_m: f64,
+    /// Speed of that node at the highest speed of the stiffness matrices, m/s; absent where that is 0, and for models stored by an earlier
+    /// version.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tip_speed_m_s: Option<f64>,
+    /// Whole wheel by its elements; absent without elements, and for models stored by an earlier version.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub wheel: Option<WheelInSi>,
     /// Materials of the element sets, in the order of their names.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub materials: Vec<MaterialInSi>,
+}
+
+/// Body of the whole wheel in SI units, clamped elements included.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct WheelInSi {
+    /// Volume, m³.
+    pub volume_m3: f64,
+    /// Mass, kg.
+    pub mass_kg: f64,
+    /// Place of the centre of mass along the axis, from the axis's origin, m.
+    pub centre_m: f64,
+    /// Moment of inertia about the axis, kg m².
+    pub polar_inertia_kg_m2: f64,
 }
 
 /// Material of an element set in SI units.
@@ -380,6 +404,15 @@ impl InSi {
             expect(*wave_speed_m_s, USUAL_WAVE_SPEED, &of("√(E/ρ)"), "m/s", "solids have");
         }
         expect(self.contact_radius_m, USUAL_RADIUS, "the radius of the contact nodes", "m", "wheels have");
+        if let Some(speed) = self.tip_speed_m_s {
+            expect(
+                speed,
+                USUAL_TIP_SPEED,
+                "the speed of the tips at the highest speed of the stiffness",
+                "m/s",
+                "wheels have",
+            );
+        }
         let most = MOST_MASS * self.contact_radius_m.powi(3);
         if self.mass_kg > most {
             found.push(format!(

@@ -1,7 +1,8 @@
 //! Size and materials of a model in SI units.
 
+use rubmap_solid::inertia::wheel_body;
 use rubmap_solid::mesh::SectorMesh;
-use rubmap_wheel::dynamics::findings::{InSi, MaterialInSi};
+use rubmap_wheel::dynamics::findings::{InSi, MaterialInSi, WheelInSi};
 use rubmap_wheel::dynamics::sector::SectorModel;
 
 use crate::package::check::agreement::times;
@@ -29,6 +30,17 @@ pub(in crate::package) fn of(
     Some(InSi {
         mass_kg: sector.sectors as f64 * free_mass(sector, layout) * mass,
         contact_radius_m: radius * length,
+        tip_speed_m_s: sector
+            .speeds_rad_s
+            .last()
+            .filter(|&&speed| speed > 0.0)
+            .map(|speed| speed * radius * length),
+        wheel: mesh.and_then(wheel_body).map(|body| WheelInSi {
+            volume_m3: body.volume * length.powi(3),
+            mass_kg: body.mass * mass,
+            centre_m: body.centre * length,
+            polar_inertia_kg_m2: body.polar_inertia * mass * length * length,
+        }),
         materials: materials.collect::<Option<_>>()?,
     })
 }

@@ -1,0 +1,13 @@
+//! Fuzzes the reader of one mesh format and the search for a sector in what it reads: any bytes, an answer or a refusal.
+
+#![no_main]
+
+use rubmap::from_mesh::{MeshSettings, sector};
+use rubmap::mesh::{MeshFormat, read_as};
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
+    let none = |_: &str| Err("no other file".to_owned());
+    if let Ok(file) = read_as(MeshFormat::Vtu, bytes, &none) {
+        let _ = sector(&file, &MeshSettings::new(1000.0));
+    }
+});
