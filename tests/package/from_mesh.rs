@@ -198,6 +198,34 @@ fn every_format_gives_the_same_model() {
     }
 }
 
+/// One edge of the main blade's tip, from corner to corner.
+#[test]
+fn the_contact_line_may_run_along_an_edge() {
+    let parameters = impeller(7);
+    let mesh = sector_mesh(&parameters);
+    let text = deck(&mesh);
+    let middle = made(&text).unwrap().found.contact.clone();
+    let tip = |node: u64| mesh.nodes[node as usize - 1];
+    let beside = |node: u64| {
+        let away = |at: &[f64; 3]| rubmap::solid::frame::distance(*at, tip(node));
+        let others = mesh.nodes.iter().zip(&mesh.node_ids).filter(|(_, id)| **id != node);
+        *others.min_by(|a, b| away(a.0).total_cmp(&away(b.0))).unwrap().1
+    };
+    let ends = [beside(middle[0].node), beside(middle[4].node)];
+    let with = |ends| {
+        from_mesh::sector(&read_mesh(&text), &MeshSettings { contact_between: Some(ends), ..settings() })
+    };
+    let edge = with(ends).unwrap().found;
+    assert_eq!(edge.tip.0, TipSource::Edge(ends));
+    assert_eq!((edge.contact.len(), edge.contact[0].node), (5, ends[0]));
+    for (edge, middle) in edge.contact.iter().zip(&middle) {
+        let off = rubmap::solid::frame::distance(tip(edge.node), tip(middle.node));
+        assert!(off < 0.75 * parameters.tip_thickness, "{off}");
+    }
+    let refused = with([ends[0], 1_000_000]).map(|_| ()).unwrap_err().to_string();
+    assert!(refused.starts_with("node 1000000 lies on no sharp edge of the skin"), "{refused}");
+}
+
 /// Nodes of an element in another order: corners, then the middles of these edges.
 fn ordered(nodes: &[u32], edges: &[[usize; 2]; 12]) -> Vec<u32> {
     let middle = |edge: &[usize; 2]| {

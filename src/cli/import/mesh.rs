@@ -63,6 +63,9 @@ pub(super) struct MeshOptions {
     /// found]
     #[arg(long)]
     contact_set: Option<String>,
+    /// Two nodes between which the contact line runs along the sharp edges of the skin, instead of a set
+    #[arg(long, value_name = "NODE,NODE", value_parser = two_nodes, conflicts_with = "contact_set")]
+    contact_between: Option<[u64; 2]>,
     /// Largest number of contact nodes, evenly spaced [default: 10]
     #[arg(long)]
     contact_nodes: Option<usize>,
@@ -138,6 +141,7 @@ impl MeshOptions {
         settings.axis = self.axis.or(settings.axis);
         settings.clamp_set = self.clamp_set.or(settings.clamp_set);
         settings.contact_set = self.contact_set.or(settings.contact_set);
+        settings.contact_between = self.contact_between.or(settings.contact_between);
         settings.contact_nodes = self.contact_nodes.unwrap_or(settings.contact_nodes);
         settings.units = self.units.unwrap_or(settings.units);
         if let Some(temperature) = self.temperature {
@@ -174,4 +178,10 @@ fn material(text: &str) -> Result<(String, [f64; 3]), String> {
                 .to_owned())
         }
     }
+}
+
+fn two_nodes(text: &str) -> Result<[u64; 2], String> {
+    let numbers: Result<Vec<u64>, _> = text.split(',').map(|number| number.trim().parse()).collect();
+    let pair = numbers.ok().and_then(|numbers| <[u64; 2]>::try_from(numbers).ok());
+    pair.ok_or_else(|| "expected two node numbers, such as 97,1084".to_owned())
 }

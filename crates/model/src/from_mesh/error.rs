@@ -177,6 +177,20 @@ pub enum FromMeshError {
         /// Name of the set.
         name: String,
     },
+    /// End of the contact line that lies on no sharp edge.
+    #[error(
+        "node {node} lies on no sharp edge of the skin; `contact_between` names two nodes on the edge of a tip"
+    )]
+    NotOnEdge {
+        /// Number of the node.
+        node: u64,
+    },
+    /// Ends of the contact line that no sharp edges join.
+    #[error("no sharp edges of the skin lead from node {} to node {}", .ends[0], .ends[1])]
+    NoWay {
+        /// Numbers of the nodes.
+        ends: [u64; 2],
+    },
     /// Contact line of too few usable nodes.
     #[error(
         "the contact line has {found} free nodes away from the cyclic faces; at least 3 are needed for its normals"

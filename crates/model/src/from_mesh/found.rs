@@ -143,6 +143,9 @@ impl fmt::Display for Found {
         match tip {
             TipSource::Line(name) => write!(f, "contact: line of {count} nodes of the set {name}")?,
             TipSource::Area(name) => write!(f, "contact: {count} nodes in the middle of the set {name}")?,
+            TipSource::Edge([a, b]) => {
+                write!(f, "contact: {count} nodes along the edge from node {a} to node {b}")?
+            }
             TipSource::Found(tips) => {
                 write!(f, "contact: {count} nodes in the middle of the longest of {tips} blade tips found")?;
             }

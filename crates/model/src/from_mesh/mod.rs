@@ -7,6 +7,7 @@
 mod body;
 mod clamp;
 mod cyclic;
+mod edges;
 pub mod error;
 mod found;
 mod materials;

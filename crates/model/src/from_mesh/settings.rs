@@ -49,6 +49,9 @@ pub struct MeshSettings {
     /// Node set along the blade's tip, a line of nodes or the whole tip; found as the longest tip if left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub contact_set: Option<String>,
+    /// Nodes between which the contact line runs along the sharp edges of the skin, instead of a set.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub contact_between: Option<[u64; 2]>,
     /// Largest number of contact nodes, evenly spaced.
     #[serde(default = "default_contact_nodes")]
     pub contact_nodes: usize,
@@ -86,6 +89,7 @@ impl MeshSettings {
             temperatures: BTreeMap::new(),
             clamp_set: None,
             contact_set: None,
+            contact_between: None,
             contact_nodes: CONTACT_NODES,
             mass: MassRule::default(),
             gyroscopic: true,

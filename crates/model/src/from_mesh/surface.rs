@@ -7,6 +7,9 @@ use rubmap_solid::frame::AxisFrame;
 use rubmap_solid::mesh::SectorMesh;
 use rubmap_solid::skin::{SkinFace, skin};
 
+/// Cosine of the largest angle between neighbouring faces of one smooth patch (35°).
+pub(super) const SMOOTH: f64 = 0.82;
+
 /// Face of the skin.
 #[derive(Debug, Clone)]
 pub(super) struct Face {

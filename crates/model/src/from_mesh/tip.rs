@@ -11,13 +11,11 @@ use rubmap_solid::frame::{AxisFrame, distance};
 use rubmap_solid::mesh::SectorMesh;
 
 use super::cyclic::Symmetry;
+use super::edges::between;
 use super::error::FromMeshError;
 use super::midline::{Line, along, midline};
 use super::settings::MeshSettings;
-use super::surface::{Face, sides};
-
-/// Cosine of the largest angle between neighbouring faces of one smooth patch (35°).
-const SMOOTH: f64 = 0.82;
+use super::surface::{Face, SMOOTH, sides};
 
 /// Largest circumferential part of a tip's normal, by area.
 const MERIDIONAL: f64 = 0.4;
@@ -38,6 +36,8 @@ pub enum TipSource {
     Line(String),
     /// Middle of the patch that this set covers.
     Area(String),
+    /// Sharp edges between two nodes.
+    Edge([u64; 2]),
     /// Middle of the longest of the tips that were found, and their number.
     Found(usize),
 }
@@ -51,6 +51,9 @@ pub(super) fn tip(
     symmetry: &Symmetry,
     axis: &AxisFrame,
 ) -> Result<(Line, TipSource), FromMeshError> {
+    if let Some(ends) = settings.contact_between {
+        return Ok((in_order(between(mesh, surface, ends)?, axis), TipSource::Edge(ends)));
+    }
     let Some(name) = &settings.contact_set else {
         let tips = tips(mesh, surface, symmetry, axis);
         let count = tips.len();
