@@ -972,6 +972,13 @@ class WheelCriticalSpeed(TypedDict):
     validity_lacking: NotRequired[list[ValidityMeasure]]
 
 
+class WheelInSi(TypedDict):
+    centre_m: float
+    mass_kg: float
+    polar_inertia_kg_m2: float
+    volume_m3: float
+
+
 class Accuracy(TypedDict, closed=True):
     of: NotRequired[AccuracyOf]
     seconds: NotRequired[float]
@@ -1225,6 +1232,8 @@ class InSi(TypedDict):
     contact_radius_m: float
     mass_kg: float
     materials: NotRequired[list[MaterialInSi]]
+    tip_speed_m_s: NotRequired[float]
+    wheel: NotRequired[WheelInSi]
 
 
 class Initial(TypedDict, closed=True):
@@ -1264,6 +1273,7 @@ class MeshFacts(TypedDict):
 class MeshSettings(TypedDict, closed=True):
     axis: NotRequired[dict[str, Any]]
     clamp_set: NotRequired[str]
+    contact_between: NotRequired[list[int] | None]
     contact_nodes: NotRequired[int]
     contact_set: NotRequired[str]
     gyroscopic: NotRequired[bool]

@@ -117,7 +117,7 @@ impl fmt::Display for Found {
             writeln!(f, "left out: {count} of type {kind}")?;
         }
         for (set, [e, nu, rho]) in &self.materials {
-            writeln!(f, "material of {set}: E = {e}, ν = {nu}, ρ = {rho}")?;
+            writeln!(f, "material of {set}: E = {e}, ν = {nu}, ρ = {rho:?}")?;
         }
         let [origin, direction] = self.axis.map(|v| v.map(|x| x.to_string()).join(", "));
         writeln!(f, "axis: through ({origin}) along ({direction})")?;
