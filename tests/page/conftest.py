@@ -5,6 +5,7 @@ import os
 from pathlib import Path
 
 import pytest
+from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import sync_playwright
 from service import Service, package
 
@@ -104,6 +105,19 @@ def browser():
         browser = playwright.chromium.launch(executable_path="/usr/bin/chromium", args=FLAGS)
         yield browser
         browser.close()
+
+
+def judged(page, picture):
+    """A picture of a page, which is not wider than its window and in which axe finds nothing serious."""
+    page.screenshot(path=picture, full_page=True)
+    overflow = page.evaluate("document.documentElement.scrollWidth - document.documentElement.clientWidth")
+    assert overflow <= 0, f"{overflow} pixels wider than the window"
+    # Rules of WCAG 2.2 AA and below.
+    rules = {"runOnly": ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa"]}
+    found = Axe().run(page, options=rules).response["violations"]
+    serious = [v for v in found if v["impact"] in ("serious", "critical")]
+    told = [f"{v['id']}: {v['help']}: {n['target']} {n.get('failureSummary', '')}" for v in serious for n in v["nodes"]]
+    assert told == []
 
 
 class Watch:

@@ -22,6 +22,12 @@ function sizes({ mass_kg, contact_radius_m, materials = [] }) {
   return [`${number(mass_kg, 4)} kg`, `contact nodes up to ${number(contact_radius_m, 4)} m`, ...materials.map(of)].join('; ');
 }
 
+/** What was found in the mesh that a model was made from, to be compared with what one knows. */
+function foundInMesh(found) {
+  if (found.length === 0) return null;
+  return h('section', { 'aria-label': 'Found in the mesh' }, h('h2', {}, 'Found in the mesh'), h('ul', {}, found.map((sentence) => h('li', {}, sentence))));
+}
+
 export async function show(main, { id, query }, signal) {
   const model = await api.get(`/v1/models/${id}`, { signal });
   const tab = TABS.find(([name]) => name === query.get('view')) ?? TABS[0];
@@ -46,6 +52,7 @@ export async function show(main, { id, query }, signal) {
       ['Notes', model.notes],
       ['Tags', model.tags.join(', ')],
     ]),
+    foundInMesh(model.found ?? []),
     (model.warnings ?? []).map((warning) => h('p', { class: 'note warning' }, warning)),
     stiffening ? h('p', { class: `note ${stiffening.verdict === 'sound' ? '' : 'warning'}` }, stiffening.message) : null,
     h('div', { class: 'row' },

@@ -1,13 +1,13 @@
 // The models of the service: a new one by upload, and those that are there.
 
-import { api, Away, Refusal } from '../lib/api.js';
+import { api } from '../lib/api.js';
 import { confirmed } from '../lib/confirm.js';
-import { facts, h, newId, replace } from '../lib/dom.js';
-import { bytes, moment, number, percent, rpm } from '../lib/format.js';
+import { facts, h, replace } from '../lib/dom.js';
+import { bytes, moment, number, rpm } from '../lib/format.js';
 import { cursorOf, placeWith } from '../lib/place.js';
 import { problem } from '../lib/problem.js';
 import { narrowing, searchField } from '../lib/search.js';
-import { upload } from '../lib/upload.js';
+import { drop } from './models/drop.js';
 
 /** Models of a page. */
 const LIMIT = 50;
@@ -42,7 +42,7 @@ function filter(query, go, signal) {
 
 function introduction() {
   return h('div', { class: 'note' },
-    h('p', {}, 'There is no model yet. A model is one sector of a wheel from your finite-element program: a zip with the mass matrix, the stiffness at one or three speeds, nodes, and the nodes at which the blade may touch the casing.'),
+    h('p', {}, 'There is no model yet. A model is one sector of a wheel from your finite-element program: its mesh (Abaqus or CalculiX, Gmsh, Nastran, Ansys or VTK), from which the service assembles the matrices; or a zip with the mass matrix, the stiffness at one or three speeds, nodes, and the nodes at which the blade may touch the casing.'),
     h('p', {}, 'To try the program without your own model, ', h('a', { href: '#/generate' }, 'generate an impeller'), ' in a few seconds.'));
 }
 
@@ -78,58 +78,4 @@ export function deleteButton(model, { told, deleted }, signal) {
     }
   });
   return button;
-}
-
-/** Where packages are dropped or chosen. */
-function drop(signal) {
-  const id = newId('package');
-  const told = h('div');
-  const input = h('input', { id, type: 'file', accept: '.zip,application/zip' });
-  const place = h('div', { class: 'drop' },
-    h('label', { for: id }, 'Drop a model package (zip) here, or choose one: '), input, ' or ', h('a', { href: '#/generate' }, 'generate an impeller'), told);
-  input.addEventListener('change', () => input.files[0] && send(input.files[0]));
-  const over = (on) => (event) => {
-    event.preventDefault();
-    place.classList.toggle('over', on);
-  };
-  place.addEventListener('dragover', over(true));
-  place.addEventListener('dragleave', over(false));
-  place.addEventListener('drop', (event) => {
-    over(false)(event);
-    const [file] = event.dataTransfer.files;
-    if (file) send(file);
-  });
-  let sending = false;
-  return place;
-
-  async function send(file) {
-    if (sending) return;
-    sending = true;
-    const stop = new AbortController();
-    const either = AbortSignal.any([signal, stop.signal]);
-    const bar = h('progress', { max: file.size, 'aria-label': `Upload of ${file.name}` });
-    const words = h('span', {}, `${file.name}, ${bytes(file.size)}`);
-    replace(told, h('div', { class: 'row' }, bar, words, h('button', { type: 'button', on: { click: () => stop.abort() } }, 'Stop')));
-    try {
-      const { model, known } = await upload(file, (sent, all) => {
-        bar.value = sent;
-        words.textContent = sent < all ? `${file.name}: ${percent(sent / all)} of ${bytes(all)}` : `${file.name} is being checked …`;
-      }, either);
-      location.hash = `#/models/${model.id}${known ? '?known=yes' : ''}`;
-    } catch (error) {
-      if (signal.aborted) return;
-      replace(told, stop.signal.aborted ? h('p', { role: 'status' }, 'The upload was stopped.') : refused(file, error));
-    } finally {
-      sending = false;
-      input.value = '';
-    }
-  }
-}
-
-function refused(file, error) {
-  if (error instanceof Away) {
-    return h('p', { class: 'note bad', role: 'alert' }, `The upload of ${file.name} was interrupted. Choose it again once the service answers.`);
-  }
-  const heading = error instanceof Refusal ? h('p', {}, `The service refused ${file.name}:`) : null;
-  return [heading, problem(error)];
 }
