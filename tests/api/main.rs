@@ -17,6 +17,7 @@ mod faults;
 mod fields;
 mod figures;
 mod formats;
+mod from_mesh;
 mod generation;
 mod idempotency;
 mod jobs;

@@ -138,7 +138,7 @@ fn matrix_market(by_node: &[[f64; NODES]; NODES]) -> String {
     text
 }
 
-fn zip(files: &[(&str, String)], level: i64) -> Vec<u8> {
+pub(crate) fn zip(files: &[(&str, String)], level: i64) -> Vec<u8> {
     let method = if level == 0 { zip::CompressionMethod::Stored } else { zip::CompressionMethod::Deflated };
     let options = zip::write::SimpleFileOptions::default()
         .compression_method(method)
