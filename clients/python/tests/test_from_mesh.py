@@ -305,8 +305,10 @@ def test_the_order_of_nodes_is_that_of_gmsh(kind: str, tmp_path: Path) -> None:
         gmsh.finalize()
 
 
-def step_file(gmsh: Any, path: Path, sectors: int, sweep: float = 0.0, thickness: float = 4.0) -> None:
-    """A disk with a bore and blades, as one solid: straight ones, or such as run back by an angle."""
+def step_file(
+    gmsh: Any, path: Path, sectors: int, sweep: float = 0.0, thickness: float = 4.0, holes: float = 0.0
+) -> None:
+    """A disk with a bore and blades, as one solid: straight ones, or such as run back by an angle; with a hole between blades."""
     gmsh.initialize(readConfigFiles=False, interruptible=False)
     try:
         gmsh.option.setNumber("General.Terminal", 0)
@@ -326,7 +328,11 @@ def step_file(gmsh: Any, path: Path, sectors: int, sweep: float = 0.0, thickness
             outline += [occ.addSpline(other), occ.addLine(other[0], one[0])]
             surface = occ.addPlaneSurface([occ.addCurveLoop(outline)])
             blades += [part for part in occ.extrude([(2, surface)], 0, 0, 20) if part[0] == 3]
-        occ.fuse(disk, blades)
+        wheel, _ = occ.fuse(disk, blades)
+        angles = 2.0 * np.pi * np.arange(sectors if holes else 0) / sectors + 0.3
+        drills = [(3, occ.addCylinder(45 * np.cos(at), 45 * np.sin(at), 0, 0, 0, 20, holes)) for at in angles]
+        if drills:
+            occ.cut(wheel, drills)
         occ.synchronize()
         gmsh.write(str(path))
     finally:
@@ -388,6 +394,15 @@ def test_a_wheel_of_which_no_sector_can_be_cut_is_refused(tmp_path: Path) -> Non
     with pytest.raises(ValueError, match="cannot be read as STEP"):
         rubmap.mesh_step(path, sectors=7, size=8)
     assert not gmsh.isInitialized() and not path.with_suffix(".msh").exists()
+
+
+def test_a_cut_through_holes_is_told_and_has_the_same_mesh_on_both_sides(client: rubmap.Client, tmp_path: Path) -> None:
+    path = tmp_path / "wheel.step"
+    step_file(needed("gmsh"), path, 7, holes=4.0)
+    with pytest.warns(UserWarning, match="cut a blade or a hole"):
+        mesh = rubmap.mesh_step(path, sectors=7, size=8)
+    model = client.model_from_mesh(mesh, top_speed_rpm=30000, material=TITANIUM)
+    assert any(line.startswith("sectors: 7 (found)") for line in model.found)
 
 
 def test_a_sector_with_curved_faces_is_meshed_as_it_is(client: rubmap.Client, tmp_path: Path) -> None:
