@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import os
+import subprocess
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -37,6 +40,13 @@ def sweep_of(model: str, **changes: Any) -> Any:
 def client() -> Iterator[rubmap.Client]:
     with rubmap.local() as found:
         yield found
+
+
+@pytest.fixture(scope="session")
+def zipped(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("package") / "impeller.zip"
+    subprocess.run([os.environ["RUBMAP_BINARY"], "generate", "--out", path], check=True, capture_output=True)
+    return path
 
 
 @pytest.fixture(scope="session")

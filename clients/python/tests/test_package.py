@@ -5,8 +5,6 @@ from __future__ import annotations
 import csv
 import io
 import json
-import os
-import subprocess
 import zipfile
 from pathlib import Path
 from typing import Any
@@ -18,13 +16,6 @@ from scipy import sparse
 import rubmap
 
 Parts = dict[str, Any]
-
-
-@pytest.fixture(scope="session")
-def zipped(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    path = tmp_path_factory.mktemp("package") / "impeller.zip"
-    subprocess.run([os.environ["RUBMAP_BINARY"], "generate", "--out", path], check=True, capture_output=True)
-    return path
 
 
 @pytest.fixture

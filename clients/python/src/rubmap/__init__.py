@@ -15,6 +15,7 @@ from .local import local
 from .models import Model
 from .package import write_package
 from .results import Branches, Campaign, CaseStudy, ModalAnalysis, RunUps, Study, Sweep
+from .step import mesh_step
 
 __all__ = [
     "Branches",
@@ -35,6 +36,7 @@ __all__ = [
     "Unreachable",
     "contract",
     "local",
+    "mesh_step",
     "plot",
     "write_package",
 ]

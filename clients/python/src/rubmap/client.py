@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import islice
@@ -14,16 +15,20 @@ from .contract import (
     CampaignRequest,
     CaseStudyRequest,
     ImpellerRequest,
+    MassRule,
     MeasuredCasing,
     ModalAnalysisRequest,
     RunUpRequest,
     StudyRequest,
     SweepRequest,
+    Units,
 )
+from .gmsh_text import Mesh
 from .jobs import Job, ModelGeneration, asked_of
+from .mesh import file_of, settings_of
 from .models import Model
 from .results import Branches, Campaign, CaseStudy, ModalAnalysis, RunUps, Study, Sweep
-from .service import Service
+from .service import Service, plain
 
 _KINDS: dict[str, type[Job]] = {
     kind.kind: kind for kind in (Sweep, ModalAnalysis, Study, CaseStudy, Branches, RunUps, Campaign, ModelGeneration)
@@ -71,13 +76,84 @@ class Client:
         Raises:
             Refusal: something is wrong with the package; ``errors`` says in which file and row.
         """
-        words = tags if isinstance(tags, str) else ",".join(tags or ())
-        query = {"name": name, "tags": words or None, "notes": notes}
+        query = _labels(name, tags, notes)
         if isinstance(package, bytes):
             return Model(self.service, self.service.upload("/v1/models", lambda: package, query))
         path = Path(package).expanduser()
         path.stat()
         return Model(self.service, self.service.upload("/v1/models", lambda: _pieces(path), query))
+
+    def model_from_mesh(
+        self,
+        mesh: str | os.PathLike[str] | Mesh,
+        *,
+        top_speed_rad_s: float | None = None,
+        top_speed_rpm: float | None = None,
+        sectors: int | None = None,
+        axis: Any = None,
+        materials: Mapping[str, Any] | None = None,
+        material: Sequence[float] | None = None,
+        units: Units | None = None,
+        clamp_set: str | None = None,
+        contact_set: str | None = None,
+        contact_nodes: int | None = None,
+        gyroscopic: bool | None = None,
+        mass: MassRule | None = None,
+        temperatures: Mapping[str, float] | None = None,
+        name: str | None = None,
+        tags: Sequence[str] | None = None,
+        notes: str | None = None,
+    ) -> Model:
+        """Uploads a mesh of one sector; the service assembles its matrices. ``found`` of the model says what was found in the mesh.
+
+        What is left out is read from the file, or found from its geometry.
+
+        Args:
+            mesh: a file: a deck of CalculiX or Abaqus (.inp), Gmsh (.msh), Nastran (.bdf, .nas, .fem, .dat), Ansys (.cdb), VTK (.vtu), or one
+                that meshio reads if it is installed; or a ``meshio.Mesh``, whose points and cells count from 1, with its sets.
+            top_speed_rad_s: highest speed of the stiffness matrices; this, or
+            top_speed_rpm: the same in rev/min.
+            sectors: N, the number of identical sectors of the wheel; 1 for a single blade.
+            axis: of rotation: ``"x"``, ``"y"`` or ``"z"`` through the origin, or an origin and a direction.
+            materials: by element set or material of the file: ``{"BLADE": {"youngs_modulus": …, "poissons_ratio": …, "density": …}}``.
+            material: Young's modulus, Poisson's ratio and density of all other elements.
+            units: of length, force, time, mass, consistent; mm, N, s, t if nothing is said.
+            clamp_set: node set of the clamp; by default the nodes that the file holds, or else the bore.
+            contact_set: node set along the blade's tip; by default the longest tip that is found.
+            contact_nodes: how many nodes along it may touch, at most.
+            gyroscopic: whether Coriolis forces can be considered; by default they can.
+            mass: rule by which mass is integrated.
+            temperatures: by element set or material, ``"*"`` for all, where the file tabulates a material.
+            name: of the model; by default that of the file without its ending.
+            tags: words to group it by.
+            notes: anything worth remembering.
+
+        Raises:
+            Refusal: something is wrong with the mesh or a setting; ``errors`` says what, and in which line.
+            ValueError: arguments that contradict each other, or a mesh that cannot be sent.
+            ImportError: meshio would have to read the file, and is not installed.
+        """
+        settings = settings_of(
+            top_speed_rad_s=top_speed_rad_s,
+            top_speed_rpm=top_speed_rpm,
+            sectors=sectors,
+            axis=axis,
+            materials=materials,
+            material=material,
+            units=units,
+            clamp_set=clamp_set,
+            contact_set=contact_set,
+            contact_nodes=contact_nodes,
+            gyroscopic=gyroscopic,
+            mass=mass,
+            temperatures=temperatures,
+        )
+        if name is None and isinstance(mesh, str | os.PathLike):
+            name = Path(mesh).stem
+        query = _labels(name, tags, notes) | {"settings": json.dumps(plain(settings), allow_nan=False)}
+        with file_of(mesh, (clamp_set, contact_set)) as path:
+            facts = self.service.upload("/v1/models", lambda: _pieces(path), query, "application/octet-stream")
+        return Model(self.service, facts)
 
     def generate(self, request: ImpellerRequest) -> ModelGeneration:
         """A parametric impeller: a job whose ``model`` is the id of the model."""
@@ -158,6 +234,11 @@ def _later_kind(found: Mapping[str, Any]) -> type[Job]:
         path = found.get("posted_to", "")
 
     return Later
+
+
+def _labels(name: str | None, tags: Sequence[str] | None, notes: str | None) -> dict[str, str | None]:
+    words = tags if isinstance(tags, str) else ",".join(tags or ())
+    return {"name": name, "tags": words or None, "notes": notes}
 
 
 def _pieces(path: Path) -> Iterator[bytes]:

@@ -35,6 +35,11 @@ class Model:
         """Units of length, force, time and mass."""
         return dict(self.facts["units"])
 
+    @property
+    def found(self) -> list[str]:
+        """What was found in the mesh that it was made from, a sentence or fact each: axis, sectors, clamp, contact line, notes. Empty for others."""
+        return list(self.facts.get("found", []))
+
     def refresh(self) -> Model:
         """Reads it again: after the first sweep it has a reduction."""
         self.facts = self._service.get(f"/v1/models/{self.id}")

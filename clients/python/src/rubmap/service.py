@@ -83,17 +83,19 @@ class Service:
     def post(self, path: str, body: Mapping[str, Any], key: str) -> Any:
         """Sends JSON that makes something: with one key for all tries, so that it is made once."""
         headers = {"idempotency-key": key}
-        sent = _plain(body)
+        sent = plain(body)
         return _json(self._patiently(lambda: self._http.post(path, json=sent, headers=headers)))
 
     def ask(self, path: str, body: Mapping[str, Any]) -> Any:
         """Sends JSON that makes nothing, such as for a plan: sent twice it does no harm."""
-        sent = _plain(body)
+        sent = plain(body)
         return _json(self._patiently(lambda: self._http.post(path, json=sent)))
 
-    def upload(self, path: str, content: Callable[[], Any], query: Mapping[str, Any]) -> Any:
-        """Sends a zip; ``content`` opens it anew for every try."""
-        headers = {"content-type": "application/zip", "idempotency-key": str(uuid.uuid4())}
+    def upload(
+        self, path: str, content: Callable[[], Any], query: Mapping[str, Any], media_type: str = "application/zip"
+    ) -> Any:
+        """Sends a file; ``content`` opens it anew for every try."""
+        headers = {"content-type": media_type, "idempotency-key": str(uuid.uuid4())}
         return _json(
             self._patiently(lambda: self._http.post(path, content=content(), params=_given(query), headers=headers))
         )
@@ -156,14 +158,14 @@ class Service:
             pause = min(2 * pause, most)
 
 
-def _plain(value: Any, pointer: str = "") -> Any:
+def plain(value: Any, pointer: str = "") -> Any:
     """A request as JSON has it: arrays and numbers of numpy are lists and numbers."""
     if isinstance(value, Mapping):
-        return {name: _plain(part, f"{pointer}/{name}") for name, part in value.items()}
+        return {name: plain(part, f"{pointer}/{name}") for name, part in value.items()}
     if isinstance(value, np.ndarray | np.generic):
         value = value.tolist()
     if isinstance(value, list | tuple):
-        return [_plain(part, f"{pointer}/{index}") for index, part in enumerate(value)]
+        return [plain(part, f"{pointer}/{index}") for index, part in enumerate(value)]
     if isinstance(value, float) and not math.isfinite(value):
         raise ValueError(f"{pointer}: {value} is no number that a request can have")
     return value
