@@ -8,6 +8,7 @@ use std::process::Command;
 use rubmap::from_mesh::{self, MeshSettings};
 use rubmap::mesh;
 use rubmap::package::raw::RawPackage;
+use rubmap::package::to_sector;
 use rubmap::solid::element::ElementKind;
 use rubmap::solid::rule::MassRule;
 
@@ -24,7 +25,7 @@ const SPEED: f64 = 30_000.0;
 /// Sector of a disk with skewed cuts as a deck, cells along r, θ and z, held at its `held`th cylinder of corners; contact nodes along z on the
 /// middle one.
 fn deck(kind: ElementKind, sectors: usize, held: f64) -> String {
-    let turn = TAU / SECTORS as f64;
+    let turn = TAU / if sectors > 1 { sectors } else { SECTORS } as f64;
     let place = |[r, j, z]: [f64; 3]| {
         let theta = turn * j / CELLS[1] as f64 + 0.1 * r + 0.05 * z;
         let r = 30.0 + 10.0 * r;
@@ -175,6 +176,24 @@ fn buckling_factors_of_every_kind_are_calculixs() {
         let ours = -1.0 / factors[0];
         println!("{kind:?}: {ours} {theirs}");
         assert!((ours / theirs - 1.0).abs() < 2e-6, "{kind:?}: {ours} {theirs}");
+    }
+}
+
+/// Structured rings, whose faces fit about many axes and by many turns, are recognised, also where half a turn carries each face onto the
+/// other, and pass the checks of a package.
+#[test]
+fn rings_of_any_number_of_sectors_are_recognised() {
+    for sectors in [2, 3, 4, 9] {
+        for kind in [ElementKind::C3D8I, ElementKind::C3D20, ElementKind::C3D10] {
+            let deck = deck(kind, sectors, 0.0);
+            let bare = &deck[..deck.find("*NSET, NSET=LOW").unwrap()];
+            let file = mesh::read(bare.as_bytes(), &|_| Err("no file".to_owned())).unwrap();
+            let settings = MeshSettings { contact_set: Some("tip".into()), ..MeshSettings::new(SPEED) };
+            let sector = from_mesh::sector(&file, &settings).unwrap();
+            assert_eq!((sector.found.sectors, sector.found.axis[1]), (sectors, [0.0, 0.0, 1.0]), "{kind:?}");
+            to_sector(sector.package().unwrap())
+                .unwrap_or_else(|error| panic!("{kind:?}, {sectors}: {error}"));
+        }
     }
 }
 

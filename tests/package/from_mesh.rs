@@ -145,7 +145,9 @@ fn a_bare_mesh_becomes_the_model_that_its_generator_makes() {
             matches!(found.clamp, (ClampSource::Bore(radius), _) if (radius - parameters.bore_radius).abs() < 1e-9)
         );
         assert!(matches!(found.tip, (TipSource::Found(_), _)));
-        is_that(&sector.package().unwrap(), &generate(&parameters).unwrap(), 1e-15);
+        let package = sector.package().unwrap();
+        is_that(&package, &generate(&parameters).unwrap(), 1e-15);
+        to_sector(package).unwrap();
     }
 }
 

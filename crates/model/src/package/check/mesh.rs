@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 use std::f64::consts::TAU;
 
 use rubmap_solid::frame::AxisFrame;
-use rubmap_solid::mesh::SectorMesh;
+use rubmap_solid::mesh::{Element, SectorMesh};
 use rubmap_solid::skin::{Cut, skin};
 
 use super::elements;
@@ -84,7 +84,8 @@ pub(crate) fn made(
         let places = clamped.iter().map(|&node| (u64::from(node), position(node))).collect();
         let places = NodeGrid::new(places, tolerance(nodes.iter().map(|node| node.position)));
         let alpha = TAU / manifest.sectors as f64;
-        for &low in &clamped {
+        let is_low = low_of_two(manifest.sectors, &elements, &cyclic);
+        for &low in clamped.iter().filter(|low| is_low(**low)) {
             let high = places.near(frame.turn_point(position(low), alpha));
             cyclic.extend(high.map(|high| high as u32).filter(|&high| high != low).map(|high| (low, high)));
         }
@@ -98,6 +99,20 @@ pub(crate) fn made(
         elements,
         sets,
     })
+}
+
+/// Test whether a node may be on the low face. Of two sectors each face is a half turn from the other, so that elements decide: those around
+/// the node have more free nodes of the low face than of the high one.
+fn low_of_two(sectors: usize, elements: &[Element], pairs: &[(u32, u32)]) -> impl Fn(u32) -> bool + use<> {
+    let mut balance: HashMap<u32, i64> = HashMap::new();
+    if sectors == 2 {
+        let side: HashMap<u32, i64> = pairs.iter().flat_map(|&(low, high)| [(low, 1), (high, -1)]).collect();
+        for element in elements {
+            let sum: i64 = element.nodes.iter().filter_map(|node| side.get(node)).sum();
+            element.nodes.iter().for_each(|&node| *balance.entry(node).or_default() += sum);
+        }
+    }
+    move |node| sectors != 2 || balance.get(&node).is_some_and(|&sum| sum > 0)
 }
 
 /// Refuses more nodes without element than any export leaves: every mesh that is requested would carry them.
