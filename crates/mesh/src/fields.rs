@@ -22,8 +22,13 @@ pub(crate) fn integer(word: &str, expected: &'static str) -> Result<u64, MeshPro
     number.ok_or_else(|| MeshProblem::NotA { text: quoted(word.trim()), expected })
 }
 
-/// Parses a finite real number, in Fortran's and Nastran's spellings too: `1.5D+3`, `1.5+3`.
+/// Parses a finite real number, as [`number`] reads it.
 pub(crate) fn real(word: &str, expected: &'static str) -> Result<f64, MeshProblem> {
+    number(word).ok_or_else(|| MeshProblem::NotA { text: quoted(word.trim()), expected })
+}
+
+/// Finite real number, in Fortran's and Nastran's spellings too: `1.5D+3`, `1.5+3`.
+pub fn number(word: &str) -> Option<f64> {
     let word = word.trim();
     let fortran = || {
         let word = word.replace(['d', 'D'], "e");
@@ -34,7 +39,7 @@ pub(crate) fn real(word: &str, expected: &'static str) -> Result<f64, MeshProble
         format!("{}e{}", &word[..sign], &word[sign..]).parse().ok()
     };
     let number: Option<f64> = word.parse().ok().or_else(fortran);
-    number.filter(|x| x.is_finite()).ok_or(MeshProblem::NotA { text: quoted(word), expected })
+    number.filter(|x| x.is_finite())
 }
 
 #[cfg(test)]

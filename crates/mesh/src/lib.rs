@@ -10,11 +10,12 @@
 mod ansys;
 mod collapse;
 pub mod error;
-mod fields;
+pub mod fields;
 pub mod format;
 mod gmsh;
 mod include;
-mod inp;
+pub mod inp;
+mod lines;
 pub mod matrices;
 pub mod mesh_file;
 mod nastran;

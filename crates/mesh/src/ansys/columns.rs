@@ -1,8 +1,8 @@
 //! Columns of a block's lines, as its Fortran format states them, such as `(3i9,6e21.13e3)`.
 
-use super::lines::Lines;
 use crate::error::{MeshFileError, MeshProblem};
 use crate::fields::quoted;
+use crate::lines::Lines;
 
 /// Most columns of a line; Ansys writes no more than 21.
 const MOST: usize = 100;

@@ -1,10 +1,11 @@
 //! Sets: the blocks of CMBLOCK, which list numbers and ranges of them.
 
 use super::columns::Columns;
-use super::lines::{Fields, Lines};
+use super::command::Fields;
 use super::listed::listed;
 use crate::error::{MeshFileError, MeshProblem};
 use crate::fields::{integer, quoted};
+use crate::lines::Lines;
 use crate::mesh_file::MeshFile;
 
 /// Name of the command.

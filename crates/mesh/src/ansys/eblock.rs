@@ -1,9 +1,10 @@
 //! Elements: the block of EBLOCK, with numbers of types and materials that other commands define.
 
 use super::columns::Columns;
-use super::lines::{Fields, Lines};
+use super::command::Fields;
 use crate::error::{MeshFileError, MeshProblem};
 use crate::fields::integer;
+use crate::lines::Lines;
 
 /// Name of the command.
 pub(super) const CARD: &str = "EBLOCK";

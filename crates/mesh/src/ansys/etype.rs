@@ -2,9 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use super::lines::{Fields, Lines};
+use super::command::Fields;
 use crate::error::{MeshFileError, MeshProblem};
 use crate::fields::{integer, quoted};
+use crate::lines::Lines;
 
 /// Element type, as ET and KEYOPT define it.
 #[derive(Debug, Default)]

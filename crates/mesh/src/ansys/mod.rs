@@ -4,10 +4,10 @@
 //! solution are no part of a mesh; constraints between nodes, contact, springs and masses are refused.
 
 mod columns;
+mod command;
 mod components;
 mod eblock;
 mod etype;
-mod lines;
 mod listed;
 mod materials;
 mod nblock;
@@ -20,10 +20,11 @@ mod tests;
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use crate::lines::Lines;
+use command::Fields;
 use components::Component;
 use eblock::Raw;
 use etype::ElementTypes;
-use lines::{Fields, Lines};
 use properties::Properties;
 use supports::Supports;
 
@@ -45,7 +46,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<MeshFile, MeshFileError> {
         supports: Supports::default(),
     };
     let mut lines = Lines::new(bytes);
-    while let Some(line) = lines.next() {
+    while let Some(line) = lines.bytes() {
         archive.command(&String::from_utf8_lossy(line), &mut lines)?;
     }
     archive.finish()

@@ -1,9 +1,9 @@
 //! Nodes: the block of NBLOCK.
 
 use super::columns::Columns;
-use super::lines::Lines;
 use crate::error::{MeshFileError, MeshProblem};
 use crate::fields::{integer, real};
+use crate::lines::Lines;
 use crate::mesh_file::MeshFile;
 
 /// Name of the command.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::lines::Fields;
+use super::command::Fields;
 use super::table::Table;
 use crate::error::MeshProblem;
 use crate::fields::{integer, quoted, real};

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::lines::Fields;
+use super::command::Fields;
 use crate::error::{MeshFileError, MeshProblem};
 use crate::fields::{integer, quoted, real};
 use crate::mesh_file::MeshFile;

@@ -150,7 +150,7 @@ fn formats_of_nodes() {
     assert_eq!(error, "the file has no solid element");
     let mut mesh = MeshFile::new(MeshFormat::Ansys);
     let mut lines = Lines::new(nodes.as_bytes());
-    lines.next();
+    lines.bytes();
     nblock::read(&mut lines, &mut mesh).expect("nodes");
     assert_eq!(mesh.nodes[&1], [1.0, 0.0, 0.0]);
     assert_eq!(mesh.nodes[&2], [-2.5, 0.0, 0.0]);

@@ -4,7 +4,7 @@
 //! `*INCLUDE` may be nested. Parts and instances are put together, with the instances' displacement and turn.
 
 mod assembly;
-mod card;
+pub mod card;
 mod kinds;
 mod reader;
 mod scope;

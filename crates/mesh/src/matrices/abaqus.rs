@@ -6,9 +6,9 @@ use crate::error::{MeshFileError, MeshProblem};
 use crate::fields;
 
 use super::dof::{Dof, whole};
-use super::lines::{Lines, words};
 use super::mapping;
 use super::raw::{RawEntry, RawMatrix, Rows, Triangles};
+use crate::lines::{Lines, words};
 
 /// Name of the format.
 pub(super) const FORMAT: &str = "Abaqus matrix";

@@ -4,9 +4,9 @@ use crate::error::{MeshFileError, MeshProblem};
 use crate::fields;
 
 use super::fortran::{Layout, each_field};
-use super::lines::Lines;
 use super::mapping;
 use super::raw::{RawEntry, RawMatrix, Triangles};
+use crate::lines::Lines;
 
 /// Name of the format.
 pub(super) const FORMAT: &str = "Harwell-Boeing matrix";

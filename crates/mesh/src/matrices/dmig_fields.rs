@@ -3,7 +3,7 @@
 use crate::error::{MeshFileError, MeshProblem};
 use crate::fields;
 
-use super::lines::Lines;
+use crate::lines::Lines;
 
 /// Four fields of a DMIG entry: name, column and its component first, then a row, its component and the entry each.
 pub(super) struct Group<'a> {

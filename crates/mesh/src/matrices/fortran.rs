@@ -3,7 +3,7 @@
 use crate::error::{MeshFileError, MeshProblem};
 use crate::fields;
 
-use super::lines::Lines;
+use crate::lines::Lines;
 
 /// Widest field that is read.
 const WIDEST: usize = 100;
@@ -76,7 +76,7 @@ pub(super) fn each_field(
 #[cfg(test)]
 mod tests {
     use super::{Layout, each_field};
-    use crate::matrices::lines::Lines;
+    use crate::lines::Lines;
 
     #[test]
     fn formats() {

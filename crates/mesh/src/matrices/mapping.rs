@@ -6,7 +6,7 @@ use crate::error::{MeshFileError, MeshProblem};
 use crate::fields;
 
 use super::dof::Dof;
-use super::lines::{Lines, words};
+use crate::lines::{Lines, words};
 
 /// Place of a refusal that concerns the mapping.
 const PLACE: &str = "mapping";

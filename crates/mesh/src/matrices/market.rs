@@ -3,9 +3,9 @@
 use crate::error::{MeshFileError, MeshProblem};
 use crate::fields;
 
-use super::lines::{Lines, words};
 use super::mapping;
 use super::raw::{RawEntry, RawMatrix, Triangles};
+use crate::lines::{Lines, words};
 
 /// Name of the format.
 pub(super) const FORMAT: &str = "Matrix Market";

@@ -18,7 +18,6 @@ mod file_matrix;
 mod fold;
 mod fortran;
 mod kept;
-mod lines;
 mod mapping;
 mod market;
 mod op4;

@@ -3,12 +3,12 @@
 use crate::error::{MeshFileError, MeshProblem};
 
 use super::choice;
-use super::lines::Lines;
 use super::mapping;
 use super::op4_binary::{self, Records};
 use super::op4_columns;
 use super::op4_header::{FORMAT, Header, Take};
 use super::raw::{RawEntry, RawMatrix};
+use crate::lines::Lines;
 
 /// Reads the matrix of a name, or the only one, with the mapping of its rows.
 pub(super) fn read(bytes: &[u8], mapping: &[u8], name: Option<&str>) -> Result<RawMatrix, MeshFileError> {

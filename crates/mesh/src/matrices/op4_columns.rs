@@ -6,8 +6,8 @@ use crate::error::{MeshFileError, MeshProblem};
 use crate::fields;
 
 use super::fortran::each_field;
-use super::lines::Lines;
 use super::op4_header::{FORMAT, Header, Number, Take, part, string_head};
+use crate::lines::Lines;
 
 /// Reads the columns of a matrix, to the one after the last that marks its end.
 pub(super) fn read(lines: &mut Lines<'_>, header: &Header, take: &mut Take<'_>) -> Result<(), MeshFileError> {

@@ -3,9 +3,9 @@
 use crate::error::{MeshFileError, MeshProblem};
 use crate::{fields, format};
 
-use super::lines::{Lines, words};
 use super::op4_binary;
 use super::op4_header::Header;
+use crate::lines::{Lines, words};
 
 /// Format of a matrix file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

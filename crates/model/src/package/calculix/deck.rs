@@ -6,11 +6,11 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-use super::card::Card;
 use super::error::{CalculixError, LineProblem};
 use super::solids::{SolidBlock, Solids};
 use super::text::{self, TextLines, normal};
 use crate::package::quote::quoted;
+use rubmap_mesh::inp::card::Card;
 
 /// Deepest nesting of `*INCLUDE`.
 const DEEPEST_INCLUDE: usize = 20;
@@ -93,7 +93,7 @@ impl Deck {
                     None => break,
                 }
             }
-            let card = Card::parse(&card);
+            let card = Card::parse(&card, lines.number());
             if card.keyword == "*INCLUDE" {
                 let Some(file) = card.value_as_written("INPUT") else {
                     return Err(lines.fault(LineProblem::Words { expected: "*INCLUDE, INPUT=file" }));

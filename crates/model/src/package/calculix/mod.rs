@@ -8,7 +8,6 @@
 //! Two routes: the matrices of one sector whose cyclic ties were inactive, or those of a whole wheel, of which one sector
 //! is cut (`wheel`). Components are Cartesian, as CalculiX writes them.
 
-mod card;
 mod contact;
 mod deck;
 mod elements;

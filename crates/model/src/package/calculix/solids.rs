@@ -6,11 +6,11 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use rubmap_solid::element::ElementKind;
 
-use super::card::Card;
 use super::error::LineProblem;
 use super::no_mesh::NoMesh;
 use super::text::{self, normal};
 use crate::package::quote::quoted;
+use rubmap_mesh::inp::card::Card;
 
 /// Elements, sets, materials and sections of a deck.
 #[derive(Debug, Default)]

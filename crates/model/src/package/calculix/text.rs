@@ -33,6 +33,11 @@ impl TextLines {
         Ok(self.next_bytes()?.map(|line| String::from_utf8_lossy(line).into_owned()))
     }
 
+    /// Number of the line read last.
+    pub(super) fn number(&self) -> u64 {
+        self.lines.number()
+    }
+
     /// Error for a problem on the line read last.
     pub(super) fn fault(&self, problem: LineProblem) -> CalculixError {
         CalculixError::Line { path: self.path.clone(), line: self.lines.number(), problem }
@@ -54,37 +59,9 @@ pub(super) fn number(word: &str, expected: &'static str) -> Result<u64, LineProb
     word.parse().map_err(|_| LineProblem::NotA { text: quoted(word), expected })
 }
 
-/// Normal form of a name, as CalculiX compares names.
-pub(super) fn normal(name: &str) -> String {
-    name.chars().filter(|c| !c.is_whitespace()).flat_map(char::to_uppercase).collect()
-}
+pub(super) use rubmap_mesh::inp::card::normal;
 
-/// Parses a finite real number, in Fortran's spellings too: `1.5D+3`, `1.5+3`.
+/// Parses a finite real number, in Fortran's spellings too.
 pub(super) fn real(word: &str, expected: &'static str) -> Result<f64, LineProblem> {
-    let fortran = || {
-        let word = word.replace(['d', 'D'], "e");
-        if word.contains(['e', 'E']) {
-            return word.parse().ok();
-        }
-        let sign = word.get(1..)?.find(['+', '-'])? + 1;
-        format!("{}e{}", &word[..sign], &word[sign..]).parse().ok()
-    };
-    let number: Option<f64> = word.parse().ok().or_else(fortran);
-    number.filter(|x| x.is_finite()).ok_or(LineProblem::NotA { text: quoted(word), expected })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::real;
-
-    #[test]
-    fn numbers_in_every_spelling() {
-        for text in ["1500", "1.5e3", "1.5E+03", "1.5D3", "1.5d+03", "1.5+3", "15000-1"] {
-            assert_eq!(real(text, "a number").ok(), Some(1500.0), "{text}");
-        }
-        assert_eq!(real("-1.5-3", "a number").ok(), Some(-1.5e-3));
-        for text in ["", "-", "x", "1.5+", "1e999", "nan", "é+1"] {
-            assert!(real(text, "a number").is_err(), "{text}");
-        }
-    }
+    rubmap_mesh::fields::number(word).ok_or_else(|| LineProblem::NotA { text: quoted(word), expected })
 }

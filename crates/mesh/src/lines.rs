@@ -2,29 +2,28 @@
 
 use std::borrow::Cow;
 
+use crate::error::{MeshFileError, MeshProblem};
+
 /// Lines from the beginning of a file, numbered from 1, without their ends.
 #[derive(Clone)]
-pub(super) struct Lines<'a> {
+pub(crate) struct Lines<'a> {
     rest: &'a [u8],
     number: u64,
 }
 
 impl<'a> Lines<'a> {
     /// Lines of `bytes`, whose mark of the byte order is skipped.
-    pub(super) fn new(bytes: &'a [u8]) -> Self {
+    pub(crate) fn new(bytes: &'a [u8]) -> Self {
         Self { rest: bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes), number: 0 }
     }
 
     /// Number of the line that was read last.
-    pub(super) fn number(&self) -> u64 {
+    pub(crate) fn number(&self) -> u64 {
         self.number
     }
-}
 
-impl<'a> Iterator for Lines<'a> {
-    type Item = (u64, Cow<'a, str>);
-
-    fn next(&mut self) -> Option<Self::Item> {
+    /// Next line as bytes.
+    pub(crate) fn bytes(&mut self) -> Option<&'a [u8]> {
         if self.rest.is_empty() {
             return None;
         }
@@ -32,13 +31,30 @@ impl<'a> Iterator for Lines<'a> {
         let line = halves.next()?;
         self.rest = halves.next().unwrap_or_default();
         self.number += 1;
-        let line = line.strip_suffix(b"\r").unwrap_or(line);
+        Some(line.strip_suffix(b"\r").unwrap_or(line))
+    }
+
+    /// Next line of a block, as bytes.
+    ///
+    /// # Errors
+    /// [`MeshProblem::CutShort`] where the file ends.
+    pub(crate) fn expect(&mut self, card: &str, expected: &str) -> Result<&'a [u8], MeshFileError> {
+        let cut = MeshProblem::CutShort { expected: expected.to_owned() };
+        self.bytes().ok_or_else(|| cut.at(self.number, card))
+    }
+}
+
+impl<'a> Iterator for Lines<'a> {
+    type Item = (u64, Cow<'a, str>);
+
+    fn next(&mut self) -> Option<Self::Item> {
+        let line = self.bytes()?;
         Some((self.number, String::from_utf8_lossy(line)))
     }
 }
 
 /// Words of a line, separated by commas or blanks.
-pub(super) fn words(line: &str) -> impl Iterator<Item = &str> {
+pub(crate) fn words(line: &str) -> impl Iterator<Item = &str> {
     line.split(|c: char| c == ',' || c.is_whitespace()).filter(|word| !word.is_empty())
 }
 
