@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, bail};
 use clap::Args;
 
+use super::arguments::speed_and_file;
 use super::mesh::{MeshOptions, read, write};
-use super::speed_and_file;
 use crate::from_mesh::{FileMatrices, package_with_matrices};
 use crate::mesh::matrices::{FileMatrix, read_named};
 use crate::package::raw::MatrixFormat;

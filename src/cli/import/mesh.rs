@@ -8,7 +8,8 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, bail};
 use clap::Args;
 
-use super::{axis, describe_findings, units};
+use super::arguments::{axis, units};
+use super::findings::describe_findings;
 use crate::cli::speed::speed;
 use crate::dynamics::sector::Units;
 use crate::from_mesh::{self, Found, MeshSettings};

@@ -6,8 +6,9 @@ use rubmap_mesh::MeshFile;
 use rubmap_mesh::matrices::{FileMatrix, MatrixRow};
 
 use super::error::FromMeshError;
+use super::found::Found;
+use super::sector::sector;
 use super::settings::MeshSettings;
-use super::{Found, sector};
 use crate::package::gyroscopic_of_mass;
 use crate::package::raw::{Axis, RawDof, RawMatrix, RawPackage};
 use rubmap_solid::frame::AxisFrame;

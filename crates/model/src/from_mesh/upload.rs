@@ -5,8 +5,8 @@ use std::path::Path;
 use rubmap_mesh::MeshFile;
 
 use super::error::FromMeshError;
+use super::sector::{Sector, sector};
 use super::settings::MeshSettings;
-use super::{Sector, sector};
 use crate::package::{Limits, MeshPackage, PackageError, read_mesh_package};
 
 /// Sector of the package at `path`; none if the package has matrices.
