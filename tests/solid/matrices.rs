@@ -168,3 +168,34 @@ fn matrices_of_spin_act_on_linear_fields_as_they_must() {
         }
     }
 }
+
+/// Consistent mass of straight tetrahedra of ten nodes in closed form (volume 1, density 1): corners 1/70, corner with corner 1/420, edge 4/105, and
+/// no dependence on which corner comes first.
+#[test]
+fn consistent_mass_of_quadratic_tetrahedra_is_exact() {
+    let corners = [[0.0, 0.0, 0.0], [6.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.3, 0.2, 1.0]];
+    let order = [[0, 1], [1, 2], [2, 0], [0, 3], [1, 3], [2, 3]];
+    for turned in [[0, 1, 2, 3], [1, 2, 0, 3], [3, 1, 0, 2], [2, 3, 0, 1]] {
+        let corners = turned.map(|k: usize| corners[k]);
+        let middles =
+            order.map(|[a, b]: [usize; 2]| std::array::from_fn(|d| 0.5 * (corners[a][d] + corners[b][d])));
+        let at: Vec<[f64; 3]> = corners.into_iter().chain(middles).collect();
+        let m = mass(ElementKind::C3D10, &at, 1.0, MassRule::Consistent);
+        for (place, expected) in [
+            ((0, 0), 6.0),
+            ((3, 3), 6.0),
+            ((0, 3), 1.0),
+            ((0, 4), -4.0),
+            ((0, 5), -6.0),
+            ((4, 4), 32.0),
+            ((4, 5), 16.0),
+            ((4, 9), 8.0),
+        ] {
+            assert!(
+                (m[place] * 420.0 - expected).abs() < 1e-12,
+                "{turned:?} {place:?}: {} {expected}",
+                m[place] * 420.0
+            );
+        }
+    }
+}

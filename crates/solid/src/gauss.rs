@@ -23,6 +23,27 @@ static THREE: LazyLock<Vec<GaussPoint>> = LazyLock::new(|| {
     product(&[(-g, 5.0 / 9.0), (0.0, 8.0 / 9.0), (g, 5.0 / 9.0)])
 });
 
+static FOUR_ALONG_Z: LazyLock<Vec<GaussPoint>> = LazyLock::new(|| {
+    let (a, b) = (3.0 / 7.0, 2.0 / 7.0 * 1.2_f64.sqrt());
+    let (inner, outer) = ((a - b).sqrt(), (a + b).sqrt());
+    let (heavy, light) = ((18.0 + 30.0_f64.sqrt()) / 36.0, (18.0 - 30.0_f64.sqrt()) / 36.0);
+    let along = [(-outer, light), (-inner, heavy), (inner, heavy), (outer, light)];
+    let g = 0.6_f64.sqrt();
+    let across = [(-g, 5.0 / 9.0), (0.0, 8.0 / 9.0), (g, 5.0 / 9.0)];
+    let mut points = Vec::with_capacity(36);
+    for (z, wz) in along {
+        for (y, wy) in across {
+            points.extend(across.map(|(x, wx)| GaussPoint { xi: [x, y, z], weight: wx * wy * wz }));
+        }
+    }
+    points
+});
+
+/// Product rule of three points in ξ and η (degree 5) and four in ζ (degree 7).
+pub(crate) fn four_along_z() -> &'static [GaussPoint] {
+    &FOUR_ALONG_Z
+}
+
 /// Product rule of two (exact to degree 3 in each coordinate) or three (degree 5) points in each direction, ξ fastest.
 ///
 /// # Panics

@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 use serde::{Deserialize, Serialize};
 
 use crate::element::ElementKind;
-use crate::gauss::{GaussPoint, gauss_points};
+use crate::gauss::{GaussPoint, four_along_z, gauss_points};
 use crate::natural::Natural;
 
 static TETRAHEDRON: [LazyLock<Vec<GaussPoint>>; 2] = [
@@ -62,7 +62,8 @@ pub fn points(kind: ElementKind) -> &'static [GaussPoint] {
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum MassRule {
-    /// Consistent mass that is positive definite: the points of stiffness where these suffice (C3D8, C3D8I, C3D20), 27 points elsewhere.
+    /// Consistent mass that is positive definite: the points of stiffness where these suffice (C3D8, C3D8I, C3D20), elsewhere a rule that is
+    /// exact in elements with straight edges.
     #[default]
     Consistent,
     /// Points of stiffness in every element, as CalculiX has it. Tetrahedra, wedges and C3D20R may leave motions without mass.
@@ -75,15 +76,19 @@ pub fn mass_points(kind: ElementKind, rule: MassRule) -> &'static [GaussPoint] {
         (MassRule::AsStiffness, _) | (_, ElementKind::C3D8 | ElementKind::C3D8I | ElementKind::C3D20) => {
             points(kind)
         }
+        (_, ElementKind::C3D10) => &MASS_TETRAHEDRON,
+        (_, ElementKind::C3D13) => &MASS_PYRAMID,
         _ => fine_points(kind),
     }
 }
 
-static FINE_TETRAHEDRON: LazyLock<Vec<GaussPoint>> = LazyLock::new(|| {
-    collapsed(gauss_points(3), |[x, y, z]| {
-        ([x * (1.0 - y) * (1.0 - z), y * (1.0 - z), z], (1.0 - y) * (1.0 - z).powi(2) / 8.0)
-    })
-});
+/// Points of products of two quadratic functions: the collapsed direction has two powers more.
+static MASS_TETRAHEDRON: LazyLock<Vec<GaussPoint>> =
+    LazyLock::new(|| collapsed(four_along_z(), to_tetrahedron));
+static MASS_PYRAMID: LazyLock<Vec<GaussPoint>> = LazyLock::new(|| collapsed(four_along_z(), to_pyramid));
+
+static FINE_TETRAHEDRON: LazyLock<Vec<GaussPoint>> =
+    LazyLock::new(|| collapsed(gauss_points(3), to_tetrahedron));
 
 static FINE_WEDGE: LazyLock<Vec<GaussPoint>> = LazyLock::new(|| {
     collapsed(gauss_points(3), |[x, y, z]| ([x * (1.0 - y), y, 2.0 * z - 1.0], (1.0 - y) / 4.0))
@@ -97,6 +102,11 @@ pub(crate) fn fine_points(kind: ElementKind) -> &'static [GaussPoint] {
         6 => &FINE_WEDGE,
         _ => gauss_points(3),
     }
+}
+
+/// Place in the tetrahedron of a place in the unit cube, with the factor of its weight.
+fn to_tetrahedron([x, y, z]: [f64; 3]) -> (Natural, f64) {
+    ([x * (1.0 - y) * (1.0 - z), y * (1.0 - z), z], (1.0 - y) * (1.0 - z).powi(2) / 8.0)
 }
 
 /// Place in the pyramid of a place in the unit cube, with the factor of its weight.
