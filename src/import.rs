@@ -24,7 +24,7 @@ use crate::store::limits::{self, LimitReached};
 use crate::store::models::StoredModel;
 use crate::store::{Store, StoreError};
 
-/// Ratio of the memory that reading a package takes to the size of its zip.
+/// Ratio of the memory that reading a package or a mesh takes to the size of its file.
 const EXPANSION: u64 = 12;
 
 /// Bytes of an upload that are written at once.
@@ -200,7 +200,15 @@ impl Importer {
             Ok(Received::Checked(checked)) => return Ok(Ok(checked)),
             Err(error) => return Ok(Err(error)),
         };
-        let memory = self.memory.hold_up_to(sector.assembly_bytes()).await;
+        let needed = sector.assembly_bytes();
+        let memory = self.memory.hold_up_to(needed).await;
+        if let Some(most) = self.memory.most().filter(|&most| needed > most) {
+            let message = format!(
+                "assembling this mesh needs {needed} bytes of memory, and this service gives one computation {most}: make the package with \
+                 `rubmap import mesh` on a larger machine, or use a coarser mesh"
+            );
+            return Ok(Err(Box::new(PackageError::Mesh { file: None, line: None, message })));
+        }
         let file = match self.store.new_upload().await {
             Ok(file) => file,
             Err(source) => return Ok(Err(Box::new(source.into()))),

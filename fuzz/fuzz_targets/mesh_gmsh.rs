@@ -2,12 +2,17 @@
 
 #![no_main]
 
+use std::collections::BTreeMap;
+
 use rubmap::from_mesh::{MeshSettings, sector};
+use rubmap::impeller::Material;
 use rubmap::mesh::{MeshFormat, read_as};
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
     let none = |_: &str| Err("no other file".to_owned());
     if let Ok(file) = read_as(MeshFormat::Gmsh, bytes, &none) {
-        let _ = sector(&file, &MeshSettings::new(1000.0));
+        let titanium = Material::default().to_solid();
+        let materials = BTreeMap::from([("*".to_owned(), titanium)]);
+        let _ = sector(&file, &MeshSettings { materials, ..MeshSettings::new(1000.0) });
     }
 });

@@ -364,6 +364,18 @@ fn bad_meshes_are_refused_with_their_element_or_node() {
     });
     assert!(message.contains("turned by 2π/7 meets no node of the high face"), "{message}");
     assert!(message.contains("1.000e-2 away"), "{message}");
+    // A part of the high face has its nodes at other places of the same surface: it fits nowhere, and is no free surface.
+    let message = refused(|mesh| {
+        let outer = |mesh: &SectorMesh, node: usize| mesh.nodes[node][0].hypot(mesh.nodes[node][1]);
+        let highs: Vec<usize> = mesh.cyclic.iter().map(|&(_, high)| high as usize).collect();
+        let farthest = highs.iter().map(|&node| outer(mesh, node)).fold(0.0, f64::max);
+        let far: Vec<usize> = highs.into_iter().filter(|&node| outer(mesh, node) > 0.8 * farthest).collect();
+        for node in far {
+            let scale = 1.0 - 0.005 * outer(mesh, node) / farthest;
+            (0..2).for_each(|k| mesh.nodes[node][k] *= scale);
+        }
+    });
+    assert!(message.contains("turned by 2π/7 meets no node of the high face"), "{message}");
 }
 
 #[test]

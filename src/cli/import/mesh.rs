@@ -1,6 +1,6 @@
 //! `rubmap import mesh`: a model package from a mesh of one sector.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs::File;
 use std::io::BufWriter;
 use std::path::{Path, PathBuf};
@@ -141,17 +141,20 @@ impl MeshOptions {
         settings.sectors = self.sectors.or(settings.sectors);
         settings.axis = self.axis.or(settings.axis);
         settings.clamp_set = self.clamp_set.or(settings.clamp_set);
-        settings.contact_set = self.contact_set.or(settings.contact_set);
-        settings.contact_between = self.contact_between.or(settings.contact_between);
+        if self.contact_set.is_some() || self.contact_between.is_some() {
+            (settings.contact_set, settings.contact_between) = (self.contact_set, self.contact_between);
+        }
         settings.contact_nodes = self.contact_nodes.unwrap_or(settings.contact_nodes);
         settings.units = self.units.unwrap_or(settings.units);
         if let Some(temperature) = self.temperature {
             settings.temperatures = BTreeMap::from([("*".to_owned(), temperature)]);
         }
+        let mut given = BTreeSet::new();
         for (name, constants) in self.materials {
-            if settings.materials.insert(name.clone(), made(constants)).is_some() && self.settings.is_none() {
+            if !given.insert(name.clone()) {
                 bail!("--material gives {name} twice");
             }
+            settings.materials.insert(name, made(constants));
         }
         Ok(settings)
     }

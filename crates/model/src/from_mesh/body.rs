@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use rubmap_mesh::MeshFile;
 use rubmap_solid::defect::{Defect, Likely, defect};
+use rubmap_solid::frame::distance;
 use rubmap_solid::mesh::{Element, ElementSet, SectorMesh};
 
 use super::error::{FromMeshError, Twin};
@@ -76,16 +77,19 @@ fn check_elements(file: &MeshFile, mesh: &SectorMesh) -> Result<(), FromMeshErro
 /// Refuses two nodes at one place: the mesh is slit there.
 fn check_twins(mesh: &SectorMesh) -> Result<(), FromMeshError> {
     let within = SAME * tolerance(mesh.nodes.iter().copied());
-    let cell = |at: [f64; 3]| at.map(|x| (x / (4.0 * within)).round() as i64);
-    let mut first: HashMap<[i64; 3], usize> = HashMap::new();
+    // A cell is so wide that most nodes have all that are near in one.
+    let cell = |at: [f64; 3], off: f64| at.map(|x| ((x + off) / (16.0 * within)).floor() as i64);
+    let mut cells: HashMap<[i64; 3], Vec<usize>> = HashMap::new();
     let mut twins = Vec::new();
     for (node, &at) in mesh.nodes.iter().enumerate() {
-        if let Some(&other) = first.get(&cell(at)) {
-            if rubmap_solid::frame::distance(mesh.nodes[other], at) <= within {
-                twins.push((other, node));
-            }
-        } else {
-            first.insert(cell(at), node);
+        let (from, to) = (cell(at, -within), cell(at, within));
+        let around = (from[0]..=to[0])
+            .flat_map(|i| (from[1]..=to[1]).flat_map(move |j| (from[2]..=to[2]).map(move |k| [i, j, k])));
+        let near = |other: &usize| distance(mesh.nodes[*other], at) <= within;
+        let other = around.filter_map(|cell| cells.get(&cell)).flatten().copied().find(near);
+        match other {
+            Some(other) => twins.push((other, node)),
+            None => cells.entry(cell(at, 0.0)).or_default().push(node),
         }
     }
     match twins.first() {

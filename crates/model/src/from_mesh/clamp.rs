@@ -66,8 +66,10 @@ fn bore(
     axis: &AxisFrame,
 ) -> Result<(Vec<bool>, ClampSource), FromMeshError> {
     let radius: Vec<f64> = mesh.nodes.iter().map(|&at| axis.coordinates(at)[0]).collect();
+    // Nodes in the middle of straight edges lie inside of the bore's circle.
+    let corners = surface.iter().flat_map(Face::corners).map(|&node| radius[node as usize]);
     let (least, most) =
-        radius.iter().fold((f64::INFINITY, 0.0_f64), |(least, most), &r| (least.min(r), most.max(r)));
+        corners.fold((f64::INFINITY, 0.0_f64), |(least, most), r| (least.min(r), most.max(r)));
     if least < LEAST_BORE * most {
         return Err(FromMeshError::NoBore);
     }

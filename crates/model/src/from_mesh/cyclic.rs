@@ -1,6 +1,6 @@
 //! Cyclic faces, found: faces of the skin that a turn by 2π/N carries onto others that look the opposite way.
 
-use std::collections::{BTreeMap, HashSet};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::f64::consts::TAU;
 
 use nalgebra::Vector3;
@@ -21,19 +21,25 @@ const MOST_SECTORS: f64 = 400.0;
 /// Largest difference of unit normals that are still opposite: that of faces whose nodes have few digits.
 const OPPOSITE: f64 = 1e-3;
 
-/// Largest difference of unit normals of faces that are meant to fit each other.
+/// Largest difference of unit normals of faces that almost fit each other.
 const ALMOST_OPPOSITE: f64 = 0.3;
 
-/// Least circumferential part of the normal of a face that has a say in the number of sectors.
+/// Least circumferential part of the normal of a face that counts for the number of sectors.
 const CIRCUMFERENTIAL: f64 = 0.1;
 
 /// Least share in the area of the best candidate for another number of sectors to be considered.
 const SHARE: f64 = 0.25;
 
-/// Factor on the tolerance within which faces are meant to fit each other.
-const ALMOST: f64 = 100.0;
+/// Least circumferential part of the normal of a face that may lie on a cut.
+const FACING: f64 = 0.01;
 
-/// Factor on the tolerance within which faces that miss each other are still told to be near.
+/// Least cosine of the angle between the normals of faces that look at each other.
+const OPPOSED: f64 = 0.95;
+
+/// Largest distance of a turned face from the plane of the face that it meets, in parts of that face's size.
+const FLAT: f64 = 0.05;
+
+/// Factor on the tolerance within which faces that miss each other are reported.
 const NEAR: f64 = 1e3;
 
 /// Symmetry of a sector: axis, number of sectors, and pairs of nodes.
@@ -69,29 +75,38 @@ pub(super) fn symmetry(
     }
     let within = tolerance(mesh.nodes.iter().copied());
     let mut best: Option<(f64, Symmetry)> = None;
-    let mut unfit = None;
+    // Refusal of the axis by which the largest area fits.
+    let mut unfit: Option<(f64, FromMeshError)> = None;
     for axis in &axes {
         let about = frame(axis)?;
         let Some(sectors) = sectors.or_else(|| number(surface, &about, within)) else { continue };
         let (fits, area) = matched(surface, &about, sectors, within, OPPOSITE);
-        if best.as_ref().is_some_and(|(other, _)| *other >= area) || fits.is_empty() {
+        if fits.is_empty() {
             continue;
         }
-        let pairs = almost_alike(mesh, surface, &fits, &about, sectors, within)
+        let pairs = facing(mesh, surface, &fits, &about, sectors, within)
             .and_then(|()| paired(mesh, surface, &fits, &about, sectors, within));
         match pairs {
             Ok((pairs, farthest)) => {
                 let faces = fits.iter().flat_map(|&(low, high)| [low, high]).collect();
-                best = Some((area, Symmetry { axis: axis.clone(), sectors, pairs, faces, farthest }));
+                let found = Symmetry { axis: axis.clone(), sectors, pairs, faces, farthest };
+                if best.as_ref().is_none_or(|(other, _)| area > *other) {
+                    best = Some((area, found));
+                }
             }
-            Err(error) => unfit = unfit.or(Some(error)),
+            Err(error) if unfit.as_ref().is_none_or(|(other, _)| area > *other) => {
+                unfit = Some((area, error))
+            }
+            Err(_) => {}
         }
     }
     match (best, unfit) {
-        (Some((_, symmetry)), _) => Ok(symmetry),
         // About another axis some faces may fit by chance.
-        (None, Some(error)) => Err(error),
-        (None, None) => Err(near_miss(surface, &axes, sectors, within)?),
+        (Some((area, symmetry)), unfit) if unfit.as_ref().is_none_or(|(other, _)| area >= *other) => {
+            Ok(symmetry)
+        }
+        (_, Some((_, error))) => Err(error),
+        (_, None) => Err(near_miss(surface, &axes, sectors, within)?),
     }
 }
 
@@ -116,15 +131,22 @@ pub(super) fn frame(axis: &Axis) -> Result<AxisFrame, FromMeshError> {
 /// Number of sectors that faces turned about an axis vote for by their areas: the smallest one with a good share, since flanks of a blade
 /// may fit each other by a smaller turn.
 fn number(surface: &[Face], axis: &AxisFrame, within: f64) -> Option<usize> {
-    let mut places: Vec<([f64; 3], Vector3<f64>, f64)> = (surface.iter())
+    let places: Vec<([f64; 3], Vector3<f64>, f64)> = (surface.iter())
         .map(|face| (axis.coordinates(face.centre.into()), face.cylindrical_normal(axis), face.area))
         .filter(|(_, normal, _)| normal[1].abs() > CIRCUMFERENTIAL)
         .collect();
-    places.sort_by(|a, b| a.0[0].total_cmp(&b.0[0]));
+    let cell = |[r, _, z]: [f64; 3]| [r, z].map(|x| (x / (2.0 * within)).floor() as i64);
+    let mut cells: HashMap<[i64; 2], Vec<usize>> = HashMap::new();
+    for (k, (at, ..)) in places.iter().enumerate() {
+        cells.entry(cell(*at)).or_default().push(k);
+    }
     let mut votes: BTreeMap<usize, f64> = BTreeMap::new();
     for (k, (low, normal, area)) in places.iter().enumerate() {
-        let ring = places[k + 1..].iter().take_while(|(high, ..)| high[0] - low[0] <= within);
-        for (high, other, _) in ring.filter(|(high, ..)| (high[2] - low[2]).abs() <= within) {
+        let [i, j] = cell(*low);
+        let around = (-1..=1).flat_map(|a| (-1..=1).map(move |b| [i + a, j + b]));
+        let ring = around.filter_map(|cell| cells.get(&cell)).flatten().filter(|&&other| other > k);
+        let near = |high: &[f64; 3]| (high[0] - low[0]).abs() <= within && (high[2] - low[2]).abs() <= within;
+        for (high, other, _) in ring.map(|&other| &places[other]).filter(|(high, ..)| near(high)) {
             if (normal + other).norm() > OPPOSITE {
                 continue;
             }
@@ -172,8 +194,9 @@ fn matched(
     (fits, area)
 }
 
-/// Refuses faces that almost fit each other, beside those that do: they are meshed with other nodes.
-fn almost_alike(
+/// Refuses a face that the turn lays onto another that looks the opposite way, but whose nodes are elsewhere: the wheel goes on there, and its
+/// faces are not meshed alike.
+fn facing(
     mesh: &SectorMesh,
     surface: &[Face],
     fits: &[(usize, usize)],
@@ -182,25 +205,51 @@ fn almost_alike(
     within: f64,
 ) -> Result<(), FromMeshError> {
     let taken: HashSet<usize> = fits.iter().flat_map(|&(low, high)| [low, high]).collect();
-    let left: Vec<Face> =
-        (surface.iter().zip(0..)).filter(|(_, k)| !taken.contains(k)).map(|(face, _)| face.clone()).collect();
-    let (near, _) = matched(&left, axis, sectors, ALMOST * within, ALMOST_OPPOSITE);
-    let Some(&(low, high)) = near.iter().find(|(low, _)| left[*low].cylindrical_normal(axis)[1] < 0.0) else {
-        return Ok(());
+    let left: Vec<&Face> =
+        surface.iter().zip(0..).filter(|(_, k)| !taken.contains(k)).map(|(face, _)| face).collect();
+    let reach = |face: &Face| {
+        let corners = face.corners().iter().map(|&node| Vector3::from(mesh.nodes[node as usize]));
+        corners.map(|corner| (corner - face.centre).norm()).fold(0.0, f64::max)
     };
-    let to = |node: u32| axis.turn_point(mesh.nodes[node as usize], TAU / sectors as f64);
-    let partners = grid(mesh, left[high].skin.nodes.iter().copied(), within);
-    let off = left[low].skin.nodes.iter().map(|&node| (node, partners.nearest_of_all(to(node))));
-    let Some((node, nearest)) = off.max_by(|a, b| a.1.distance.total_cmp(&b.1.distance)) else {
-        return Ok(());
-    };
-    Err(FromMeshError::NoPartner {
-        node: mesh.node_ids[node as usize],
-        sectors,
-        nearest: mesh.node_ids[nearest.node as usize],
-        distance: nearest.distance,
-        tolerance: within,
-    })
+    let reaches: Vec<f64> = left.iter().map(|face| reach(face)).collect();
+    let width = reaches.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+    let cell = |at: Vector3<f64>| -> [i64; 3] { at.map(|x| (x / width).floor() as i64).into() };
+    let mut cells: HashMap<[i64; 3], Vec<usize>> = HashMap::new();
+    for (k, face) in left.iter().enumerate() {
+        cells.entry(cell(face.centre)).or_default().push(k);
+    }
+    let angle = TAU / sectors as f64;
+    let turned = axis.turned_global(angle);
+    for low in left.iter().filter(|face| face.cylindrical_normal(axis)[1] < -FACING) {
+        let at = Vector3::from(axis.turn_point(low.centre.into(), angle));
+        let normal = turned.tr_mul(&low.normal);
+        let [i, j, k] = cell(at);
+        let around =
+            (-1..=1).flat_map(|a| (-1..=1).flat_map(move |b| (-1..=1).map(move |c| [i + a, j + b, k + c])));
+        let meets = |&high: &usize| {
+            let (off, reach) = (at - left[high].centre, reaches[high]);
+            normal.dot(&left[high].normal) < -OPPOSED
+                && off.dot(&left[high].normal).abs() < FLAT * reach
+                && off.norm() < reach
+        };
+        let Some(high) = around.filter_map(|cell| cells.get(&cell)).flatten().copied().find(meets) else {
+            continue;
+        };
+        let to = |node: u32| axis.turn_point(mesh.nodes[node as usize], angle);
+        let partners = grid(mesh, left[high].skin.nodes.iter().copied(), within);
+        let off = low.skin.nodes.iter().map(|&node| (node, partners.nearest_of_all(to(node))));
+        let Some((node, nearest)) = off.max_by(|a, b| a.1.distance.total_cmp(&b.1.distance)) else {
+            continue;
+        };
+        return Err(FromMeshError::NoPartner {
+            node: mesh.node_ids[node as usize],
+            sectors,
+            nearest: mesh.node_ids[nearest.node as usize],
+            distance: nearest.distance,
+            tolerance: within,
+        });
+    }
+    Ok(())
 }
 
 /// Pairs of nodes on the faces, and the largest distance of a turned low node from its partner.
@@ -233,8 +282,12 @@ fn paired(
             distance: near.distance,
             tolerance: within,
         })? as u32;
-        if partner == node || !taken.insert(partner) {
-            return Err(FromMeshError::OnAxis { node: mesh.node_ids[node as usize] });
+        // A node on the axis is its own copy.
+        if partner == node {
+            continue;
+        }
+        if !taken.insert(partner) {
+            return Err(FromMeshError::SharedPartner { node: mesh.node_ids[partner as usize], sectors });
         }
         farthest = farthest.max(distance(mesh.nodes[partner as usize], to));
         pairs.push((node, partner));

@@ -138,10 +138,18 @@ pub enum FromMeshError {
         /// Number of the node.
         node: u64,
     },
-    /// Free node on the axis, which belongs to all sectors.
+    /// Node on which two low nodes fall.
     #[error(
-        "node {node} of the cyclic faces lies on the axis and belongs to all sectors; clamp it or give the wheel a bore"
+        "two nodes of the low face turned by 2π/{sectors} meet the same node {node}; mesh both faces alike"
     )]
+    SharedPartner {
+        /// Number of the node of the high face.
+        node: u64,
+        /// Number of sectors N.
+        sectors: usize,
+    },
+    /// Free node on the axis, which belongs to all sectors.
+    #[error("node {node} lies on the axis and belongs to all sectors; clamp it or give the wheel a bore")]
     OnAxis {
         /// Number of the node.
         node: u64,
@@ -172,7 +180,9 @@ pub enum FromMeshError {
     #[error("no blade tip was found on the skin; name a node set along the tip with `contact_set`")]
     NoTip,
     /// Contact set that is neither a line nor an area.
-    #[error("the nodes of the set \"{name}\" are neither one line nor do they cover faces of the skin")]
+    #[error(
+        "the nodes of the set \"{name}\" are neither one line of at most 5,000 nodes nor do they cover faces of the skin"
+    )]
     NoLine {
         /// Name of the set.
         name: String,
@@ -215,6 +225,36 @@ pub enum FromMeshError {
         /// Component, 1 to 3.
         component: u8,
     },
+    /// Matrices that clamp nothing.
+    #[error(
+        "every node has rows in the matrices, so that nothing holds the wheel; export them with its supports"
+    )]
+    NothingHeld,
+    /// Clamp of the settings beside matrices, whose rows say what is clamped.
+    #[error("matrices clamp the nodes that have no rows; leave `clamp_set` out")]
+    ClampBesideMatrices,
+    /// Pair of nodes of which one has rows.
+    #[error(
+        "of the nodes {low} and {high} of the cyclic faces only one has rows in the matrices; clamp both alike, and leave cyclic ties out"
+    )]
+    HalfHeld {
+        /// Number of the low node.
+        low: u64,
+        /// Number of the high node.
+        high: u64,
+    },
+    /// Matrices in coordinate systems of their nodes.
+    #[error("{}the rows of its nodes are not in x, y, z but in systems of their own, and so are the rows of the matrices; export without them",
+        if *.line > 0 { format!("line {line} ({card}): ") } else { format!("{card}: ") })]
+    NodalFrames {
+        /// Line of the first such node, 0 where the format has none.
+        line: u64,
+        /// Card that says so.
+        card: String,
+    },
+    /// Two ways to the contact line.
+    #[error("`contact_set` and `contact_between` both say where the contact line is; leave one out")]
+    TwoContacts,
     /// Row of a node that the mesh does not have.
     #[error("the matrices have a row of node {node}, component {component}, which the mesh does not have")]
     RowWithoutNode {

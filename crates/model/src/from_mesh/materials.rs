@@ -20,12 +20,12 @@ pub(super) fn assigned(
     check_names(file, settings)?;
     let mut sets = Vec::new();
     let mut set_of = HashMap::new();
-    for (name, material, elements) in parts(file, settings)? {
-        let made = made(file, settings, &name, material.as_deref())?;
-        for element in elements {
+    for part in parts(file, settings) {
+        let made = made(file, settings, &part)?;
+        for element in part.elements {
             set_of.insert(element, sets.len() as u32);
         }
-        sets.push(ElementSet { name, material: made });
+        sets.push(ElementSet { name: part.name, material: made });
     }
     match file.elements.keys().find(|element| !set_of.contains_key(element)) {
         None => {}
@@ -42,35 +42,55 @@ pub(super) fn assigned(
     Ok((kept, set_of))
 }
 
-/// Set, material of the file and elements of each part of the mesh; later parts take elements from earlier ones.
-type Part = (String, Option<String>, BTreeSet<u64>);
+/// Elements of one material; later parts take elements from earlier ones.
+struct Part {
+    /// Name of the set in the model.
+    name: String,
+    /// Names under which the settings may have its material, the first that is there counting.
+    settings: Vec<String>,
+    /// Material of the file.
+    material: Option<String>,
+    elements: BTreeSet<u64>,
+}
 
-fn parts(file: &MeshFile, settings: &MeshSettings) -> Result<Vec<Part>, FromMeshError> {
-    let mut parts: Vec<Part> = Vec::new();
-    if file.sections.is_empty() || settings.materials.contains_key(ALL) && file.materials.is_empty() {
-        if settings.materials.contains_key(ALL) || file.materials.len() == 1 {
-            let material =
-                (file.materials.len() == 1).then(|| file.materials.keys().next().cloned()).flatten();
-            parts.push(("ALL".to_owned(), material, file.elements.keys().copied().collect()));
-        }
-        for (name, elements) in &file.element_sets {
-            if settings.materials.contains_key(name) {
-                parts.push((name.clone(), None, elements.clone()));
-            }
-        }
-        return Ok(parts);
+/// Parts of the mesh: all elements, sections of the file, element sets of the settings.
+fn parts(file: &MeshFile, settings: &MeshSettings) -> Vec<Part> {
+    let mut parts = Vec::new();
+    let only = (file.materials.len() == 1 && file.sections.is_empty())
+        .then(|| file.materials.keys().next().cloned());
+    if settings.materials.contains_key(ALL) || only.is_some() {
+        let material = only.flatten();
+        let names = material.iter().cloned().chain([ALL.to_owned()]).collect();
+        let elements = file.elements.keys().copied().collect();
+        parts.push(Part { name: name_of_all(file), settings: names, material, elements });
     }
     for (set, material) in &file.sections {
         let elements = file.element_sets.get(set).cloned().unwrap_or_default();
-        parts.push((set.clone(), Some(material.clone()), elements));
+        let names = vec![set.clone(), material.clone(), ALL.to_owned()];
+        parts.push(Part { name: set.clone(), settings: names, material: Some(material.clone()), elements });
     }
-    for (name, elements) in &file.element_sets {
-        let of_section = file.sections.iter().any(|(set, _)| set == name);
-        if settings.materials.contains_key(name) && !of_section {
-            parts.push((name.clone(), None, elements.clone()));
+    for (set, elements) in &file.element_sets {
+        let of_section = file.sections.iter().any(|(other, _)| other == set);
+        if settings.materials.contains_key(set) && !of_section {
+            let names = vec![set.clone()];
+            parts.push(Part {
+                name: set.clone(),
+                settings: names,
+                material: None,
+                elements: elements.clone(),
+            });
         }
     }
-    Ok(parts)
+    parts
+}
+
+/// Name of the set of all elements, which no set of the file has.
+fn name_of_all(file: &MeshFile) -> String {
+    let mut name = "ALL".to_owned();
+    while file.element_sets.contains_key(&name) {
+        name.push('_');
+    }
+    name
 }
 
 /// Refuses names that the file does not have.
@@ -92,24 +112,19 @@ fn known(file: &MeshFile) -> Vec<String> {
     file.element_sets.keys().chain(file.materials.keys()).cloned().collect()
 }
 
-/// Setting for a set: by its own name, that of its material, or for all.
-fn setting<'a, T>(settings: &'a BTreeMap<String, T>, set: &str, material: Option<&str>) -> Option<&'a T> {
-    settings.get(set).or_else(|| settings.get(material?)).or_else(|| settings.get(ALL))
+/// Setting of a part, by the first of its names that has one.
+fn setting<'a, T>(settings: &'a BTreeMap<String, T>, part: &Part) -> Option<&'a T> {
+    part.settings.iter().find_map(|name| settings.get(name))
 }
 
-fn made(
-    file: &MeshFile,
-    settings: &MeshSettings,
-    set: &str,
-    material: Option<&str>,
-) -> Result<Material, FromMeshError> {
-    if let Some(given) = setting(&settings.materials, set, material) {
+fn made(file: &MeshFile, settings: &MeshSettings, part: &Part) -> Result<Material, FromMeshError> {
+    if let Some(given) = setting(&settings.materials, part) {
         return Ok(given.clone());
     }
-    let name = material.unwrap_or(set);
+    let name = part.material.as_deref().unwrap_or(&part.name);
     let lacks = |what| FromMeshError::MaterialLacks { material: name.to_owned(), what };
     let stated = file.materials.get(name).ok_or(lacks("constants"))?;
-    let at = setting(&settings.temperatures, set, material).copied();
+    let at = setting(&settings.temperatures, part).copied();
     let [youngs_modulus, poissons_ratio] = elastic(stated, at, name)?.ok_or(lacks("elastic constants"))?;
     let density = density(stated, at, name)?.ok_or(lacks("density"))?;
     let made = Material {
@@ -166,8 +181,8 @@ fn tabulated<const N: usize>(
     }
     let Some(at) = at.filter(|_| !rows.is_empty()) else {
         let material = name.to_owned();
-        let untold = FromMeshError::Temperature { material, rows: rows.len() };
-        return if rows.is_empty() { Ok(None) } else { Err(untold) };
+        let unstated = FromMeshError::Temperature { material, rows: rows.len() };
+        return if rows.is_empty() { Ok(None) } else { Err(unstated) };
     };
     let mut sorted: Vec<(f64, [f64; N])> =
         rows.iter().map(|(t, values)| (t.unwrap_or(0.0), *values)).collect();

@@ -31,6 +31,9 @@ pub fn package_with_matrices(
     settings: &MeshSettings,
     matrices: &FileMatrices,
 ) -> Result<(RawPackage, Found), FromMeshError> {
+    if settings.clamp_set.is_some() {
+        return Err(FromMeshError::ClampBesideMatrices);
+    }
     let all = || std::iter::once(&matrices.mass).chain(matrices.stiffness.iter().map(|(_, matrix)| matrix));
     let clamped: BTreeSet<MatrixRow> = all().flat_map(|matrix| matrix.clamped.iter().copied()).collect();
     let rows_of = |matrix: &FileMatrix| -> BTreeSet<MatrixRow> {
@@ -48,12 +51,17 @@ pub fn package_with_matrices(
     let free: BTreeSet<u64> = rows.iter().map(|row| row.node).collect();
     let of_elements = file.elements.values().flat_map(|element| element.nodes.clone());
     file.held = of_elements.filter(|node| !free.contains(node)).collect();
-    let mut settings = settings.clone();
-    settings.clamp_set = None;
+    if file.held.is_empty() {
+        return Err(FromMeshError::NothingHeld);
+    }
     for matrix in all() {
         matrix.notes.iter().for_each(|note| file.note(format!("{}: {note}", matrix.format)));
     }
-    let made = sector(&file, &settings)?;
+    let made = sector(&file, settings)?;
+    let half = |&[low, high]: &[u64; 2]| free.contains(&low) != free.contains(&high);
+    if let Some([low, high]) = made.pairs().find(half) {
+        return Err(FromMeshError::HalfHeld { low, high });
+    }
     let dofs: Vec<RawDof> =
         rows.iter().map(|row| RawDof { node: row.node, component: row.component }).collect();
     let place: HashMap<MatrixRow, u32> = rows.iter().copied().zip(0..).collect();

@@ -12,7 +12,9 @@ use super::found::Found;
 use super::settings::MeshSettings;
 use super::{body, clamp, materials, surface, tip};
 use crate::assembly::{MeshedSector, PackageFacts, TipNode, assembly_bytes, to_package, without_matrices};
+use crate::package::by_place::tolerance;
 use crate::package::calculix::{Normals, spread, with_normals};
+use crate::package::check::slits::on_axis;
 use crate::package::raw::{Frame, RawPackage};
 use crate::package::units;
 
@@ -34,6 +36,9 @@ pub fn sector(file: &MeshFile, settings: &MeshSettings) -> Result<Sector, FromMe
         return Err(FromMeshError::TopSpeed(settings.top_speed_rad_s));
     }
     units::check(&settings.units).map_err(|(_, problem)| FromMeshError::Units(problem.to_string()))?;
+    if settings.contact_set.is_some() && settings.contact_between.is_some() {
+        return Err(FromMeshError::TwoContacts);
+    }
     let (sets, set_of) = materials::assigned(file, settings)?;
     let mut mesh = body::body(file, sets, &set_of)?;
     let surface = surface::surface(&mesh);
@@ -41,6 +46,13 @@ pub fn sector(file: &MeshFile, settings: &MeshSettings) -> Result<Sector, FromMe
     let axis = cyclic::frame(&symmetry.axis)?;
     mesh.axis = (symmetry.axis.origin, axis.direction().into());
     let (clamped, clamp) = clamp::clamped(file, settings, &mesh, &surface, &symmetry, &axis)?;
+    let within = tolerance(mesh.nodes.iter().copied());
+    let shared = |&(node, at): &(usize, [f64; 3])| {
+        symmetry.sectors > 1 && !clamped[node] && on_axis(at, &axis, symmetry.sectors, within)
+    };
+    if let Some((node, _)) = mesh.nodes.iter().copied().enumerate().find(shared) {
+        return Err(FromMeshError::OnAxis { node: mesh.node_ids[node] });
+    }
     let (line, tip) = tip::tip(file, settings, &mesh, &surface, &symmetry, &axis)?;
     mesh.sectors = symmetry.sectors;
     mesh.cyclic.clone_from(&symmetry.pairs);
@@ -78,6 +90,12 @@ impl Sector {
     /// Peak of the memory, in bytes, while its package is made, written and read back.
     pub fn assembly_bytes(&self) -> u64 {
         assembly_bytes(&self.meshed)
+    }
+
+    /// Pairs of low and high nodes, clamped ones included.
+    pub(super) fn pairs(&self) -> impl Iterator<Item = [u64; 2]> {
+        let mesh = &self.meshed.mesh;
+        mesh.cyclic.iter().map(|&(low, high)| [low, high].map(|node| mesh.node_ids[node as usize]))
     }
 
     /// Package in Cartesian components, without rows and matrices.

@@ -29,6 +29,9 @@ const BETWEEN_FLANKS: f64 = 0.6;
 /// Least share of a tip's outline with a convex edge.
 const CONVEX: f64 = 0.9;
 
+/// Largest number of nodes of a set that is a line.
+const MOST_OF_A_LINE: usize = 5000;
+
 /// Way in which the contact nodes were chosen.
 #[derive(Debug, Clone, PartialEq)]
 pub enum TipSource {
@@ -97,6 +100,9 @@ fn in_order(mut line: Line, axis: &AxisFrame) -> Line {
 
 /// Nodes as a chain of nearest neighbours from one end to the other; none if they are no single line.
 fn chain(nodes: &[(u64, [f64; 3])]) -> Option<Line> {
+    if nodes.len() > MOST_OF_A_LINE {
+        return None;
+    }
     let farthest = |from: [f64; 3]| {
         let away = |node: &(u64, [f64; 3])| distance(node.1, from);
         nodes.iter().max_by(|a, b| away(a).total_cmp(&away(b)).then(b.0.cmp(&a.0))).copied()

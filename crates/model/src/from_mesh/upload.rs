@@ -7,22 +7,21 @@ use rubmap_mesh::MeshFile;
 use super::error::FromMeshError;
 use super::sector::{Sector, sector};
 use super::settings::MeshSettings;
-use crate::package::{Limits, MeshPackage, PackageError, read_mesh_package};
+use crate::package::{Limits, PackageError, open_mesh_package};
 
 /// Sector of the package at `path`; none if the package has matrices.
 ///
 /// # Errors
 /// Errors of the archive and of `sector.json`; [`PackageError::Mesh`] for a mesh file that cannot be read or makes no model.
 pub fn sector_of_package(path: &Path, limits: &Limits) -> Result<Option<Sector>, PackageError> {
-    let Some(package) = read_mesh_package::<MeshSettings>(path, limits)? else { return Ok(None) };
-    let MeshPackage { settings, mesh, mut files } = package;
-    let bytes = files.remove(&mesh).unwrap_or_default();
-    let include = |name: &str| {
-        let file = files.get(name).or_else(|| files.get(name.strip_prefix("./")?));
-        file.cloned().ok_or_else(|| "the package has no such file".to_owned())
-    };
+    let Some(package) = open_mesh_package::<MeshSettings>(path, limits)? else { return Ok(None) };
+    let bytes = package.file(&package.mesh)?;
+    let include = |name: &str| package.file(name).map_err(|_| "the package has no such file".to_owned());
     let file = rubmap_mesh::read(&bytes, &include);
-    made(file, &settings, Some(&mesh)).map(Some)
+    let mut settings = package.settings.clone();
+    let stem = Path::new(&package.mesh).file_stem().map(|stem| stem.to_string_lossy().into_owned());
+    settings.name = settings.name.or(stem);
+    made(file, &settings, Some(&package.mesh)).map(Some)
 }
 
 /// Sector of a bare mesh, which includes no other file.

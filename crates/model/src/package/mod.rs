@@ -12,7 +12,7 @@
 mod archive;
 pub(crate) mod by_place;
 pub mod calculix;
-mod check;
+pub(crate) mod check;
 mod content;
 mod coriolis;
 mod digest;
@@ -43,7 +43,7 @@ pub use coriolis::gyroscopic_of_mass;
 pub use error::PackageError;
 pub use limits::Limits;
 pub use mesh::read_mesh;
-pub use mesh_package::{MeshPackage, read_mesh_package};
+pub use mesh_package::{MeshPackage, open_mesh_package};
 pub use nodes::read_nodes;
 pub use npz::NpzWriter;
 pub use places::{Face, PlacedNode, SectorNodes, read_places};

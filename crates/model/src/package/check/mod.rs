@@ -13,7 +13,7 @@ pub(super) mod materials;
 mod matrices;
 pub(super) mod mesh;
 mod overlap;
-pub(super) mod slits;
+pub(crate) mod slits;
 pub(super) mod statement;
 pub(super) mod tables;
 
