@@ -27,7 +27,7 @@ const REFUSED: [(&[&str], &str, &str); 9] = [
     (&["CELAS", "CBUSH", "GENEL"], "a spring", SOLIDS_ONLY),
     (&["CDAMP", "CVISC"], "a damper", SOLIDS_ONLY),
     (&["CONM", "CMASS"], "a point mass", SOLIDS_ONLY),
-    (&["CFAST", "CWELD", "CSEAM"], "a connector", ONE_MESH),
+    (&["CFAST", "CWELD", "CSEAM", "CINTC"], "a connector", ONE_MESH),
     (&["BCONTACT", "BCTSET", "BCTABLE", "BGSET", "BGADD", "CGAP"], "contact or glue", ONE_MESH),
     (&["DMI"], "a matrix", SOLIDS_ONLY),
     (
