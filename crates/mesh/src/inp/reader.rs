@@ -201,6 +201,10 @@ impl<'a> Reader<'a> {
                 Block::Skip
             }
             "*ASSEMBLY" | "*ENDASSEMBLY" => Block::Skip,
+            "*TRANSFORM" => {
+                self.mesh.nodal_frames.get_or_insert_with(|| (card.line, card.keyword.clone()));
+                Block::Skip
+            }
             keyword => return self.other(keyword),
         })
     }

@@ -46,7 +46,7 @@ const WRITE_OUT: &str = "write the mesh out as nodes and elements, in x, y, z";
 const CHANGED: &str = "write out the model as it is to be analysed, without changes";
 
 /// Beginnings of cards that are skipped with their data: steps, loads, results, and properties that a linear model does not have.
-const HARMLESS: [&str; 62] = [
+const HARMLESS: [&str; 61] = [
     "*HEADING",
     "*PREPRINT",
     "*STEP",
@@ -94,7 +94,6 @@ const HARMLESS: [&str; 62] = [
     "*BEAMSECTION",
     "*MEMBRANESECTION",
     "*SURFACESECTION",
-    "*TRANSFORM",
     "*ORIENTATION",
     "*CHANGE",
     "*CONTROLS",

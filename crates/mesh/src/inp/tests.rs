@@ -258,6 +258,15 @@ fn cards_that_change_the_model_are_refused() {
     assert!(found.notes.is_empty(), "{:?}", found.notes);
 }
 
+#[test]
+fn transforms_are_frames_of_nodes() {
+    let transform = "*TRANSFORM, NSET=NALL, TYPE=C\n0, 0, 0, 0, 0, 1\n";
+    let found = mesh(&format!("{CUBE}{BRICK}{transform}{transform}"));
+    assert_eq!(found.nodal_frames, Some((12, "*TRANSFORM".to_owned())));
+    assert!(found.notes.is_empty());
+    assert_eq!(mesh(&format!("{CUBE}{BRICK}")).nodal_frames, None);
+}
+
 /// Cut at every byte, and with single bytes changed: an answer or a refusal.
 #[test]
 fn damage_makes_no_panic() {
