@@ -275,8 +275,8 @@ fn materials() {
         let error = refusal(&hexahedron(&format!("MP,EX,1,2.6\nMP,PRXY,1,0.3\n{other}")));
         assert!(error.starts_with("line 6 (MPDATA): material 1, anisotropic"), "{error}");
     }
-    let untold = refusal(&hexahedron("MPDATA,EX,1,1,1,2"));
-    assert!(untold.contains("a temperature for each value"), "{untold}");
+    let unstated = refusal(&hexahedron("MPDATA,EX,1,1,1,2"));
+    assert!(unstated.contains("a temperature for each value"), "{unstated}");
 }
 
 #[test]

@@ -17,7 +17,13 @@ pub(super) struct Elements {
     pub(super) groups: Groups,
     /// Entities of version 4.1.
     pub(super) entities: Entities,
+    /// Numbers that were added to groups besides the first of each element.
+    repeated: u64,
 }
+
+/// Most numbers of nodes and elements that are added to groups besides the first of each element: a short file could name a mesh in a
+/// thousand groups.
+const MOST_REPEATED: u64 = 100_000_000;
 
 /// Type of elements, with its number.
 #[derive(Clone, Copy)]
@@ -158,6 +164,12 @@ impl Elements {
         groups: &[Group],
     ) -> Result<(), MeshFileError> {
         let failed = |problem| source.error(problem);
+        self.repeated += (groups.len().saturating_sub(1) * (1 + nodes.len())) as u64;
+        if self.repeated > MOST_REPEATED {
+            let what = format!("a file whose physical groups share more than {MOST_REPEATED} numbers");
+            let advice = "keep the groups that the model needs only";
+            return Err(failed(MeshProblem::NotCarried { what, advice }));
+        }
         if let Some(kind) = of.shape.solid {
             let nodes = reordered(kind, nodes);
             let element = solids::element(id, kind, &nodes, source.line()).map_err(failed)?;

@@ -183,3 +183,21 @@ fn held(whole: &Scope, supports: &[Support], work: &mut Work) -> Result<BTreeSet
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn supports_have_a_bound_in_all() {
+        let mut scope = Scope::default();
+        scope.node_set("A", false, &["1", "2", "3"], &mut Work::default()).unwrap();
+        let support = |target: &str, line| Support { target: target.to_owned(), components: [true; 3], line };
+        let supports = [support("A", 4), support("I.A", 5), support("7", 6)];
+        assert_eq!(held(&scope, &supports, &mut Work::of(7)), Ok([1, 2, 3, 7].into()));
+        let error = held(&scope, &supports, &mut Work::of(5)).unwrap_err();
+        assert_eq!((error.line, error.card.as_str()), (5, "*BOUNDARY"));
+        let far = [support("1000000000000001", 7)];
+        assert_eq!(held(&scope, &far, &mut Work::default()).unwrap_err().line, 7);
+    }
+}

@@ -117,3 +117,18 @@ fn counts_beyond_the_file() {
     );
     assert!(refusal(format!("{text}$Own\n1\n").as_bytes()).contains("before $EndOwn"));
 }
+
+#[test]
+fn entities_in_too_many_groups() {
+    let text = String::from_utf8(tetrahedron().ascii_4()).unwrap();
+    let start = text.find("$Entities").unwrap();
+    let end = text.find("$EndEntities").unwrap();
+    let with = |count: usize| {
+        let groups = " 7".repeat(count);
+        let entities = format!("$Entities\n0 0 0 1\n1 0 0 0 1 1 1 {count}{groups} 0\n");
+        format!("{}{entities}{}", &text[..start], &text[end..])
+    };
+    let read = |count: usize| read(with(count).as_bytes()).map_err(|error| error.to_string());
+    assert!(!read(1000).is_err_and(|message| message.contains("physical groups")));
+    assert!(read(1001).unwrap_err().contains("an entity in more than 1000 physical groups cannot be"));
+}
