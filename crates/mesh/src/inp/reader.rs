@@ -159,15 +159,7 @@ impl<'a> Reader<'a> {
                 self.mesh.materials.entry(self.material.clone()).or_default();
                 Block::Skip
             }
-            "*ELASTIC" => match card.value("TYPE").as_deref() {
-                None | Some("ISO" | "ISOTROPIC") => Block::Elastic,
-                Some(other) => {
-                    return Err(MeshProblem::NotCarried {
-                        what: format!("elasticity of type \"{}\"", quoted(other)),
-                        advice: "materials are isotropic",
-                    });
-                }
-            },
+            "*ELASTIC" => return elastic(card),
             "*DENSITY" => Block::Density,
             "*SOLIDSECTION" => {
                 let section = (named(card, "ELSET")?, named(card, "MATERIAL")?);
@@ -176,12 +168,6 @@ impl<'a> Reader<'a> {
             }
             "*BOUNDARY" => Block::Boundary,
             "*TIE" if card.has("CYCLICSYMMETRY") => Block::Skip,
-            "*TIE" => {
-                return Err(MeshProblem::NotCarried {
-                    what: "a tie between surfaces".to_owned(),
-                    advice: "mesh the parts as one body, without it",
-                });
-            }
             "*CYCLICSYMMETRYMODEL" => {
                 let sectors = named(card, "N")?;
                 let sectors = integer(&sectors, "a number of sectors")? as usize;
@@ -368,6 +354,17 @@ impl<'a> Reader<'a> {
             return Err(MeshProblem::CutShort { expected: expected.to_owned() }.at(0, ""));
         }
         assembled(self.mesh, self.root, self.parts, self.instances, &self.supports, &mut self.work)
+    }
+}
+
+/// Block of elastic constants, which are those of an isotropic material.
+fn elastic(card: &Card) -> Result<Block, MeshProblem> {
+    match card.value("TYPE").as_deref() {
+        None | Some("ISO" | "ISOTROPIC") => Ok(Block::Elastic),
+        Some(other) => Err(MeshProblem::NotCarried {
+            what: format!("elasticity of type \"{}\"", quoted(other)),
+            advice: "materials are isotropic",
+        }),
     }
 }
 

@@ -1,9 +1,10 @@
 //! Cards that change a model and cannot be carried over, and those that say nothing about it.
 
 /// Cards that are refused, with the name of their content and what to do.
-pub(super) const REFUSED: [(&str, &str, &str); 34] = [
+pub(super) const REFUSED: [(&str, &str, &str); 35] = [
     ("*EQUATION", "a linear equation between displacements", UNTIE),
     ("*MPC", "a multi-point constraint", UNTIE),
+    ("*TIE", "a tie between surfaces", UNTIE),
     ("*RIGIDBODY", "a rigid body", UNTIE),
     ("*COUPLING", "a coupling", UNTIE),
     ("*KINEMATICCOUPLING", "a coupling", UNTIE),
