@@ -139,6 +139,8 @@ impl Elements {
             source.end_row()?;
             source.claim(count, 8 * (1 + of.shape.nodes as u64), "elements")?;
             let groups = self.entities.get(&(dimension, entity)).cloned().unwrap_or_default();
+            let each = groups.len().saturating_sub(1) * (1 + of.shape.nodes);
+            self.repeat(count, each).map_err(|problem| source.error(problem))?;
             for _ in 0..count {
                 source.row("an element")?;
                 let id = source.size("an element number")?;
@@ -153,6 +155,18 @@ impl Elements {
         Ok(())
     }
 
+    /// Counts the numbers that `count` elements add to groups besides their first, `each` of them.
+    fn repeat(&mut self, count: u64, each: usize) -> Result<(), MeshProblem> {
+        self.repeated = self.repeated.saturating_add(count.saturating_mul(each as u64));
+        if self.repeated <= MOST_REPEATED {
+            return Ok(());
+        }
+        Err(MeshProblem::NotCarried {
+            what: format!("a file whose physical groups share more than {MOST_REPEATED} numbers"),
+            advice: "keep the groups that the model needs only",
+        })
+    }
+
     /// Adds an element to the mesh and to its groups.
     fn add(
         &mut self,
@@ -164,12 +178,6 @@ impl Elements {
         groups: &[Group],
     ) -> Result<(), MeshFileError> {
         let failed = |problem| source.error(problem);
-        self.repeated += (groups.len().saturating_sub(1) * (1 + nodes.len())) as u64;
-        if self.repeated > MOST_REPEATED {
-            let what = format!("a file whose physical groups share more than {MOST_REPEATED} numbers");
-            let advice = "keep the groups that the model needs only";
-            return Err(failed(MeshProblem::NotCarried { what, advice }));
-        }
         if let Some(kind) = of.shape.solid {
             let nodes = reordered(kind, nodes);
             let element = solids::element(id, kind, &nodes, source.line()).map_err(failed)?;
