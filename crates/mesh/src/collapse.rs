@@ -28,14 +28,7 @@ pub(crate) fn collapsed(kind: ElementKind, nodes: &[u64]) -> Option<(ElementKind
             let mut found: Vec<u64> = (0..count).map(|k| corners[at(k)]).collect();
             if quadratic {
                 for [a, b] in edges(shape) {
-                    // The collapsed hexahedron may have this edge more than once.
-                    let ends = [same[at(a)], same[at(b)]];
-                    let middle = EDGES.iter().zip(&nodes[8..]).find_map(|(&[p, q], &middle)| {
-                        let pair = [same[p], same[q]];
-                        let this = pair == ends || pair == [ends[1], ends[0]];
-                        (this && middle != 0).then_some(middle)
-                    })?;
-                    found.push(middle);
+                    found.push(middle(nodes, &same, [at(a), at(b)])?);
                 }
             }
             let kind = match (shape, quadratic) {
@@ -50,6 +43,18 @@ pub(crate) fn collapsed(kind: ElementKind, nodes: &[u64]) -> Option<(ElementKind
         }
     }
     None
+}
+
+/// Node in the middle of an edge, which the collapsed hexahedron may have more than once; none if it has none or different ones.
+fn middle(nodes: &[u64], same: &[usize], [a, b]: [usize; 2]) -> Option<u64> {
+    let ends = [same[a], same[b]];
+    let mut middles = EDGES.iter().zip(&nodes[8..]).filter_map(|(&[p, q], &middle)| {
+        let pair = [same[p], same[q]];
+        let this = pair == ends || pair == [ends[1], ends[0]];
+        (this && middle != 0).then_some(middle)
+    });
+    let first = middles.next()?;
+    middles.all(|middle| middle == first).then_some(first)
 }
 
 /// Shape that a hexahedron collapses to.
@@ -151,6 +156,33 @@ mod tests {
                     let at: Vec<[f64; 3]> = found.iter().map(|id| places[id]).collect();
                     assert_eq!(defect(kind, &at), None, "{kind:?} {rotation:?}");
                 }
+            }
+        }
+    }
+
+    #[test]
+    fn an_edge_has_one_node_in_its_middle() {
+        // A wedge whose edge between the corners 3 and 7 is there twice.
+        let mut nodes = vec![1, 2, 3, 3, 5, 6, 7, 7];
+        for (k, [p, q]) in EDGES.into_iter().enumerate() {
+            let (a, b) = (nodes[p], nodes[q]);
+            nodes.push(if a == b {
+                a
+            } else if [a, b] == [3, 7] {
+                100
+            } else {
+                20 + k as u64
+            });
+        }
+        let places: Vec<usize> = (8..20).filter(|&k| nodes[k] == 100).collect();
+        assert_eq!(places.len(), 2);
+        let (kind, found) = collapsed(ElementKind::C3D20, &nodes).expect("a wedge");
+        assert_eq!(kind, ElementKind::C3D15);
+        for (other, expected) in [(0, Some((kind, found))), (101, None)] {
+            for &place in &places {
+                let mut nodes = nodes.clone();
+                nodes[place] = other;
+                assert_eq!(collapsed(ElementKind::C3D20, &nodes), expected);
             }
         }
     }

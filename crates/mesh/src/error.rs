@@ -24,7 +24,7 @@ pub enum MeshProblem {
     /// File of no known format of matrices.
     #[error(
         "this is no matrix file of a known format; known are Abaqus (*MATRIX OUTPUT, FORMAT=MATRIX INPUT or LABELS), Nastran (DMIG on \
-         punch or bulk data, OUTPUT4 in text form) and Ansys (*EXPORT in format MMF, HBMAT in text form, each with its mapping file)"
+         punch or bulk data, OUTPUT4 in text or binary form) and Ansys (*EXPORT in format MMF, HBMAT in text form, each with its mapping file)"
     )]
     UnknownMatrix,
     /// File of a known kind that is not the kind asked for.

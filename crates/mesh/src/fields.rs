@@ -6,7 +6,7 @@ use crate::error::MeshProblem;
 const LONGEST: usize = 60;
 
 /// Quotes `text` or, where it is long, its beginning with an ellipsis.
-pub(crate) fn quoted(text: &str) -> String {
+pub fn quoted(text: &str) -> String {
     match text.char_indices().nth(LONGEST) {
         None => text.to_owned(),
         Some((end, _)) => format!("{}…", &text[..end]),
@@ -14,7 +14,7 @@ pub(crate) fn quoted(text: &str) -> String {
 }
 
 /// Largest number of a node or element: so large that no program writes more, so small that sums of them have no overflow.
-const LARGEST: u64 = 1_000_000_000_000_000;
+pub(crate) const LARGEST: u64 = 1_000_000_000_000_000;
 
 /// Parses an integer from 0 to 10^15.
 pub(crate) fn integer(word: &str, expected: &'static str) -> Result<u64, MeshProblem> {

@@ -79,7 +79,7 @@ const OTHERS: [(&str, &str, &str); 7] = [
     (
         "%%MATRIXMARKET",
         "a Matrix Market file",
-        "matrices come in a package with sector.json (docs/package.md)",
+        "give it to `rubmap import matrices` beside the mesh, or in a package with sector.json (docs/package.md)",
     ),
     ("\u{89}HDF", "an HDF5 file", "export the mesh as .inp, .msh, .bdf, .cdb or .vtu"),
     ("PK", "a zip archive", "a package has sector.json in it"),

@@ -28,14 +28,21 @@ pub use format::MeshFormat;
 pub use include::Include;
 pub use mesh_file::{FileElement, FileMaterial, MeshFile};
 
-/// Reads a mesh file, whose format its content tells.
+/// Reads a mesh file, whose format its content shows.
 ///
 /// `include` gives the content of another file by the name under which this one includes it, or says why it cannot.
 ///
 /// # Errors
 /// The first problem, with its line and card.
 pub fn read(bytes: &[u8], include: &Include<'_>) -> Result<MeshFile, MeshFileError> {
-    read_as(format::recognised(bytes)?, bytes, include)
+    let format = format::recognised(bytes).map_err(|error| match error.problem {
+        MeshProblem::Unknown if matrices::is_matrix(bytes) => {
+            let advice = "give it to `rubmap import matrices` beside the mesh";
+            MeshProblem::NotAMesh { found: "a matrix file", advice }.at(0, "")
+        }
+        _ => error,
+    })?;
+    read_as(format, bytes, include)
 }
 
 /// Reads a mesh file of a known format.

@@ -25,6 +25,9 @@ pub struct MeshFile {
     pub sections: Vec<(String, String)>,
     /// Nodes of which the file holds all three displacements at zero.
     pub held: BTreeSet<u64>,
+    /// Line and card of the first node with a frame of its own, if there is one: its rows in matrices are not in x, y, z. Positions are all
+    /// the same in x, y, z here.
+    pub nodal_frames: Option<(u64, String)>,
     /// Cyclic symmetry, if the file states one.
     pub symmetry: Option<StatedSymmetry>,
     /// Elements that were left out (points, lines and surfaces): number by name of the type.
@@ -94,6 +97,7 @@ impl MeshFile {
             materials: BTreeMap::new(),
             sections: Vec::new(),
             held: BTreeSet::new(),
+            nodal_frames: None,
             symmetry: None,
             left_out: BTreeMap::new(),
             notes: Vec::new(),

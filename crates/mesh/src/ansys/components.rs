@@ -86,7 +86,7 @@ impl Component {
         Ok(())
     }
 
-    /// Puts the component into a mesh, and tells whether all its nodes are there. Numbers rise in it, as Ansys keeps them.
+    /// Puts the component into a mesh and returns whether all its nodes are there. Numbers rise in it, as Ansys keeps them.
     fn place(mut self, mesh: &mut MeshFile) -> bool {
         // Ranges that overlap are taken together: else a short file could list a mesh over and over.
         self.ranges.sort_unstable();

@@ -19,7 +19,11 @@ pub(super) fn read(lines: &mut Lines, mesh: &mut MeshFile) -> Result<(), MeshFil
             return Ok(());
         }
         if !text.is_empty() {
-            let (id, position) = node(&columns, line).map_err(|problem| problem.at(lines.number(), CARD))?;
+            let Node { id, position, is_turned } =
+                node(&columns, line).map_err(|problem| problem.at(lines.number(), CARD))?;
+            if is_turned {
+                mesh.nodal_frames.get_or_insert_with(|| (lines.number(), CARD.to_owned()));
+            }
             if mesh.nodes.insert(id, position).is_some() {
                 return Err(MeshProblem::Twice { what: "node", id }.at(lines.number(), CARD));
             }
@@ -33,10 +37,19 @@ fn is_end(text: &[u8]) -> bool {
     command || text.split(u8::is_ascii_whitespace).next() == Some(b"-1")
 }
 
-/// Number and position of a node. Coordinates that the line does not reach to are zero; rotations of the node are of no interest.
-fn node(columns: &Columns, line: &[u8]) -> Result<(u64, [f64; 3]), MeshProblem> {
+/// Node of a line.
+struct Node {
+    id: u64,
+    position: [f64; 3],
+    /// Whether an angle of rotation is not zero.
+    is_turned: bool,
+}
+
+/// Node of a line. Coordinates and angles that the line does not reach to are zero.
+fn node(columns: &Columns, line: &[u8]) -> Result<Node, MeshProblem> {
     let mut id = None;
     let mut position = [0.0; 3];
+    let mut is_turned = false;
     let mut coordinates = position.iter_mut();
     for cell in columns.cut(line) {
         if cell.integer {
@@ -47,10 +60,10 @@ fn node(columns: &Columns, line: &[u8]) -> Result<(u64, [f64; 3]), MeshProblem> 
             if !cell.text.is_empty() {
                 *coordinate = real(cell.text, "a coordinate")?;
             }
-        } else {
-            break;
+        } else if !cell.text.is_empty() {
+            is_turned |= real(cell.text, "an angle of rotation")? != 0.0;
         }
     }
     let id = id.ok_or(MeshProblem::Expected { expected: "a node number".to_owned() })?;
-    Ok((id, position))
+    Ok(Node { id, position, is_turned })
 }

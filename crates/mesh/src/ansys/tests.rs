@@ -157,6 +157,17 @@ fn formats_of_nodes() {
 }
 
 #[test]
+fn rotated_nodes_are_reported() {
+    let frames = |text: &str| read(text.as_bytes()).unwrap().nodal_frames;
+    let text = archive("285", &tetrahedron(), &numbered(4), "");
+    assert_eq!(frames(&text), Some((7, "NBLOCK".to_owned())));
+    let angle = format!("{:21.13e}", 30.0);
+    assert_eq!(frames(&text.replace(&angle, &format!("{:21.13e}", 0.0))), None);
+    assert_eq!(frames(&text.replace(&angle, "")), None);
+    assert!(refusal(&text.replacen(&angle, " x", 1)).contains("\"x\" is not an angle of rotation"));
+}
+
+#[test]
 fn left_out_and_refused_types() {
     let surface = "ET,2,154\nET,3,188\nEBLOCK,10,,,2\n(15i9)\n       20        2        1        1       12        1        2        3        4\n       21        3        1        1       12        1        2\n       -1";
     let mesh = read(hexahedron(surface).as_bytes()).expect("a mesh");
@@ -264,8 +275,8 @@ fn materials() {
         let error = refusal(&hexahedron(&format!("MP,EX,1,2.6\nMP,PRXY,1,0.3\n{other}")));
         assert!(error.starts_with("line 6 (MPDATA): material 1, anisotropic"), "{error}");
     }
-    let untold = refusal(&hexahedron("MPDATA,EX,1,1,1,2"));
-    assert!(untold.contains("a temperature for each value"), "{untold}");
+    let unstated = refusal(&hexahedron("MPDATA,EX,1,1,1,2"));
+    assert!(unstated.contains("a temperature for each value"), "{unstated}");
 }
 
 #[test]

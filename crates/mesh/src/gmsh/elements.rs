@@ -17,7 +17,13 @@ pub(super) struct Elements {
     pub(super) groups: Groups,
     /// Entities of version 4.1.
     pub(super) entities: Entities,
+    /// Numbers that were added to groups besides the first of each element.
+    repeated: u64,
 }
+
+/// Most numbers of nodes and elements that are added to groups besides the first of each element: a short file could name a mesh in a
+/// thousand groups.
+const MOST_REPEATED: u64 = 100_000_000;
 
 /// Type of elements, with its number.
 #[derive(Clone, Copy)]
@@ -133,6 +139,8 @@ impl Elements {
             source.end_row()?;
             source.claim(count, 8 * (1 + of.shape.nodes as u64), "elements")?;
             let groups = self.entities.get(&(dimension, entity)).cloned().unwrap_or_default();
+            let each = groups.len().saturating_sub(1) * (1 + of.shape.nodes);
+            self.repeat(count, each).map_err(|problem| source.error(problem))?;
             for _ in 0..count {
                 source.row("an element")?;
                 let id = source.size("an element number")?;
@@ -145,6 +153,18 @@ impl Elements {
             }
         }
         Ok(())
+    }
+
+    /// Counts the numbers that `count` elements add to groups besides their first, `each` of them.
+    fn repeat(&mut self, count: u64, each: usize) -> Result<(), MeshProblem> {
+        self.repeated = self.repeated.saturating_add(count.saturating_mul(each as u64));
+        if self.repeated <= MOST_REPEATED {
+            return Ok(());
+        }
+        Err(MeshProblem::NotCarried {
+            what: format!("a file whose physical groups share more than {MOST_REPEATED} numbers"),
+            advice: "keep the groups that the model needs only",
+        })
     }
 
     /// Adds an element to the mesh and to its groups.

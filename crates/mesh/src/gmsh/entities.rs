@@ -2,13 +2,16 @@
 
 use std::collections::BTreeMap;
 
-use crate::error::MeshFileError;
+use crate::error::{MeshFileError, MeshProblem};
 
 use super::groups::{Group, Groups};
 use super::source::Source;
 
 /// Physical groups by dimension and number of an entity.
 pub(super) type Entities = BTreeMap<(u64, i64), Vec<Group>>;
+
+/// Most physical groups of an entity: all its elements are added to each.
+const MOST_GROUPS: u64 = 1000;
 
 /// Reads the names of physical groups.
 pub(super) fn names(source: &mut Source<'_>, groups: &mut Groups) -> Result<(), MeshFileError> {
@@ -44,9 +47,9 @@ pub(super) fn read(source: &mut Source<'_>) -> Result<Entities, MeshFileError> {
             for _ in 0..if dimension == 0 { 3 } else { 6 } {
                 source.real("a coordinate of an entity")?;
             }
-            let groups = integers(source, "the number of a physical group")?;
+            let groups = integers(source, "the number of a physical group", MOST_GROUPS)?;
             if dimension > 0 {
-                integers(source, "the number of a bounding entity")?;
+                integers(source, "the number of a bounding entity", u64::MAX)?;
             }
             source.end_row()?;
             // A negative number stands for elements that are turned over.
@@ -58,9 +61,14 @@ pub(super) fn read(source: &mut Source<'_>) -> Result<Entities, MeshFileError> {
     Ok(entities)
 }
 
-/// Reads a count and as many integers.
-fn integers(source: &mut Source<'_>, expected: &'static str) -> Result<Vec<i64>, MeshFileError> {
+/// Reads a count up to `most` and as many integers.
+fn integers(source: &mut Source<'_>, expected: &'static str, most: u64) -> Result<Vec<i64>, MeshFileError> {
     let count = source.size("a number of integers")?;
+    if count > most {
+        let what = format!("an entity in more than {most} physical groups");
+        let advice = "keep the groups that the model needs only";
+        return Err(source.error(MeshProblem::NotCarried { what, advice }));
+    }
     let mut found = Vec::new();
     for _ in 0..count {
         found.push(source.integer(expected)?);

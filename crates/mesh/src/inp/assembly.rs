@@ -2,80 +2,19 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::instance::Instance;
 use super::scope::Scope;
 use super::support::Support;
+use super::work::Work;
 use crate::error::{MeshFileError, MeshProblem};
-use crate::fields::{quoted, real};
+use crate::fields::{LARGEST, integer, quoted};
 use crate::mesh_file::MeshFile;
 
-/// Instance of a part: where it is put, and the sets of the assembly that name its nodes and elements.
-#[derive(Debug)]
-pub(super) struct Instance {
-    pub(super) name: String,
-    part: String,
-    line: u64,
-    translation: [f64; 3],
-    /// Two points on the axis of a turn, and its angle in degrees.
-    turn: Option<([[f64; 3]; 2], f64)>,
-    lines: usize,
-    /// Requests for generated sets, which the part's numbers answer.
-    ranges: Vec<(bool, String, Vec<String>)>,
-}
+/// Most nodes and elements of an assembly, taken together.
+const MOST: usize = 20_000_000;
 
-impl Instance {
-    pub(super) fn new(name: String, part: String, line: u64) -> Self {
-        let (translation, turn) = ([0.0; 3], None);
-        Self { name, part, line, translation, turn, lines: 0, ranges: Vec::new() }
-    }
-
-    /// Reads the displacement of the instance, then its turn.
-    pub(super) fn placed(&mut self, words: &[&str]) -> Result<(), MeshProblem> {
-        let words = words.iter().filter(|word| !word.is_empty());
-        let numbers: Vec<f64> = words.map(|word| real(word, "a coordinate")).collect::<Result<_, _>>()?;
-        match (self.lines, &numbers[..]) {
-            (0, &[x, y, z]) => self.translation = [x, y, z],
-            (1, &[a, b, c, d, e, f, angle]) => self.turn = Some(([[a, b, c], [d, e, f]], angle)),
-            _ => {
-                let expected = "a displacement x, y, z, then two points on an axis and an angle".to_owned();
-                return Err(MeshProblem::Expected { expected });
-            }
-        }
-        self.lines += 1;
-        Ok(())
-    }
-
-    /// Keeps a line of a node set until the part is known.
-    pub(super) fn node_set(&mut self, name: &str, generate: bool, words: &[&str]) -> Result<(), MeshProblem> {
-        self.request(true, name, generate, words);
-        Ok(())
-    }
-
-    /// Keeps a line of an element set until the part is known.
-    pub(super) fn element_set(
-        &mut self,
-        name: &str,
-        generate: bool,
-        words: &[&str],
-    ) -> Result<(), MeshProblem> {
-        self.request(false, name, generate, words);
-        Ok(())
-    }
-
-    fn request(&mut self, nodes: bool, name: &str, generate: bool, words: &[&str]) {
-        let mut words: Vec<String> = words.iter().map(|&word| word.to_owned()).collect();
-        words.insert(0, if generate { "GENERATE".to_owned() } else { String::new() });
-        self.ranges.push((nodes, name.to_owned(), words));
-    }
-
-    /// Position of a node of the part.
-    fn position(&self, at: [f64; 3]) -> [f64; 3] {
-        let moved: [f64; 3] = std::array::from_fn(|k| at[k] + self.translation[k]);
-        let Some(([from, to], degrees)) = self.turn else { return moved };
-        let direction = std::array::from_fn(|k| to[k] - from[k]);
-        let frame = rubmap_solid::frame::AxisFrame::new(from, direction);
-        frame.map_or(moved, |frame| frame.turn_point(moved, degrees.to_radians()))
-    }
-}
+/// Numbers as which a set or section counts besides its own.
+const OF_EACH_SET: usize = 64;
 
 /// Puts instances together, resolves supports, and checks that all that is named is there.
 pub(super) fn assembled(
@@ -84,6 +23,7 @@ pub(super) fn assembled(
     mut parts: BTreeMap<String, Scope>,
     instances: Vec<Instance>,
     supports: &[Support],
+    work: &mut Work,
 ) -> Result<MeshFile, MeshFileError> {
     if instances.is_empty() && parts.len() == 1 {
         // A deck of a single part that nothing instantiates is that part.
@@ -93,11 +33,11 @@ pub(super) fn assembled(
     }
     let several = instances.len() > 1 || !root.nodes.is_empty();
     let mut whole = root;
-    for mut instance in instances {
+    for instance in &instances {
         let part = parts.get(&instance.part).ok_or_else(|| {
             MeshProblem::NoSuch { what: "part", name: quoted(&instance.part) }.at(instance.line, "*INSTANCE")
         })?;
-        add(&mut whole, part, &mut instance, several)
+        add(&mut whole, part, instance, several, work)
             .map_err(|problem| problem.at(instance.line, "*INSTANCE"))?;
     }
     for (set, material) in &whole.sections {
@@ -110,7 +50,7 @@ pub(super) fn assembled(
             return Err(MeshProblem::NoSuch { what: "material", name }.at(0, "*SOLID SECTION"));
         }
     }
-    mesh.held = held(&whole, supports)?;
+    mesh.held = held(&whole, supports, work)?;
     let known: BTreeSet<u64> = whole.elements.keys().copied().collect();
     mesh.element_sets = (whole.element_sets.into_iter())
         .map(|(name, set)| (name, set.intersection(&known).copied().collect::<BTreeSet<u64>>()))
@@ -118,17 +58,29 @@ pub(super) fn assembled(
         .collect();
     mesh.sections =
         whole.sections.into_iter().filter(|(set, _)| mesh.element_sets.contains_key(set)).collect();
-    (mesh.nodes, mesh.elements, mesh.node_sets) = (whole.nodes, whole.elements, whole.node_sets);
-    mesh.node_sets.values_mut().for_each(|set| {
-        let mut seen = BTreeSet::new();
-        set.retain(|node| seen.insert(*node));
-    });
+    (mesh.nodes, mesh.elements) = (whole.nodes, whole.elements);
+    mesh.node_sets = whole.node_sets.into_iter().map(|(name, set)| (name, set.into_list())).collect();
     crate::whole::check(&mesh, "*ELEMENT")?;
     Ok(mesh)
 }
 
-/// Adds an instance of a part. Of several instances, nodes and elements get numbers of their own, and sets the instance's name.
-fn add(whole: &mut Scope, part: &Scope, instance: &mut Instance, several: bool) -> Result<(), MeshProblem> {
+/// Adds an instance of a part. Where there are several, nodes and elements get numbers of their own, and sets the instance's name.
+fn add(
+    whole: &mut Scope,
+    part: &Scope,
+    instance: &Instance,
+    several: bool,
+    work: &mut Work,
+) -> Result<(), MeshProblem> {
+    let counts = [&whole.nodes, &part.nodes].map(BTreeMap::len).iter().sum::<usize>()
+        + [&whole.elements, &part.elements].map(BTreeMap::len).iter().sum::<usize>();
+    if counts > MOST {
+        return Err(MeshProblem::NotCarried {
+            what: format!("an assembly of more than {MOST} nodes and elements"),
+            advice: "a sector is one body; leave the instances out that are no part of it",
+        });
+    }
+    work.take(size_of_sets(part, &instance.name))?;
     let mut local = Scope {
         nodes: part.nodes.clone(),
         elements: part.elements.clone(),
@@ -137,34 +89,28 @@ fn add(whole: &mut Scope, part: &Scope, instance: &mut Instance, several: bool) 
         ..Scope::default()
     };
     let mut of_assembly = BTreeSet::new();
-    for (nodes, name, words) in std::mem::take(&mut instance.ranges) {
-        let generate = words.first().is_some_and(|word| word == "GENERATE");
-        let words: Vec<&str> = words.iter().skip(1).map(String::as_str).collect();
-        if nodes {
-            local.node_set(&name, generate, &words)?;
-        } else {
-            local.element_set(&name, generate, &words)?;
+    for (request, lines) in &instance.requests {
+        for line in lines {
+            request.answer(&mut local, &line.split(',').collect::<Vec<_>>(), work)?;
         }
-        of_assembly.insert(name);
+        of_assembly.insert(request.name.as_str());
     }
-    let offset = |most: Option<u64>| if several { most.unwrap_or(0) } else { 0 };
-    let after_nodes = offset(whole.nodes.last_key_value().map(|(&id, _)| id));
-    let after_elements = offset(whole.elements.last_key_value().map(|(&id, _)| id));
-    let named = |name: &String| {
+    let named = |name: &str| {
         if several && !of_assembly.contains(name) {
             format!("{}.{name}", instance.name)
         } else {
-            name.clone()
+            name.to_owned()
         }
     };
+    let after_nodes = offset("node", several, &whole.nodes, &local.nodes)?;
+    let after_elements = offset("element", several, &whole.elements, &local.elements)?;
     whole.nodes.extend(local.nodes.iter().map(|(id, &at)| (id + after_nodes, instance.position(at))));
-    for (id, element) in &local.elements {
-        let mut element = element.clone();
+    for (id, mut element) in local.elements {
         element.nodes.iter_mut().for_each(|node| *node += after_nodes);
         whole.elements.insert(id + after_elements, element);
     }
     for (name, set) in &local.node_sets {
-        let set = set.iter().map(|node| node + after_nodes);
+        let set = set.nodes().iter().map(|node| node + after_nodes);
         whole.node_sets.entry(named(name)).or_default().extend(set);
     }
     for (name, set) in &local.element_sets {
@@ -175,23 +121,54 @@ fn add(whole: &mut Scope, part: &Scope, instance: &mut Instance, several: bool) 
     Ok(())
 }
 
+/// Numbers and letters of a part's sets and sections, which each instance has anew.
+fn size_of_sets(part: &Scope, instance: &str) -> usize {
+    let nodes = part.node_sets.iter().map(|(name, set)| name.len() + set.len());
+    let elements = part.element_sets.iter().map(|(name, set)| name.len() + set.len());
+    let sections = part.sections.iter().map(|(set, material)| set.len() + material.len());
+    nodes.chain(elements).chain(sections).map(|size| size + instance.len() + OF_EACH_SET).sum()
+}
+
+/// Number that is added to the numbers of an instance. Sums stay within the range of numbers that files may have.
+fn offset<T>(
+    what: &'static str,
+    several: bool,
+    whole: &BTreeMap<u64, T>,
+    part: &BTreeMap<u64, T>,
+) -> Result<u64, MeshProblem> {
+    let last = |map: &BTreeMap<u64, T>| map.last_key_value().map_or(0, |(&id, _)| id);
+    let offset = if several { last(whole) } else { 0 };
+    if offset + last(part) <= LARGEST {
+        return Ok(offset);
+    }
+    Err(MeshProblem::NotCarried {
+        what: format!("an assembly with a {what} number above {LARGEST}"),
+        advice: "number nodes and elements from 1",
+    })
+}
+
 /// Nodes of which all three displacements are held.
-fn held(whole: &Scope, supports: &[Support]) -> Result<BTreeSet<u64>, MeshFileError> {
+fn held(whole: &Scope, supports: &[Support], work: &mut Work) -> Result<BTreeSet<u64>, MeshFileError> {
     let mut components: BTreeMap<u64, ([bool; 3], u64)> = BTreeMap::new();
     for support in supports {
-        // Of a single instance the name may stand before the set or node.
+        let failed = |problem: MeshProblem| problem.at(support.line, "*BOUNDARY");
+        // Where there is a single instance, its name may stand before the set or node.
         let target = &support.target;
         let plain = target.rsplit_once('.').map_or(target.as_str(), |(_, plain)| plain);
         let set = whole.node_sets.get(target).or_else(|| whole.node_sets.get(plain));
-        let nodes = match (set, plain.parse()) {
-            (Some(set), _) => set.clone(),
-            (None, Ok(node)) => vec![node],
-            (None, Err(_)) => {
-                let name = quoted(target);
-                return Err(MeshProblem::NoSuch { what: "node set", name }.at(support.line, "*BOUNDARY"));
+        let node;
+        let nodes = match set {
+            Some(set) => set.nodes(),
+            None if !plain.is_empty() && plain.bytes().all(|byte| byte.is_ascii_digit()) => {
+                node = [integer(plain, "a node number").map_err(failed)?];
+                &node[..]
+            }
+            None => {
+                return Err(failed(MeshProblem::NoSuch { what: "node set", name: quoted(target) }));
             }
         };
-        for node in nodes {
+        work.take(nodes.len()).map_err(failed)?;
+        for &node in nodes {
             let (held, _) = components.entry(node).or_insert(([false; 3], support.line));
             (0..3).for_each(|k| held[k] |= support.components[k]);
         }
@@ -204,5 +181,23 @@ fn held(whole: &Scope, supports: &[Support]) -> Result<BTreeSet<u64>, MeshFileEr
             let advice = "a clamp holds all three displacements; clamp a surface, or leave the support out";
             Err(MeshProblem::NotCarried { what, advice }.at(*line, "*BOUNDARY"))
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn supports_have_a_bound_in_all() {
+        let mut scope = Scope::default();
+        scope.node_set("A", false, &["1", "2", "3"], &mut Work::default()).unwrap();
+        let support = |target: &str, line| Support { target: target.to_owned(), components: [true; 3], line };
+        let supports = [support("A", 4), support("I.A", 5), support("7", 6)];
+        assert_eq!(held(&scope, &supports, &mut Work::of(7)), Ok([1, 2, 3, 7].into()));
+        let error = held(&scope, &supports, &mut Work::of(5)).unwrap_err();
+        assert_eq!((error.line, error.card.as_str()), (5, "*BOUNDARY"));
+        let far = [support("1000000000000001", 7)];
+        assert_eq!(held(&scope, &far, &mut Work::default()).unwrap_err().line, 7);
     }
 }

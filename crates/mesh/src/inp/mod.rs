@@ -5,13 +5,17 @@
 
 mod assembly;
 pub mod card;
+mod instance;
 mod kinds;
+mod node_set;
 mod reader;
+mod request;
 mod scope;
 mod skipped;
 mod support;
 #[cfg(test)]
 mod tests;
+mod work;
 
 use crate::error::MeshFileError;
 use crate::include::Include;

@@ -2,11 +2,14 @@
 
 use std::collections::BTreeMap;
 
-use super::assembly::{Instance, assembled};
+use super::assembly::assembled;
 use super::card::{Card, normal};
+use super::instance::{Instance, MOST_INSTANCES};
+use super::request::Request;
 use super::scope::{ElementBlock, Scope};
 use super::skipped::{REFUSED, is_harmless};
 use super::support::Support;
+use super::work::Work;
 use crate::error::{MeshFileError, MeshProblem};
 use crate::fields::{integer, quoted, real};
 use crate::format::MeshFormat;
@@ -16,12 +19,14 @@ use crate::mesh_file::{DensityRow, ElasticRow, MeshFile, StatedSymmetry};
 /// Deepest nesting of `*INCLUDE`.
 const DEEPEST_INCLUDE: usize = 20;
 
+/// Most files included in all: a file that includes another twice, which includes another twice, and so on, has an end.
+const MOST_INCLUDES: usize = 1000;
+
 /// Block to which the data lines that follow belong.
 enum Block {
     Nodes { set: Option<String> },
     Elements(ElementBlock),
-    NodeSet { name: String, generate: bool },
-    ElementSet { name: String, generate: bool },
+    Set(Request),
     Elastic,
     Density,
     Boundary,
@@ -33,6 +38,9 @@ enum Block {
 /// Reader of a deck.
 pub(super) struct Reader<'a> {
     include: &'a Include<'a>,
+    /// Number of files included so far.
+    included: usize,
+    work: Work,
     mesh: MeshFile,
     /// Content outside of parts; sets of the assembly that name an instance are kept by it.
     root: Scope,
@@ -53,6 +61,8 @@ impl<'a> Reader<'a> {
     pub(super) fn new(include: &'a Include<'a>) -> Self {
         Self {
             include,
+            included: 0,
+            work: Work::default(),
             mesh: MeshFile::new(MeshFormat::Inp),
             root: Scope::default(),
             parts: BTreeMap::new(),
@@ -110,22 +120,28 @@ impl<'a> Reader<'a> {
         if depth == DEEPEST_INCLUDE {
             return Err(Err(MeshProblem::TooDeep { limit: DEEPEST_INCLUDE }));
         }
-        let bytes = (self.include)(file)
-            .map_err(|reason| Err(MeshProblem::Include { name: quoted(file), reason }))?;
+        self.included += 1;
+        let refused = |reason| Err(MeshProblem::Include { name: quoted(file), reason });
+        if self.included > MOST_INCLUDES {
+            return Err(refused(format!("it is one of more than {MOST_INCLUDES} included files")));
+        }
+        let bytes = (self.include)(file).map_err(refused)?;
         self.file(&bytes, depth + 1).map_err(Ok)
     }
 
     fn scope(&mut self) -> &mut Scope {
-        match &self.part {
+        self.scope_and_work().0
+    }
+
+    fn scope_and_work(&mut self) -> (&mut Scope, &mut Work) {
+        let scope = match &self.part {
             Some(part) => self.parts.entry(part.clone()).or_default(),
             None => &mut self.root,
-        }
+        };
+        (scope, &mut self.work)
     }
 
     fn start(&mut self, card: &Card) -> Result<Block, MeshProblem> {
-        let named = |what: &str, value: Option<String>| {
-            value.ok_or_else(|| MeshProblem::Expected { expected: format!("{}, {what}=name", card.keyword) })
-        };
         Ok(match &card.keyword[..] {
             "*NODE" => {
                 if card.value("SYSTEM").is_some_and(|system| system != "R") {
@@ -137,76 +153,80 @@ impl<'a> Reader<'a> {
                 Block::Nodes { set: card.value("NSET") }
             }
             "*ELEMENT" => Block::Elements(Scope::elements(card, &mut self.mesh)?),
-            "*NSET" | "*ELSET" => {
-                let nodes = card.keyword == "*NSET";
-                let key = if nodes { "NSET" } else { "ELSET" };
-                let name = named(key, card.value(key))?;
-                self.set_instance = card.value("INSTANCE");
-                if let Some(elements) = card.value("ELSET").filter(|_| nodes) {
-                    self.scope().nodes_of_elements(&name, &elements)?;
-                    return Ok(Block::Skip);
-                }
-                let generate = card.has("GENERATE");
-                if nodes { Block::NodeSet { name, generate } } else { Block::ElementSet { name, generate } }
-            }
+            "*NSET" | "*ELSET" => return self.set(card),
             "*MATERIAL" => {
-                self.material = named("NAME", card.value("NAME"))?;
+                self.material = named(card, "NAME")?;
                 self.mesh.materials.entry(self.material.clone()).or_default();
                 Block::Skip
             }
-            "*ELASTIC" => match card.value("TYPE").as_deref() {
-                None | Some("ISO" | "ISOTROPIC") => Block::Elastic,
-                Some(other) => {
-                    return Err(MeshProblem::NotCarried {
-                        what: format!("elasticity of type \"{}\"", quoted(other)),
-                        advice: "materials are isotropic",
-                    });
-                }
-            },
+            "*ELASTIC" => return elastic(card),
             "*DENSITY" => Block::Density,
             "*SOLIDSECTION" => {
-                let section =
-                    (named("ELSET", card.value("ELSET"))?, named("MATERIAL", card.value("MATERIAL"))?);
+                let section = (named(card, "ELSET")?, named(card, "MATERIAL")?);
                 self.scope().sections.push(section);
                 Block::Skip
             }
             "*BOUNDARY" => Block::Boundary,
             "*TIE" if card.has("CYCLICSYMMETRY") => Block::Skip,
-            "*TIE" => {
-                return Err(MeshProblem::NotCarried {
-                    what: "a tie between surfaces".to_owned(),
-                    advice: "mesh the parts as one body, without it",
-                });
-            }
             "*CYCLICSYMMETRYMODEL" => {
-                let sectors = named("N", card.value("N"))?;
+                let sectors = named(card, "N")?;
                 let sectors = integer(&sectors, "a number of sectors")? as usize;
                 Block::Axis { sectors, numbers: Vec::new() }
             }
             "*PART" => {
-                self.part = Some(named("NAME", card.value("NAME"))?);
+                self.part = Some(named(card, "NAME")?);
                 Block::Skip
             }
             "*ENDPART" => {
                 self.part = None;
                 Block::Skip
             }
-            "*INSTANCE" => {
-                let (name, part) = (named("NAME", card.value("NAME"))?, named("PART", card.value("PART"))?);
-                self.instances.push(Instance::new(name, part, card.line));
-                self.in_instance = true;
-                Block::Instance
-            }
+            "*INSTANCE" => return self.instance(card),
             "*ENDINSTANCE" => {
                 self.in_instance = false;
                 Block::Skip
             }
             "*ASSEMBLY" | "*ENDASSEMBLY" => Block::Skip,
+            "*TRANSFORM" => {
+                self.mesh.nodal_frames.get_or_insert_with(|| (card.line, card.keyword.clone()));
+                Block::Skip
+            }
             keyword => return self.other(keyword),
         })
     }
 
-    /// Block of a card that is refused, skipped, or skipped and told.
+    /// Begins a set of nodes or elements, or makes the nodes of an element set one.
+    fn set(&mut self, card: &Card) -> Result<Block, MeshProblem> {
+        let nodes = card.keyword == "*NSET";
+        let name = named(card, if nodes { "NSET" } else { "ELSET" })?;
+        self.set_instance = card.value("INSTANCE");
+        if let Some(instance) = self.set_instance.as_ref().filter(|_| self.of_instance().is_none()) {
+            return Err(MeshProblem::NoSuch { what: "instance", name: quoted(instance) });
+        }
+        if let Some(elements) = card.value("ELSET").filter(|_| nodes) {
+            let (scope, work) = self.scope_and_work();
+            scope.nodes_of_elements(&name, &elements, work)?;
+            return Ok(Block::Skip);
+        }
+        let generate = card.has("GENERATE");
+        Ok(Block::Set(Request { nodes, name, generate }))
+    }
+
+    /// Begins an instance of a part.
+    fn instance(&mut self, card: &Card) -> Result<Block, MeshProblem> {
+        let (name, part) = (named(card, "NAME")?, named(card, "PART")?);
+        if self.instances.len() == MOST_INSTANCES {
+            return Err(MeshProblem::NotCarried {
+                what: format!("an assembly of more than {MOST_INSTANCES} instances"),
+                advice: "a sector is one body; write its mesh out without instances",
+            });
+        }
+        self.instances.push(Instance::new(name, part, card.line));
+        self.in_instance = true;
+        Ok(Block::Instance)
+    }
+
+    /// Block of a card that is refused, skipped, or skipped with a note.
     fn other(&mut self, keyword: &str) -> Result<Block, MeshProblem> {
         if let Some((_, what, advice)) = REFUSED.iter().find(|(card, ..)| *card == keyword) {
             return Err(MeshProblem::NotCarried { what: (*what).to_owned(), advice });
@@ -235,13 +255,15 @@ impl<'a> Reader<'a> {
                 self.mesh = mesh;
                 done
             }
-            Block::NodeSet { name, generate } => match self.of_instance() {
-                Some(instance) => instance.node_set(name, *generate, words),
-                None => self.scope().node_set(name, *generate, words),
-            },
-            Block::ElementSet { name, generate } => match self.of_instance() {
-                Some(instance) => instance.element_set(name, *generate, words),
-                None => self.scope().element_set(name, *generate, words),
+            Block::Set(request) => match self.of_instance() {
+                Some(instance) => {
+                    self.instances[instance].request(request, words);
+                    Ok(())
+                }
+                None => {
+                    let (scope, work) = self.scope_and_work();
+                    request.answer(scope, words, work)
+                }
             },
             Block::Elastic => self.elastic(words),
             Block::Density => {
@@ -269,10 +291,10 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Instance that the set being read belongs to.
-    fn of_instance(&mut self) -> Option<&mut Instance> {
+    /// Index of the instance that the set being read belongs to.
+    fn of_instance(&self) -> Option<usize> {
         let name = self.set_instance.as_ref()?;
-        self.instances.iter_mut().find(|instance| instance.name == *name)
+        self.instances.iter().position(|instance| instance.name == *name)
     }
 
     fn elastic(&mut self, words: &[&str]) -> Result<(), MeshProblem> {
@@ -331,8 +353,25 @@ impl<'a> Reader<'a> {
             let expected = if self.in_instance { "*END INSTANCE" } else { "*END PART" };
             return Err(MeshProblem::CutShort { expected: expected.to_owned() }.at(0, ""));
         }
-        assembled(self.mesh, self.root, self.parts, self.instances, &self.supports)
+        assembled(self.mesh, self.root, self.parts, self.instances, &self.supports, &mut self.work)
     }
+}
+
+/// Block of elastic constants, which are those of an isotropic material.
+fn elastic(card: &Card) -> Result<Block, MeshProblem> {
+    match card.value("TYPE").as_deref() {
+        None | Some("ISO" | "ISOTROPIC") => Ok(Block::Elastic),
+        Some(other) => Err(MeshProblem::NotCarried {
+            what: format!("elasticity of type \"{}\"", quoted(other)),
+            advice: "materials are isotropic",
+        }),
+    }
+}
+
+/// Value of a parameter that a card must have.
+fn named(card: &Card, what: &str) -> Result<String, MeshProblem> {
+    let missing = || MeshProblem::Expected { expected: format!("{}, {what}=name", card.keyword) };
+    card.value(what).ok_or_else(missing)
 }
 
 /// Number that may be missing.

@@ -6,10 +6,12 @@ use rubmap_solid::element::ElementKind;
 
 use super::card::{Card, normal};
 use super::kinds::{DeckKind, kind};
-use crate::collapse::collapsed;
+use super::node_set::NodeSet;
+use super::work::Work;
 use crate::error::{MeshFileError, MeshProblem};
 use crate::fields::{integer, quoted, real};
 use crate::mesh_file::{FileElement, MeshFile};
+use crate::solids;
 
 /// Nodes, elements and sets under numbers of their own.
 #[derive(Debug, Default)]
@@ -18,7 +20,7 @@ pub(super) struct Scope {
     pub(super) elements: BTreeMap<u64, FileElement>,
     /// Numbers of elements that were left out, which sets may name.
     pub(super) left_out: BTreeSet<u64>,
-    pub(super) node_sets: BTreeMap<String, Vec<u64>>,
+    pub(super) node_sets: BTreeMap<String, NodeSet>,
     pub(super) element_sets: BTreeMap<String, BTreeSet<u64>>,
     /// Element set and material of each solid section.
     pub(super) sections: Vec<(String, String)>,
@@ -50,7 +52,7 @@ impl Scope {
             return Err(MeshProblem::Twice { what: "node", id });
         }
         if let Some(set) = set {
-            self.node_sets.entry(set.to_owned()).or_default().push(id);
+            self.node_sets.entry(set.to_owned()).or_default().insert(id);
         }
         Ok(())
     }
@@ -105,12 +107,8 @@ impl Scope {
                 continue;
             }
             let id = *id;
-            let (kind, nodes) = if kind.corners() == 8 {
-                collapsed(kind, nodes).ok_or(MeshProblem::Collapsed { element: id })?
-            } else {
-                (kind, nodes.to_vec())
-            };
-            if self.elements.insert(id, FileElement { kind, nodes, line: block.from }).is_some() {
+            let element = solids::element(id, kind, nodes, block.from)?;
+            if self.elements.insert(id, element).is_some() {
                 return Err(MeshProblem::Twice { what: "element", id });
             }
             if let Some(set) = &block.set {
@@ -138,28 +136,33 @@ impl Scope {
     }
 
     /// Reads a line of a node set.
-    pub(super) fn node_set(&mut self, name: &str, generate: bool, words: &[&str]) -> Result<(), MeshProblem> {
-        let numbers: Vec<u64> = if generate {
-            let (first, last, step) = range(words)?;
+    pub(super) fn node_set(
+        &mut self,
+        name: &str,
+        generate: bool,
+        words: &[&str],
+        work: &mut Work,
+    ) -> Result<(), MeshProblem> {
+        let known = self.node_sets.remove(name);
+        let is_known = known.is_some();
+        let mut set = known.unwrap_or_default();
+        if generate {
             // Numbers without a node are skipped, so that no range can be longer than the mesh.
-            self.nodes
-                .range(first..=last.max(first))
-                .map(|(&id, _)| id)
-                .filter(|id| (id - first) % step == 0)
-                .collect()
+            range(words)?.of(&self.nodes, work, |id| set.insert(id))?;
         } else {
-            let mut numbers = Vec::new();
             for word in words.iter().filter(|word| !word.is_empty()) {
-                match word.parse() {
-                    Ok(id) => numbers.push(id),
-                    Err(_) => {
-                        numbers.extend(self.node_sets.get(&normal(word)).ok_or_else(|| no("node set", word))?)
+                match member(word)? {
+                    Member::Number(id) => set.insert(id),
+                    Member::Set(other) if is_known && other == name => {}
+                    Member::Set(other) => {
+                        let other = self.node_sets.get(&other).ok_or_else(|| no("node set", word))?;
+                        work.take(other.len())?;
+                        set.extend(other.nodes().iter().copied());
                     }
                 }
             }
-            numbers
-        };
-        self.node_sets.entry(name.to_owned()).or_default().extend(numbers);
+        }
+        self.node_sets.insert(name.to_owned(), set);
         Ok(())
     }
 
@@ -169,37 +172,46 @@ impl Scope {
         name: &str,
         generate: bool,
         words: &[&str],
+        work: &mut Work,
     ) -> Result<(), MeshProblem> {
-        let numbers: BTreeSet<u64> = if generate {
-            let (first, last, step) = range(words)?;
-            let known = self.elements.range(first..=last.max(first)).map(|(&id, _)| id);
-            known.filter(|id| (id - first) % step == 0).collect()
+        let known = self.element_sets.remove(name);
+        let is_known = known.is_some();
+        let mut set = known.unwrap_or_default();
+        if generate {
+            range(words)?.of(&self.elements, work, |id| {
+                set.insert(id);
+            })?;
         } else {
-            let mut numbers = BTreeSet::new();
             for word in words.iter().filter(|word| !word.is_empty()) {
-                match word.parse::<u64>() {
-                    Ok(id) => drop(numbers.insert(id)),
-                    Err(_) => {
-                        let set =
-                            self.element_sets.get(&normal(word)).ok_or_else(|| no("element set", word))?;
-                        numbers.extend(set.iter().copied());
+                match member(word)? {
+                    Member::Number(id) => drop(set.insert(id)),
+                    Member::Set(other) if is_known && other == name => {}
+                    Member::Set(other) => {
+                        let other = self.element_sets.get(&other).ok_or_else(|| no("element set", word))?;
+                        work.take(other.len())?;
+                        set.extend(other.iter().copied());
                     }
                 }
             }
-            numbers
-        };
-        self.element_sets.entry(name.to_owned()).or_default().extend(numbers);
+        }
+        self.element_sets.insert(name.to_owned(), set);
         Ok(())
     }
 
-    /// Adds the nodes of an element set to a node set.
-    pub(super) fn nodes_of_elements(&mut self, name: &str, elements: &str) -> Result<(), MeshProblem> {
+    /// Adds the nodes of an element set to a node set, in rising order.
+    pub(super) fn nodes_of_elements(
+        &mut self,
+        name: &str,
+        elements: &str,
+        work: &mut Work,
+    ) -> Result<(), MeshProblem> {
         let set = self.element_sets.get(elements).ok_or_else(|| no("element set", elements))?;
-        let nodes: BTreeSet<u64> = set
-            .iter()
-            .filter_map(|id| self.elements.get(id))
-            .flat_map(|element| element.nodes.clone())
-            .collect();
+        work.take(set.len())?;
+        let mut nodes = BTreeSet::new();
+        for element in set.iter().filter_map(|id| self.elements.get(id)) {
+            work.take(element.nodes.len())?;
+            nodes.extend(element.nodes.iter().copied());
+        }
         self.node_sets.entry(name.to_owned()).or_default().extend(nodes);
         Ok(())
     }
@@ -209,14 +221,111 @@ fn no(what: &'static str, name: &str) -> MeshProblem {
     MeshProblem::NoSuch { what, name: quoted(name) }
 }
 
-/// First and last number of a generated range, and its step.
-fn range(words: &[&str]) -> Result<(u64, u64, u64), MeshProblem> {
+/// Entry of a set: a number, or the name of another set in its normal form.
+enum Member {
+    Number(u64),
+    Set(String),
+}
+
+/// Entry of a set by its word. Digits are a number, which is refused where it is too large.
+fn member(word: &str) -> Result<Member, MeshProblem> {
+    let digits = word.strip_prefix('+').unwrap_or(word);
+    if !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit()) {
+        return integer(word, "a number of a set").map(Member::Number);
+    }
+    Ok(Member::Set(normal(word)))
+}
+
+/// Generated range of numbers.
+struct Range {
+    first: u64,
+    last: u64,
+    step: u64,
+}
+
+impl Range {
+    /// Gives each number of the range that a map has.
+    fn of<T>(
+        &self,
+        known: &BTreeMap<u64, T>,
+        work: &mut Work,
+        mut each: impl FnMut(u64),
+    ) -> Result<(), MeshProblem> {
+        for &id in known.range(self.first..=self.last.max(self.first)).map(|(id, _)| id) {
+            work.take(1)?;
+            if (id - self.first).is_multiple_of(self.step) {
+                each(id);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Range of a line: first number, last number and step.
+fn range(words: &[&str]) -> Result<Range, MeshProblem> {
     let words = words.iter().filter(|word| !word.is_empty());
     let numbers: Vec<u64> = words.map(|word| integer(word, "a number")).collect::<Result<_, _>>()?;
     match numbers[..] {
-        [first] => Ok((first, first, 1)),
-        [first, last] => Ok((first, last, 1)),
-        [first, last, step] if step > 0 => Ok((first, last, step)),
+        [first] => Ok(Range { first, last: first, step: 1 }),
+        [first, last] => Ok(Range { first, last, step: 1 }),
+        [first, last, step] if step > 0 => Ok(Range { first, last, step }),
         _ => Err(MeshProblem::Expected { expected: "first number, last number, step".to_owned() }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Scope of ten nodes and an element set of one tetrahedron, with a set `A` of all nodes.
+    fn scope() -> Scope {
+        let mut scope = Scope::default();
+        for id in 1..=10 {
+            scope.node(&[&id.to_string()], Some("A")).unwrap();
+        }
+        let element = FileElement { kind: ElementKind::C3D4, nodes: vec![1, 2, 3, 4], line: 1 };
+        scope.elements.insert(1, element);
+        scope.element_set("E", false, &["1"], &mut Work::default()).unwrap();
+        scope
+    }
+
+    #[test]
+    fn sets_keep_each_node_once() {
+        let (mut scope, mut work) = (scope(), Work::default());
+        for _ in 0..3 {
+            scope.node_set("A", false, &["A", "A", "3"], &mut work).unwrap();
+            scope.node_set("A", true, &["1", "10"], &mut work).unwrap();
+            scope.element_set("E", false, &["E", "1"], &mut work).unwrap();
+        }
+        assert_eq!(scope.node_sets["A"].nodes(), (1..=10).collect::<Vec<u64>>());
+        assert_eq!(scope.element_sets["E"], [1].into());
+    }
+
+    #[test]
+    fn sets_and_ranges_have_a_bound_in_all() {
+        let mut scope = scope();
+        for (count, name, generate, words) in
+            [(10, "B", false, ["A", ""]), (10, "B", true, ["1", "99"]), (1, "F", false, ["E", ""])]
+        {
+            let mut work = Work::of(2 * count);
+            let mut line = || match name {
+                "F" => scope.element_set(name, generate, &words, &mut work),
+                _ => scope.node_set(name, generate, &words, &mut work),
+            };
+            assert_eq!((line(), line()), (Ok(()), Ok(())));
+            assert!(line().unwrap_err().to_string().contains("more than 100000000 numbers"));
+        }
+        let mut work = Work::of(9);
+        assert_eq!(scope.nodes_of_elements("N", "E", &mut work), Ok(()));
+        assert!(scope.nodes_of_elements("N", "E", &mut work).is_err());
+    }
+
+    #[test]
+    fn numbers_of_sets_have_a_limit() {
+        let (mut scope, mut work) = (scope(), Work::default());
+        let message = scope.node_set("B", false, &["18446744073709551615"], &mut work).unwrap_err();
+        assert_eq!(message.to_string(), "\"18446744073709551615\" is not a number of a set");
+        assert!(scope.element_set("B", false, &["1000000000000001"], &mut work).is_err());
+        assert!(scope.element_set("B", false, &["1000000000000000"], &mut work).is_ok());
     }
 }

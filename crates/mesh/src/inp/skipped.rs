@@ -1,9 +1,10 @@
 //! Cards that change a model and cannot be carried over, and those that say nothing about it.
 
 /// Cards that are refused, with the name of their content and what to do.
-pub(super) const REFUSED: [(&str, &str, &str); 29] = [
+pub(super) const REFUSED: [(&str, &str, &str); 35] = [
     ("*EQUATION", "a linear equation between displacements", UNTIE),
     ("*MPC", "a multi-point constraint", UNTIE),
+    ("*TIE", "a tie between surfaces", UNTIE),
     ("*RIGIDBODY", "a rigid body", UNTIE),
     ("*COUPLING", "a coupling", UNTIE),
     ("*KINEMATICCOUPLING", "a coupling", UNTIE),
@@ -31,6 +32,11 @@ pub(super) const REFUSED: [(&str, &str, &str); 29] = [
     ("*NCOPY", "a copy of nodes", WRITE_OUT),
     ("*ELGEN", "a row of generated elements", WRITE_OUT),
     ("*ELCOPY", "a copy of elements", WRITE_OUT),
+    ("*NMAP", "a mapping of nodes", WRITE_OUT),
+    ("*FASTENER", "a fastener", UNTIE),
+    ("*MODELCHANGE", "a change of the model in a step", CHANGED),
+    ("*MATRIXINPUT", "a matrix of its own", SOLIDS),
+    ("*MATRIXASSEMBLE", "a matrix of its own", SOLIDS),
 ];
 
 const UNTIE: &str = "mesh the parts as one body, without it";
@@ -38,8 +44,10 @@ const ONE_BODY: &str = "a sector is one body; join the parts or leave one out";
 const SOLIDS: &str = "a model has solid elements only";
 const WRITE_OUT: &str = "write the mesh out as nodes and elements, in x, y, z";
 
+const CHANGED: &str = "write out the model as it is to be analysed, without changes";
+
 /// Beginnings of cards that are skipped with their data: steps, loads, results, and properties that a linear model does not have.
-const HARMLESS: [&str; 62] = [
+const HARMLESS: [&str; 61] = [
     "*HEADING",
     "*PREPRINT",
     "*STEP",
@@ -87,10 +95,8 @@ const HARMLESS: [&str; 62] = [
     "*BEAMSECTION",
     "*MEMBRANESECTION",
     "*SURFACESECTION",
-    "*TRANSFORM",
     "*ORIENTATION",
     "*CHANGE",
-    "*MODELCHANGE",
     "*CONTROLS",
     "*SOLUTION",
     "*FILTER",
@@ -99,7 +105,8 @@ const HARMLESS: [&str; 62] = [
     "*NOANALYSIS",
     "*PARAMETER",
     "*NODALTHICKNESS",
-    "*MATRIX",
+    "*MATRIXGENERATE",
+    "*MATRIXOUTPUT",
     "*COMPLEXFREQUENCY",
     "*HOURGLASS",
 ];

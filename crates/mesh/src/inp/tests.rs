@@ -56,7 +56,7 @@ fn tables_over_temperature_are_kept_whole() {
 }
 
 #[test]
-fn lines_and_surfaces_are_left_out_by_name_and_other_types_are_told() {
+fn lines_and_surfaces_are_left_out_by_name_and_other_types_are_reported() {
     let deck = format!(
         "{CUBE}*ELEMENT, TYPE=C3D8R, ELSET=EALL\n1, 1,2,3,4,5,6,7,8\n*ELEMENT, TYPE=S4R, ELSET=SKIN\n2, 1,2,3,4\n3, 5,6,7,8\n\
          *ELEMENT, TYPE=B31\n4, 1, 2\n*ELEMENT, TYPE=C3D6\n5, 1,2,4,5,6,8\n*MADE UP CARD\n1, 2\n"
@@ -168,6 +168,99 @@ fn files_that_include_each_other_end() {
     let itself = |_: &str| Ok(b"*INCLUDE, INPUT=a.inp\n".to_vec());
     let message = read(b"*INCLUDE, INPUT=a.inp\n", &itself).unwrap_err().to_string();
     assert!(message.contains("more than 20 deep"), "{message}");
+}
+
+#[test]
+fn included_files_have_a_limit_in_all() {
+    let count = std::cell::Cell::new(0);
+    let twice = |_: &str| {
+        count.set(count.get() + 1);
+        Ok(b"*INCLUDE, INPUT=a.inp\n".repeat(2))
+    };
+    let flat = |_: &str| Ok(Vec::new());
+    let message = read(b"*INCLUDE, INPUT=a.inp\n", &twice).unwrap_err().to_string();
+    assert!(message.contains("more than 20 deep"), "{message}");
+    assert!(count.get() < 1001);
+    let cards = "*INCLUDE, INPUT=a.inp\n".repeat(1001);
+    let message = read(cards.as_bytes(), &flat).unwrap_err().to_string();
+    assert_eq!(
+        message,
+        "line 1001 (*INCLUDE): the included file \"a.inp\" cannot be read: it is one of more than 1000 included files"
+    );
+}
+
+/// Part of the cube with a tetrahedron, and the cards of its assembly.
+fn assembly(cards: &str) -> String {
+    format!(
+        "*PART, NAME=P\n{CUBE}*ELEMENT, TYPE=C3D4\n1, 1,2,4,5\n*END PART\n*ASSEMBLY, NAME=A\n{cards}*END ASSEMBLY\n"
+    )
+}
+
+#[test]
+fn instances_have_a_limit() {
+    let instances = |count: usize| -> String {
+        (0..count).map(|k| format!("*INSTANCE, NAME=I{k}, PART=P\n*END INSTANCE\n")).collect()
+    };
+    let found = mesh(&assembly(&instances(1000)));
+    assert_eq!((found.nodes.len(), found.elements[&1000].nodes[3]), (8000, 999 * 8 + 5));
+    let message = refused(&assembly(&instances(1001)));
+    assert!(
+        message.starts_with("line 2015 (*INSTANCE): an assembly of more than 1000 instances cannot be"),
+        "{message}"
+    );
+}
+
+#[test]
+fn sets_of_instances_have_a_bound_in_all() {
+    // Names count, too: 10 000 sets of a short part, put a thousand times into the assembly.
+    let sets: String = (0..10_000).map(|k| format!("*NSET, NSET=S{k}\n1\n")).collect();
+    let part = format!("*PART, NAME=P\n{CUBE}{sets}*END PART\n");
+    let instances: String =
+        (0..1000).map(|k| format!("*INSTANCE, NAME=I{k}, PART=P\n*END INSTANCE\n")).collect();
+    let message = refused(&format!("{part}{instances}"));
+    assert!(message.contains("(*INSTANCE): a deck whose sets of sets, ranges and instances"), "{message}");
+}
+
+#[test]
+fn numbers_of_instances_stay_in_range() {
+    let far = CUBE.replace("8, 0,1,1", "1000000000000000, 0,1,1");
+    let part = format!("*PART, NAME=P\n{far}*ELEMENT, TYPE=C3D4\n1, 1,2,4,5\n*END PART\n");
+    let one = "*INSTANCE, NAME=I, PART=P\n*END INSTANCE\n";
+    assert_eq!(mesh(&format!("{part}{one}")).nodes.len(), 8);
+    let message = refused(&format!("{part}{one}{}", one.replace("=I", "=J")));
+    assert!(message.contains("(*INSTANCE): an assembly with a node number above 10000"), "{message}");
+}
+
+#[test]
+fn sets_of_unknown_instances_are_refused() {
+    let one = "*INSTANCE, NAME=I, PART=P\n*END INSTANCE\n";
+    assert_eq!(mesh(&assembly(&format!("{one}*NSET, NSET=A, INSTANCE=i\n1, 1\n"))).node_sets["A"], [1]);
+    for set in ["*NSET, NSET=A", "*ELSET, ELSET=A"] {
+        let message = refused(&assembly(&format!("{one}{set}, INSTANCE=X\n1\n")));
+        assert!(message.contains("): there is no instance \"X\" in the file"), "{message}");
+    }
+}
+
+#[test]
+fn cards_that_change_the_model_are_refused() {
+    for card in
+        ["MODEL CHANGE, REMOVE", "MATRIX INPUT, NAME=K", "MATRIX ASSEMBLE", "FASTENER", "NMAP, NSET=A"]
+    {
+        let message = refused(&format!("{CUBE}{BRICK}*{card}\n1, 2\n"));
+        assert!(message.starts_with("line 12 (*"), "{message}");
+        assert!(message.contains("cannot be carried over"), "{message}");
+    }
+    let found = mesh(&format!("{CUBE}{BRICK}*MATRIX GENERATE, MASS\n*MATRIX OUTPUT, MASS\n"));
+    assert!(found.notes.is_empty(), "{:?}", found.notes);
+}
+
+#[test]
+fn transforms_are_frames_of_nodes() {
+    let transform = "*TRANSFORM, NSET=NALL, TYPE=C\n0, 0, 0, 0, 0, 1\n";
+    let found = mesh(&format!("{CUBE}{BRICK}{transform}{transform}"));
+    assert_eq!(found.nodal_frames, Some((12, "*TRANSFORM".to_owned())));
+    assert!(found.notes.is_empty());
+    assert_eq!(mesh(&format!("{CUBE}{BRICK}")).nodal_frames, None);
 }
 
 /// Cut at every byte, and with single bytes changed: an answer or a refusal.

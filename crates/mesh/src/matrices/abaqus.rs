@@ -88,7 +88,7 @@ fn each_line(
         };
         result.map_err(|problem| problem.at(number, FORMAT))?;
     }
-    Ok(header.unwrap_or(Triangles::Untold))
+    Ok(header.unwrap_or(Triangles::Unstated))
 }
 
 /// Triangles that a header states.
@@ -101,7 +101,7 @@ fn stated(header: &str) -> Result<Triangles, MeshProblem> {
     match options.find_map(|option| option.strip_prefix("TYPE=")) {
         Some("SYMMETRIC" | "DIAGONAL") => Ok(Triangles::One),
         Some("UNSYMMETRIC") => Ok(Triangles::Both),
-        None => Ok(Triangles::Untold),
+        None => Ok(Triangles::Unstated),
         Some(other) => Err(MeshProblem::NotCarried {
             what: format!("a matrix of type {}", fields::quoted(other)),
             advice: GENERATE,

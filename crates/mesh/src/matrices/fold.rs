@@ -26,7 +26,7 @@ pub(super) fn lower(
     let both = match triangles {
         Triangles::One => false,
         Triangles::Both => true,
-        Triangles::Untold => entries.array_windows().any(|[a, b]| mirrored(a, b)),
+        Triangles::Unstated => entries.array_windows().any(|[a, b]| mirrored(a, b)),
     };
     let largest = entries.iter().fold(0.0_f64, |largest, entry| largest.max(entry.value.abs()));
     let mut folded = Vec::with_capacity(entries.len());

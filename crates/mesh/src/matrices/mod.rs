@@ -34,6 +34,11 @@ use crate::error::{MeshFileError, MeshProblem};
 pub use file_matrix::{FileMatrix, MatrixRow};
 use recognise::MatrixFormat;
 
+/// Whether a file is of a format of matrices that can be read here.
+pub(crate) fn is_matrix(bytes: &[u8]) -> bool {
+    recognise::recognised(bytes).is_ok()
+}
+
 /// Reads the only matrix of a file. A mapping is asked for where rows have numbers only; one that is not needed is left out with a note.
 ///
 /// # Errors

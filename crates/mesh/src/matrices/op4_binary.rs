@@ -60,7 +60,7 @@ pub(super) fn header(records: &mut Records<'_>) -> Result<Option<Header>, MeshPr
     }
     let mut record = records.next()?;
     let columns = taken_integer(&mut record)?;
-    // BIGMAT is told by a negative number of rows.
+    // BIGMAT shows in a negative number of rows.
     let rows = i64::from(taken_integer(&mut record)?.cast_signed());
     let form = i64::from(taken_integer(&mut record)?);
     let kind = i64::from(taken_integer(&mut record)?);

@@ -10,7 +10,7 @@ use super::raw::Triangles;
 /// Name of the format.
 pub(super) const FORMAT: &str = "Nastran OUTPUT4";
 
-/// Layout of numbers where the header tells none.
+/// Layout of numbers where the header states none.
 pub(super) const USUAL: Layout = Layout { per_line: 5, width: 16 };
 
 /// Number of rows from which the heads of strings are in the long form in any case.
@@ -70,7 +70,7 @@ impl Header {
         match self.form {
             1 | 2 => Ok(Triangles::Both),
             // Nastran writes both triangles of symmetric matrices, too; other programs one.
-            6 => Ok(Triangles::Untold),
+            6 => Ok(Triangles::Unstated),
             form => refused(
                 format!("a matrix of form {form}"),
                 "mass and stiffness matrices are of form 6 (symmetric) or 1 (square)",

@@ -32,8 +32,8 @@ pub(super) enum Triangles {
     One,
     /// Both triangles are written: an absent entry is zero.
     Both,
-    /// Untold by the file: both, if any position comes with its mirror image.
-    Untold,
+    /// Not stated by the file: both, if any position comes with its mirror image.
+    Unstated,
 }
 
 impl RawEntry {

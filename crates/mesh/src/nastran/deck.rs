@@ -107,6 +107,7 @@ impl Deck {
         let Self { mut mesh, grids, systems, solids, materials, mut supports, selected, sets } = self;
         let frames = systems.frames(&|id| grids.point(id))?;
         mesh.nodes = grids.positions(&frames)?;
+        mesh.nodal_frames = grids.nodal_frames();
         for solid in solids {
             solid.add_to(&mut mesh)?;
         }

@@ -24,6 +24,11 @@ pub(super) struct Grids {
     grids: BTreeMap<u64, Grid>,
     system: u64,
     held: u8,
+    /// First node that states a frame of its own.
+    framed: Option<Place>,
+    /// Whether a node leaves its frame to GRDSET, and the place of a GRDSET that states one.
+    has_default_frame: bool,
+    default_frame: Option<Place>,
 }
 
 impl Grids {
@@ -33,6 +38,13 @@ impl Grids {
         let system = card.optional(2, "the number of a coordinate system")?;
         let position = card.point(3)?;
         let held = if card.text(7).is_empty() { None } else { Some(components::mask(card, 7)?) };
+        match frame(card) {
+            Some(false) => {}
+            Some(true) => {
+                self.framed.get_or_insert_with(|| card.place.clone());
+            }
+            None => self.has_default_frame = true,
+        }
         match self.grids.insert(id, Grid { system, position, held, place: card.place.clone() }) {
             None => Ok(()),
             Some(_) => Err(card.error(MeshProblem::Twice { what: "node", id })),
@@ -43,7 +55,15 @@ impl Grids {
     pub(super) fn set_defaults(&mut self, card: &Card) -> Result<(), MeshFileError> {
         self.system = card.optional(2, "the number of a coordinate system")?.unwrap_or_default();
         self.held = components::mask(card, 7)?;
+        self.default_frame = frame(card).unwrap_or(false).then(|| card.place.clone());
         Ok(())
+    }
+
+    /// Line and card of the first node whose displacements are not in x, y, z.
+    pub(super) fn nodal_frames(&self) -> Option<(u64, String)> {
+        let by_default = self.default_frame.as_ref().filter(|_| self.has_default_frame);
+        let by_default = by_default.map(|place| (place.line, "GRDSET".to_owned()));
+        self.framed.as_ref().map(|place| (place.line, "GRID".to_owned())).or(by_default)
     }
 
     /// Point of a node in its coordinate system.
@@ -73,4 +93,9 @@ impl Grids {
             }
         }
     }
+}
+
+/// Whether the field CD of a card states a coordinate system of displacements other than the basic one; none if the field is empty.
+fn frame(card: &Card) -> Option<bool> {
+    Some(card.text(6)).filter(|text| !text.is_empty()).map(|text| text.parse() != Ok(0_i64))
 }

@@ -18,6 +18,7 @@ pub(super) enum Other {
 }
 
 const SOLIDS_ONLY: &str = "a model is of solid elements only: model it by these, or take it out of the file";
+const MATRIX: &str = "take it out of the file and give it to `rubmap import matrices` beside the mesh";
 const ONE_MESH: &str = "make it one mesh, with the nodes of both sides in common";
 
 /// Beginnings of the names of cards that are refused, what they are, and the way to go.
@@ -27,9 +28,9 @@ const REFUSED: [(&[&str], &str, &str); 9] = [
     (&["CELAS", "CBUSH", "GENEL"], "a spring", SOLIDS_ONLY),
     (&["CDAMP", "CVISC"], "a damper", SOLIDS_ONLY),
     (&["CONM", "CMASS"], "a point mass", SOLIDS_ONLY),
-    (&["CFAST", "CWELD", "CSEAM"], "a connector", ONE_MESH),
+    (&["CFAST", "CWELD", "CSEAM", "CINTC"], "a connector", ONE_MESH),
     (&["BCONTACT", "BCTSET", "BCTABLE", "BGSET", "BGADD", "CGAP"], "contact or glue", ONE_MESH),
-    (&["DMI"], "a matrix", SOLIDS_ONLY),
+    (&["DMI"], "a matrix", MATRIX),
     (
         &["PLSOLID", "PLCOMPS", "PCOMPS"],
         "a property of layers or of large strains",

@@ -123,7 +123,7 @@ impl<'a> Arrays<'a> {
         for stated in table.chunks_exact(self.header) {
             let stated = usize::try_from(little(stated)).unwrap_or(usize::MAX);
             let block = source.take(stated).ok_or_else(cut)?;
-            // One byte more than fits tells a block that holds too much.
+            // One byte more than fits shows a block that holds too much.
             let room = (size - bytes.len()) as u64 + 1;
             let inflated = ZlibDecoder::new(block.as_slice()).take(room).read_to_end(&mut bytes);
             inflated.map_err(|_| MeshProblem::Expected { expected: "data compressed by zlib".to_owned() })?;

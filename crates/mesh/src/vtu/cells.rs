@@ -122,7 +122,7 @@ fn ordered(points: &[u64], places: &[usize]) -> Vec<u64> {
     places.iter().filter_map(|&place| points.get(place).copied()).collect()
 }
 
-/// Points of a wedge in CalculiX's order. Some programs write that order into their files, others VTK's: the volume tells which.
+/// Points of a wedge in CalculiX's order. Some programs write that order into their files, others VTK's: the volume shows which.
 fn wedge(points: Vec<u64>, positions: &[[f64; 3]]) -> Vec<u64> {
     let turned = ordered(&points, &WEDGE);
     let corners: Vec<[f64; 3]> = turned

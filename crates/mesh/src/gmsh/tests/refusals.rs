@@ -117,3 +117,21 @@ fn counts_beyond_the_file() {
     );
     assert!(refusal(format!("{text}$Own\n1\n").as_bytes()).contains("before $EndOwn"));
 }
+
+#[test]
+fn entities_in_too_many_groups() {
+    let text = String::from_utf8(tetrahedron().ascii_4()).unwrap();
+    let start = text.find("$Entities").unwrap();
+    let end = text.find("$EndEntities").unwrap();
+    let with = |count: usize| {
+        let groups = " 7".repeat(count);
+        let entities = format!("$Entities\n0 0 1 1\n1 0 0 0 1 1 1 0 0\n1 0 0 0 1 1 1 {count}{groups} 0\n");
+        format!("{}{entities}{}", &text[..start], &text[end..])
+    };
+    let read = |count: usize| read(with(count).as_bytes()).map_err(|error| error.to_string());
+    assert!(read(1).is_ok());
+    assert!(read(1001).unwrap_err().contains("an entity in more than 1000 physical groups cannot be"));
+    // Elements of many groups have a bound in all, before they are read.
+    let text = with(1000).replace("3 1 4 1\n", "3 1 4 20021\n") + &"\n".repeat(2_000_000);
+    assert!(refusal(text.as_bytes()).contains("physical groups share more than 100000000 numbers"));
+}

@@ -71,7 +71,7 @@ fn mirrored_entries_may_differ_by_rounding() {
 }
 
 #[test]
-fn a_mapping_that_is_not_needed_is_told() {
+fn a_mapping_that_is_not_needed_is_noted() {
     let (text, ..) = SAMPLES[0];
     let matrix = read(text.as_bytes(), Some(b"no mapping")).unwrap();
     assert_eq!(matrix.notes, ["Mapping not read: the matrix names its nodes itself."]);

@@ -143,3 +143,23 @@ fn files_of_other_kinds() {
     refused("", None, "this is no matrix file of a known format");
     refused("hello", None, "this is no matrix file of a known format");
 }
+
+/// Files of matrices in the place of a mesh are named as what they are.
+#[test]
+fn matrices_are_no_meshes() {
+    let none = |name: &str| Err(format!("there is no {name}"));
+    for (text, _, format) in super::SAMPLES {
+        let message = crate::read(text.as_bytes(), &none).unwrap_err().to_string();
+        // Punch with nodes in it is bulk data, whose DMIG is refused with the same advice.
+        if text.contains("GRID") {
+            assert!(message.contains("(DMIG): a matrix cannot be carried over: take it out"), "{message}");
+            assert!(message.ends_with("give it to `rubmap import matrices` beside the mesh"), "{message}");
+            continue;
+        }
+        let found = if text.starts_with("%%") { "a Matrix Market file" } else { "a matrix file" };
+        let expected = format!("this is {found}; give it to `rubmap import matrices` beside the mesh");
+        assert!(message.starts_with(&expected), "{format}: {message}");
+    }
+    let message = crate::read(b"no file of any kind", &none).unwrap_err().to_string();
+    assert!(message.starts_with("this is no mesh file of a known format"), "{message}");
+}

@@ -44,6 +44,7 @@ fn cards_that_change_the_model() {
         ("CONM2,1,1,,1.", "a point mass"),
         ("CONM1,1,1", "a point mass"),
         ("CWELD,1", "a connector"),
+        ("CINTC,1,1,1,2", "a connector"),
         ("BGSET,1", "contact or glue"),
         ("DMIG,K", "a matrix"),
         ("PCOMPS,1", "a property of layers or of large strains"),

@@ -66,3 +66,17 @@ fn systems_that_are_none() {
     let chain: String = (1..20_000).map(|k| format!("CORD2R,{k},{},{points}\n", (k + 1) % 20_000)).collect();
     near(&format!("{chain}GRID,9,1,1.,2.,3."), [1.0, 2.0, 3.0]);
 }
+
+#[test]
+fn frames_of_displacements() {
+    let frames = |cards: &str| with(cards).unwrap().nodal_frames;
+    let at = |line: u64, card: &str| Some((line, card.to_owned()));
+    assert_eq!(frames("GRID,9,,0.,0.,0.,0\nGRID,10\nGRID,11,,0.,0.,0.,,3"), None);
+    assert_eq!(frames("GRID,9\nGRID,10,,0.,0.,0.,4\nGRID,11,,0.,0.,0.,5"), at(11, "GRID"));
+    assert_eq!(frames("GRDSET,,,,,,4"), at(10, "GRDSET"));
+    assert_eq!(frames("GRID,9,,0.,0.,0.,-1"), at(10, "GRID"));
+    // Every node states the basic system.
+    let cube = super::decks::CUBE.replace(".\n", ".,0\n");
+    let found = super::decks::deck(&format!("{cube}{}GRDSET,,,,,,4", super::decks::TETRAHEDRON));
+    assert_eq!(found.unwrap().nodal_frames, None);
+}
