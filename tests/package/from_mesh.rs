@@ -13,6 +13,7 @@ use rubmap::mesh::matrices::{self, FileMatrix};
 use rubmap::mesh::{self, MeshFile};
 use rubmap::package::raw::{Axis, Frame, RawDof, RawMatrix, RawPackage};
 use rubmap::package::to_sector;
+use rubmap::solid::element::ElementKind;
 use rubmap::solid::frame::AxisFrame;
 use rubmap::solid::mesh::SectorMesh;
 use rubmap::solid::natural::EDGES;
@@ -49,11 +50,11 @@ fn deck(mesh: &SectorMesh) -> String {
     for (id, [x, y, z]) in mesh.node_ids.iter().zip(&mesh.nodes) {
         writeln!(deck, "{id}, {x:?}, {y:?}, {z:?}").unwrap();
     }
-    deck += "*ELEMENT, TYPE=C3D20, ELSET=WHEEL\n";
     for element in &mesh.elements {
         let numbers: Vec<String> = element.nodes.iter().map(|node| (node + 1).to_string()).collect();
-        writeln!(deck, "{}, {},\n{}", element.id, numbers[..10].join(", "), numbers[10..].join(", "))
-            .unwrap();
+        let lines: Vec<String> = numbers.chunks(10).map(|line| line.join(", ")).collect();
+        writeln!(deck, "*ELEMENT, TYPE={}, ELSET=WHEEL", element.kind.name()).unwrap();
+        writeln!(deck, "{}, {}", element.id, lines.join(",\n")).unwrap();
     }
     let material = &mesh.sets[0].material;
     let (e, nu, rho) = (material.youngs_modulus, material.poissons_ratio, material.density);
@@ -226,6 +227,47 @@ fn the_contact_line_may_run_along_an_edge() {
     }
     let refused = with([ends[0], 1_000_000]).map(|_| ()).unwrap_err().to_string();
     assert!(refused.starts_with("node 1000000 lies on no sharp edge of the skin"), "{refused}");
+}
+
+/// One to four elements across the tip: one row of nodes along the middle where the mesh has it, with the generator's normals.
+#[test]
+fn contact_nodes_stay_in_one_row() {
+    for blade_thickness in 1..=4 {
+        let mut parameters = impeller(7);
+        parameters.mesh.blade_thickness = blade_thickness;
+        let mesh = sector_mesh(&parameters);
+        let sector = made(&deck(&mesh)).unwrap();
+        let expected = generate(&parameters).unwrap();
+        let contact: Vec<u64> = sector.found.contact.iter().map(|point| point.node).collect();
+        let generated: Vec<u64> = expected.manifest.contact.iter().map(|contact| contact.node).collect();
+        assert_eq!(contact, generated, "{blade_thickness} across");
+        to_sector(sector.package().unwrap()).unwrap();
+    }
+}
+
+/// Elements that share corners but no middle nodes, and faces of which one side is finer, are slits: both are refused.
+#[test]
+fn hanging_nodes_are_refused() {
+    let message = refused(|mesh| {
+        mesh.elements[10].kind = ElementKind::C3D8I;
+        mesh.elements[10].nodes.truncate(8);
+    });
+    assert!(message.contains("share the corners of a face but not the nodes on its edges"), "{message}");
+    let message = refused(|mesh| {
+        // One element has nodes of its own, a hair away from those of its neighbours.
+        let first = mesh.nodes.len() as u32;
+        for node in mesh.elements[20].nodes.clone() {
+            let at = mesh.nodes[node as usize].map(|x| x + 3e-4);
+            mesh.nodes.push(at);
+            mesh.node_ids.push(mesh.nodes.len() as u64);
+        }
+        let other = mesh.elements[19].nodes.clone();
+        let own = mesh.elements[20].nodes.clone();
+        // It stays with one neighbour, so that there is one body.
+        let node = |(k, node): (u32, &u32)| if other.contains(node) { *node } else { first + k };
+        mesh.elements[20].nodes = (0..).zip(&own).map(node).collect();
+    });
+    assert!(message.contains("without sharing its nodes"), "{message}");
 }
 
 /// Nodes of an element in another order: corners, then the middles of these edges.

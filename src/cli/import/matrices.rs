@@ -65,7 +65,8 @@ pub(super) fn import(args: MatricesArgs) -> anyhow::Result<()> {
     let settings = args.options.settings(&args.mesh, Some(top_speed))?;
     let (package, found) = package_with_matrices(file, &settings, &FileMatrices { mass, stiffness })
         .with_context(|| args.mesh.display().to_string())?;
-    write(package, &found, &args.out, args.matrices)
+    print!("{found}");
+    write(package, &args.out, args.matrices)
 }
 
 fn bytes(path: &Path) -> anyhow::Result<Vec<u8>> {

@@ -12,7 +12,7 @@ use super::arguments::{axis, units};
 use super::findings::describe_findings;
 use crate::cli::speed::speed;
 use crate::dynamics::sector::Units;
-use crate::from_mesh::{self, Found, MeshSettings};
+use crate::from_mesh::{self, MeshSettings};
 use crate::mesh::MeshFile;
 use crate::package::raw::{Axis, MatrixFormat, RawPackage};
 use crate::solid::material::Material;
@@ -91,8 +91,9 @@ pub(super) fn import(args: MeshArgs) -> anyhow::Result<()> {
         settings.mass = MassRule::AsStiffness;
     }
     let sector = from_mesh::sector(&file, &settings).with_context(|| name.clone())?;
+    print!("{}", sector.found);
     let package = sector.package().with_context(|| name)?;
-    write(package, &sector.found, &out, matrices)
+    write(package, &out, matrices)
 }
 
 /// Reads a mesh file and those that it includes, from its own folder.
@@ -104,14 +105,8 @@ pub(super) fn read(path: &Path) -> anyhow::Result<MeshFile> {
     crate::mesh::read(&bytes, &include).with_context(|| name.to_string())
 }
 
-/// Checks a package as an upload would be, writes it and prints what was found.
-pub(super) fn write(
-    mut package: RawPackage,
-    found: &Found,
-    out: &Path,
-    format: MatrixFormat,
-) -> anyhow::Result<()> {
-    print!("{found}");
+/// Checks a package as an upload would be, writes it and prints the findings.
+pub(super) fn write(mut package: RawPackage, out: &Path, format: MatrixFormat) -> anyhow::Result<()> {
     package.manifest.store_matrices_as(format);
     let findings = crate::package::look_at(package.clone())
         .context("the model of this mesh does not pass the checks of a package")?;

@@ -10,6 +10,7 @@ use rubmap_solid::mesh::SectorMesh;
 
 use super::body::grid;
 use super::error::{FromMeshError, NearMiss};
+use super::opposite::Opposite;
 use super::settings::MeshSettings;
 use super::surface::Face;
 use crate::package::by_place::{NodeGrid, tolerance};
@@ -33,14 +34,14 @@ const SHARE: f64 = 0.25;
 /// Least circumferential part of the normal of a face that may lie on a cut.
 const FACING: f64 = 0.01;
 
-/// Least cosine of the angle between the normals of faces that look at each other.
-const OPPOSED: f64 = 0.95;
-
 /// Largest distance of a turned face from the plane of the face that it meets, in parts of that face's size.
 const FLAT: f64 = 0.05;
 
+/// Factor by which faces that almost fit must be larger than those that do, for these to be taken for a chance.
+const MUCH: f64 = 2.0;
+
 /// Factor on the tolerance within which faces that miss each other are reported.
-const NEAR: f64 = 1e3;
+const NEAR: f64 = 300.0;
 
 /// Symmetry of a sector: axis, number of sectors, and pairs of nodes.
 #[derive(Debug, Clone)]
@@ -63,7 +64,8 @@ pub(super) fn symmetry(
     surface: &[Face],
 ) -> Result<Symmetry, FromMeshError> {
     let stated = file.symmetry.as_ref();
-    let sectors = settings.sectors.or(stated.map(|stated| stated.sectors));
+    let stated = settings.sectors.or(stated.map(|stated| stated.sectors));
+    let sectors = stated;
     if sectors == Some(0) {
         return Err(FromMeshError::Sectors);
     }
@@ -74,40 +76,62 @@ pub(super) fn symmetry(
         return Ok(Symmetry { axis, sectors: 1, pairs: Vec::new(), faces: HashSet::new(), farthest: 0.0 });
     }
     let within = tolerance(mesh.nodes.iter().copied());
-    let mut best: Option<(f64, Symmetry)> = None;
-    // Refusal of the axis by which the largest area fits.
-    let mut unfit: Option<(f64, FromMeshError)> = None;
+    let mut best: Option<(Fit, Symmetry)> = None;
+    // Refusal of the axis by which the faces fit best.
+    let mut unfit: Option<(Fit, FromMeshError)> = None;
     for axis in &axes {
         let about = frame(axis)?;
-        let Some(sectors) = sectors.or_else(|| number(surface, &about, within)) else { continue };
+        let found = number(surface, &about, within, OPPOSITE);
+        let Some(sectors) = sectors.or(found) else { continue };
         let (fits, area) = matched(surface, &about, sectors, within, OPPOSITE);
         if fits.is_empty() {
             continue;
         }
-        let pairs = facing(mesh, surface, &fits, &about, sectors, within)
-            .and_then(|()| paired(mesh, surface, &fits, &about, sectors, within));
+        let fit = Fit { more_than_two: sectors > 2, area };
+        let pairs = match missed(surface, &about, within, area).filter(|_| stated.is_none()) {
+            Some(near) => {
+                Err(FromMeshError::NoFaces { sectors: None, near: Some(near), tolerance: within, axes: 1 })
+            }
+            None => facing(mesh, surface, &fits, &about, sectors, within)
+                .and_then(|()| paired(mesh, surface, &fits, &about, sectors, within)),
+        };
         match pairs {
             Ok((pairs, farthest)) => {
                 let faces = fits.iter().flat_map(|&(low, high)| [low, high]).collect();
                 let found = Symmetry { axis: axis.clone(), sectors, pairs, faces, farthest };
-                if best.as_ref().is_none_or(|(other, _)| area > *other) {
-                    best = Some((area, found));
+                if best.as_ref().is_none_or(|(other, _)| fit > *other) {
+                    best = Some((fit, found));
                 }
             }
-            Err(error) if unfit.as_ref().is_none_or(|(other, _)| area > *other) => {
-                unfit = Some((area, error))
-            }
+            Err(error) if unfit.as_ref().is_none_or(|(other, _)| fit > *other) => unfit = Some((fit, error)),
             Err(_) => {}
         }
     }
     match (best, unfit) {
         // About another axis some faces may fit by chance.
-        (Some((area, symmetry)), unfit) if unfit.as_ref().is_none_or(|(other, _)| area >= *other) => {
+        (Some((fit, symmetry)), unfit) if unfit.as_ref().is_none_or(|(other, _)| fit >= *other) => {
             Ok(symmetry)
         }
         (_, Some((_, error))) => Err(error),
         (_, None) => Err(near_miss(surface, &axes, sectors, within)?),
     }
+}
+
+/// Quality of a fit: a half turn carries many a symmetric face onto itself, so that any other number of sectors is better, then the area.
+#[derive(PartialEq, PartialOrd)]
+struct Fit {
+    more_than_two: bool,
+    area: f64,
+}
+
+/// Fit of much larger faces than `area`, which miss each other by little.
+fn missed(surface: &[Face], axis: &AxisFrame, within: f64, area: f64) -> Option<NearMiss> {
+    let sectors = number(surface, axis, NEAR * within, ALMOST_OPPOSITE)?;
+    let (fits, of_near) = matched(surface, axis, sectors, NEAR * within, ALMOST_OPPOSITE);
+    let turned = |face: &Face| axis.turn_point(face.centre.into(), TAU / sectors as f64);
+    let away = fits.iter().map(|&(low, high)| distance(turned(&surface[low]), surface[high].centre.into()));
+    let farthest = away.fold(0.0, f64::max);
+    (of_near > MUCH * area && farthest > within).then_some(NearMiss { sectors, faces: fits.len(), farthest })
 }
 
 /// Axes to be tried: the given or stated one, else x, y and z through the origin, z first.
@@ -130,7 +154,7 @@ pub(super) fn frame(axis: &Axis) -> Result<AxisFrame, FromMeshError> {
 
 /// Number of sectors that faces turned about an axis vote for by their areas: the smallest one with a good share, since flanks of a blade
 /// may fit each other by a smaller turn.
-fn number(surface: &[Face], axis: &AxisFrame, within: f64) -> Option<usize> {
+fn number(surface: &[Face], axis: &AxisFrame, within: f64, opposite: f64) -> Option<usize> {
     let places: Vec<([f64; 3], Vector3<f64>, f64)> = (surface.iter())
         .map(|face| (axis.coordinates(face.centre.into()), face.cylindrical_normal(axis), face.area))
         .filter(|(_, normal, _)| normal[1].abs() > CIRCUMFERENTIAL)
@@ -147,7 +171,7 @@ fn number(surface: &[Face], axis: &AxisFrame, within: f64) -> Option<usize> {
         let ring = around.filter_map(|cell| cells.get(&cell)).flatten().filter(|&&other| other > k);
         let near = |high: &[f64; 3]| (high[0] - low[0]).abs() <= within && (high[2] - low[2]).abs() <= within;
         for (high, other, _) in ring.map(|&other| &places[other]).filter(|(high, ..)| near(high)) {
-            if (normal + other).norm() > OPPOSITE {
+            if (normal + other).norm() > opposite {
                 continue;
             }
             for turn in [high[1] - low[1], low[1] - high[1]] {
@@ -207,36 +231,14 @@ fn facing(
     let taken: HashSet<usize> = fits.iter().flat_map(|&(low, high)| [low, high]).collect();
     let left: Vec<&Face> =
         surface.iter().zip(0..).filter(|(_, k)| !taken.contains(k)).map(|(face, _)| face).collect();
-    let reach = |face: &Face| {
-        let corners = face.corners().iter().map(|&node| Vector3::from(mesh.nodes[node as usize]));
-        corners.map(|corner| (corner - face.centre).norm()).fold(0.0, f64::max)
-    };
-    let reaches: Vec<f64> = left.iter().map(|face| reach(face)).collect();
-    let width = reaches.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
-    let cell = |at: Vector3<f64>| -> [i64; 3] { at.map(|x| (x / width).floor() as i64).into() };
-    let mut cells: HashMap<[i64; 3], Vec<usize>> = HashMap::new();
-    for (k, face) in left.iter().enumerate() {
-        cells.entry(cell(face.centre)).or_default().push(k);
-    }
     let angle = TAU / sectors as f64;
     let turned = axis.turned_global(angle);
+    let opposite = Opposite::new(mesh, left.clone());
     for low in left.iter().filter(|face| face.cylindrical_normal(axis)[1] < -FACING) {
         let at = Vector3::from(axis.turn_point(low.centre.into(), angle));
-        let normal = turned.tr_mul(&low.normal);
-        let [i, j, k] = cell(at);
-        let around =
-            (-1..=1).flat_map(|a| (-1..=1).flat_map(move |b| (-1..=1).map(move |c| [i + a, j + b, k + c])));
-        let meets = |&high: &usize| {
-            let (off, reach) = (at - left[high].centre, reaches[high]);
-            normal.dot(&left[high].normal) < -OPPOSED
-                && off.dot(&left[high].normal).abs() < FLAT * reach
-                && off.norm() < reach
-        };
-        let Some(high) = around.filter_map(|cell| cells.get(&cell)).flatten().copied().find(meets) else {
-            continue;
-        };
+        let Some(high) = opposite.at(at, turned.tr_mul(&low.normal), FLAT) else { continue };
         let to = |node: u32| axis.turn_point(mesh.nodes[node as usize], angle);
-        let partners = grid(mesh, left[high].skin.nodes.iter().copied(), within);
+        let partners = grid(mesh, high.skin.nodes.iter().copied(), within);
         let off = low.skin.nodes.iter().map(|&node| (node, partners.nearest_of_all(to(node))));
         let Some((node, nearest)) = off.max_by(|a, b| a.1.distance.total_cmp(&b.1.distance)) else {
             continue;
@@ -312,7 +314,10 @@ fn near_miss(
     let mut best: Option<NearMiss> = None;
     for axis in axes {
         let about = frame(axis)?;
-        let Some(sectors) = sectors.or_else(|| number(surface, &about, NEAR * within)) else { continue };
+        let Some(sectors) = sectors.or_else(|| number(surface, &about, NEAR * within, ALMOST_OPPOSITE))
+        else {
+            continue;
+        };
         let (fits, _) = matched(surface, &about, sectors, NEAR * within, ALMOST_OPPOSITE);
         let turned = |face: &Face| about.turn_point(face.centre.into(), TAU / sectors as f64);
         let away =

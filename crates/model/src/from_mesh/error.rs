@@ -27,6 +27,54 @@ pub enum FromMeshError {
         if .0.count > 1 { format!(", as are {} other pairs", .0.count - 1) } else { String::new() }
     )]
     Twins(Twin),
+    /// Elements with a common face of which one has other nodes on the edges.
+    #[error(
+        "elements {} and {} share the corners of a face but not the nodes on its edges: a node on an edge hangs there; mesh both in one order",
+        .elements[0], .elements[1]
+    )]
+    EdgesDiffer {
+        /// Numbers of the elements.
+        elements: [u64; 2],
+    },
+    /// Faces that lie on each other without being one.
+    #[error(
+        "a face of element {} lies on one of element {} without sharing its nodes: the mesh is slit there, or finer on one side; merge the nodes, \
+         or mesh both sides alike",
+        .elements[0], .elements[1]
+    )]
+    FacesMeet {
+        /// Numbers of the elements.
+        elements: [u64; 2],
+    },
+    /// Refusal that follows from the axis and the number of sectors that were found.
+    #[error("{error} (with {sectors} sectors about the axis through {origin:?} along {direction:?}, as {source}; give `axis` and `sectors` if that is wrong)",
+        source = if *.found { "found" } else { "stated" })]
+    With {
+        /// Refusal.
+        error: Box<FromMeshError>,
+        /// Number of sectors.
+        sectors: usize,
+        /// Point on the axis.
+        origin: [f64; 3],
+        /// Direction of the axis.
+        direction: [f64; 3],
+        /// Whether the number of sectors was found.
+        found: bool,
+    },
+    /// Number of contact nodes below three.
+    #[error("`contact_nodes` is {0}; at least 3 are needed for normals along the tip")]
+    ContactNodes(usize),
+    /// Normal of a contact node that the skin contradicts.
+    #[error(
+        "at node {node} the contact line's normal is {degrees:.0}° off that of the skin: the line is not along a tip that faces the casing; name a node set along \
+         it with `contact_set`, or two nodes of an edge with `contact_between`"
+    )]
+    NormalOff {
+        /// Number of the node.
+        node: u64,
+        /// Angle between both normals.
+        degrees: f64,
+    },
     /// Mesh of several bodies.
     #[error(
         "the mesh is {bodies} bodies that share no node: one of {} elements, one of {}, to which element {element} belongs; a model is one \

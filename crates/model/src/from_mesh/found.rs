@@ -8,9 +8,10 @@ use rubmap_solid::element::ElementKind;
 use rubmap_solid::mesh::SectorMesh;
 
 use super::clamp::ClampSource;
+use super::contact_points::Contact;
 use super::cyclic::Symmetry;
 use super::settings::MeshSettings;
-use super::tip::TipSource;
+use super::tip::{Tip, TipSource};
 use crate::package::calculix::ContactPoint;
 
 /// Findings about a mesh: what was read, what was found, and what the user should know.
@@ -49,18 +50,15 @@ pub struct Found {
 }
 
 impl Found {
-    #[expect(clippy::too_many_arguments, reason = "each is the finding of one step")]
+    /// Findings of all steps; the clamp with the number of its nodes.
     pub(super) fn of(
         file: &MeshFile,
         settings: &MeshSettings,
         mesh: &SectorMesh,
         symmetry: &Symmetry,
-        clamp: ClampSource,
-        clamped: &[bool],
-        tip: TipSource,
-        contact: &[ContactPoint],
-        of_line: usize,
-        spacing: [f64; 2],
+        clamp: (ClampSource, usize),
+        tip: Tip,
+        contact: &Contact,
     ) -> Self {
         let mut elements: BTreeMap<&'static str, usize> = BTreeMap::new();
         for element in &mesh.elements {
@@ -68,6 +66,7 @@ impl Found {
         }
         let mut notes = file.notes.clone();
         notes.extend(locking(mesh));
+        notes.extend(tip.notes);
         let constants = |set: &rubmap_solid::mesh::ElementSet| {
             let material = &set.material;
             (set.name.clone(), [material.youngs_modulus, material.poissons_ratio, material.density])
@@ -82,10 +81,10 @@ impl Found {
             axis: [mesh.axis.0, mesh.axis.1],
             pairs: symmetry.pairs.len(),
             farthest: symmetry.farthest,
-            clamp: (clamp, clamped.iter().filter(|&&held| held).count()),
-            tip: (tip, of_line),
-            contact: contact.to_vec(),
-            spacing,
+            clamp,
+            tip: (tip.source, contact.of_line),
+            contact: contact.points.clone(),
+            spacing: contact.spacing,
             materials: mesh.sets.iter().map(constants).collect(),
             notes,
         }
@@ -136,7 +135,7 @@ impl fmt::Display for Found {
             ClampSource::Set(name) => writeln!(f, "clamp: {count} nodes of the set {name}")?,
             ClampSource::File => writeln!(f, "clamp: {count} nodes, as the file holds them")?,
             ClampSource::Bore(radius) => {
-                writeln!(f, "clamp: {count} nodes of the bore found at r = {radius:.6}")?
+                writeln!(f, "clamp: {count} nodes of the bore found at r = {}", digits(*radius))?
             }
         }
         let (tip, count) = &self.tip;
@@ -151,10 +150,16 @@ impl fmt::Display for Found {
             }
         }
         let [least, most] = self.spacing;
-        writeln!(f, "; {} used, {least:.4} to {most:.4} apart", self.contact.len())?;
+        writeln!(f, "; {} used, {} to {} apart", self.contact.len(), digits(least), digits(most))?;
         for note in &self.notes {
             writeln!(f, "note: {note}")?;
         }
         Ok(())
     }
+}
+
+/// Number with five significant digits.
+fn digits(x: f64) -> String {
+    let rounded: f64 = format!("{x:.4e}").parse().unwrap_or(x);
+    format!("{rounded:?}")
 }

@@ -34,6 +34,9 @@ pub fn package_with_matrices(
     if settings.clamp_set.is_some() {
         return Err(FromMeshError::ClampBesideMatrices);
     }
+    if let Some((line, card)) = file.nodal_frames.clone() {
+        return Err(FromMeshError::NodalFrames { line, card });
+    }
     let all = || std::iter::once(&matrices.mass).chain(matrices.stiffness.iter().map(|(_, matrix)| matrix));
     let clamped: BTreeSet<MatrixRow> = all().flat_map(|matrix| matrix.clamped.iter().copied()).collect();
     let rows_of = |matrix: &FileMatrix| -> BTreeSet<MatrixRow> {

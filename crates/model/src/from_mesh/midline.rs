@@ -3,18 +3,23 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use nalgebra::Vector3;
+use rubmap_solid::frame::distance;
 use rubmap_solid::mesh::SectorMesh;
 
 use super::surface::{Face, sides};
-
-/// Nodes along a line, in order, with their positions.
-pub(super) type Line = Vec<(u64, [f64; 3])>;
+use super::way::{Line, shortest};
 
 /// Points of a middle line.
 const POINTS: usize = 1001;
 
 /// Largest difference of a node's distances from both edges for it to stand for the middle, in parts of their sum.
-const MIDDLE: f64 = 0.5;
+const MIDDLE: f64 = 0.15;
+
+/// Largest distance of a node from the straight line between the corners of an end on which it lies, in lengths of that line.
+const ON_END: f64 = 0.15;
+
+/// Largest number of nodes of an end from which rows are tried.
+const MOST_ENDS: usize = 12;
 
 /// Largest distance between the corners of a short end, in widths of the strip.
 const END: f64 = 2.5;
@@ -33,6 +38,16 @@ impl Midline {
     }
 }
 
+impl Midline {
+    /// Whether a place lies on the short end between both edges.
+    fn is_on_end(&self, end: usize, at: Vector3<f64>) -> bool {
+        let [Some(one), Some(other)] = self.edges.each_ref().map(|edge| edge.get(end)) else { return false };
+        let across = other - one;
+        let part = ((at - one).dot(&across) / across.norm_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+        (at - one - across * part).norm() <= ON_END * across.norm()
+    }
+}
+
 /// Middle line of a strip of faces; empty for faces without an outline.
 pub(super) fn midline(mesh: &SectorMesh, surface: &[Face], strip: &[usize]) -> Midline {
     let outline = outline(surface, strip);
@@ -47,14 +62,19 @@ pub(super) fn midline(mesh: &SectorMesh, surface: &[Face], strip: &[usize]) -> M
     Midline { middle, edges }
 }
 
-/// Corners of the longest closed outline of a strip, in order.
+/// Nodes of the longest closed outline of a strip, in order.
 fn outline(surface: &[Face], strip: &[usize]) -> Vec<u32> {
     let sides = sides(surface, strip.iter().copied());
     let mut next: BTreeMap<u32, u32> = BTreeMap::new();
     for &face in strip {
-        for [a, b] in surface[face].edges() {
+        let middles = &surface[face].skin.nodes[surface[face].skin.corners..];
+        for (k, [a, b]) in surface[face].edges().enumerate() {
             if sides.get(&[a.min(b), a.max(b)]).is_some_and(|faces| faces.len() == 1) {
-                next.insert(a, b);
+                // Blades are thinner than the arcs of their edges are high.
+                match middles.get(k) {
+                    Some(&middle) => next.extend([(a, middle), (middle, b)]),
+                    None => drop(next.insert(a, b)),
+                }
             }
         }
     }
@@ -144,45 +164,88 @@ fn evenly(line: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
     (0..POINTS).map(at).collect()
 }
 
-/// Nodes of a strip along the middle of its thickness, from one end to the other. Where the mesh has no nodes in the middle, they are those
-/// of one edge.
-pub(super) fn along(mesh: &SectorMesh, surface: &[Face], strip: &[usize]) -> Line {
+/// Nodes of a strip along the middle of its thickness, from one end to the other, and whether they lie in the middle: else they are the row
+/// of nodes nearest to it.
+pub(super) fn along(mesh: &SectorMesh, surface: &[Face], strip: &[usize]) -> (Line, bool) {
     let midline = midline(mesh, surface, strip);
     let nodes: BTreeSet<u32> =
         strip.iter().flat_map(|&face| surface[face].skin.nodes.iter().copied()).collect();
-    let mut placed: Vec<(usize, f64, u32)> = Vec::with_capacity(nodes.len());
+    let mut placed: BTreeMap<u32, Placed> = BTreeMap::new();
     for &node in &nodes {
         let at = Vector3::from(mesh.nodes[node as usize]);
-        let Some((k, _)) = nearest(&midline.middle, at) else { continue };
-        let [one, other] = [0, 1].map(|edge| nearest(&midline.edges[edge], at).map_or(0.0, |(_, away)| away));
-        placed.push((k, (one - other) / (one + other).max(f64::MIN_POSITIVE), node));
+        let Some((along, _)) = nearest(&midline.middle, at) else { continue };
+        // Short ends may be skew: between their corners the middle is where both are equally far.
+        let end = [0, POINTS - 1].into_iter().find(|&end| midline.is_on_end(end, at));
+        let away = |edge: &Vec<Vector3<f64>>| match end {
+            Some(corner) => edge.get(corner).map(|corner| (corner - at).norm()),
+            None => nearest(edge, at).map(|(_, away)| away),
+        };
+        let [one, other] = midline.edges.each_ref().map(|edge| away(edge).unwrap_or_default());
+        placed.insert(node, Placed { along, off: (one - other) / (one + other).max(f64::MIN_POSITIVE) });
     }
-    placed.sort_by_key(|&(k, _, node)| (k, node));
-    let middle: Vec<_> = placed.iter().copied().filter(|(_, off, _)| off.abs() <= MIDDLE).collect();
-    let edge: Vec<_> = placed.iter().copied().filter(|(_, off, _)| *off < -MIDDLE).collect();
-    let chosen = if middle.len() >= 3 { middle } else { edge };
-    let line = |node: u32| (mesh.node_ids[node as usize], mesh.nodes[node as usize]);
-    thinned(&chosen).into_iter().map(line).collect()
+    let line = |nodes: Vec<u32>| {
+        nodes.into_iter().map(|node| (mesh.node_ids[node as usize], mesh.nodes[node as usize])).collect()
+    };
+    let mut middle: Vec<u32> = nodes
+        .iter()
+        .copied()
+        .filter(|node| placed.get(node).is_some_and(|place| place.off.abs() <= MIDDLE))
+        .collect();
+    middle.sort_by_key(|node| (placed[node].along, *node));
+    let gap = middle.windows(2).map(|pair| placed[&pair[1]].along - placed[&pair[0]].along).max();
+    let ends = middle.first().map_or(POINTS, |node| placed[node].along)
+        + middle.last().map_or(POINTS, |node| POINTS - 1 - placed[node].along);
+    if middle.len() >= 3 && gap.is_some_and(|gap| 2 * gap < POINTS) && 5 * ends < POINTS {
+        return (line(middle), true);
+    }
+    (line(row(mesh, surface, strip, &placed)), false)
+}
+
+/// Place of a node in a strip: along the middle line, and off it from −1 on one edge to 1 on the other.
+struct Placed {
+    along: usize,
+    off: f64,
+}
+
+/// Row of nodes from end to end of a strip, along the edges of its faces and near the middle.
+fn row(mesh: &SectorMesh, surface: &[Face], strip: &[usize], placed: &BTreeMap<u32, Placed>) -> Vec<u32> {
+    let mut graph: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
+    for &face in strip {
+        for [from, to] in surface[face].steps() {
+            graph.entry(from).or_default().push(to);
+            graph.entry(to).or_default().push(from);
+        }
+    }
+    let length: f64 = placed.len() as f64 * strip.iter().map(|&face| surface[face].area).sum::<f64>().sqrt();
+    let place = |node: u32| placed.get(&node).map_or((0, 1.0), |place| (place.along, place.off));
+    // Ways off the middle are longer, and ways from row to row longer than any along one.
+    let cost = |a: u32, b: u32| {
+        let (off_a, off_b) = (place(a).1, place(b).1);
+        let step = distance(mesh.nodes[a as usize], mesh.nodes[b as usize]);
+        step * (1.0 + 20.0 * (off_a.abs() + off_b.abs())) + length * (off_a - off_b).abs()
+    };
+    let at_end = |reach: &dyn Fn(usize) -> usize| {
+        let mut nodes: Vec<u32> =
+            graph.keys().copied().filter(|&node| reach(place(node).0) < POINTS / 20).collect();
+        nodes.sort_by(|&a, &b| place(a).1.abs().total_cmp(&place(b).1.abs()).then(a.cmp(&b)));
+        nodes.truncate(MOST_ENDS);
+        nodes
+    };
+    let (starts, ends) = (at_end(&|along| along), at_end(&|along| POINTS - 1 - along));
+    let mut best: Option<(f64, Vec<u32>)> = None;
+    for (&from, &to) in starts.iter().flat_map(|from| ends.iter().map(move |to| (from, to))) {
+        let Some(way) = shortest(&graph, from, to, cost) else { continue };
+        let missing = (place(from).0 + POINTS - 1 - place(to).0) as f64 / POINTS as f64;
+        let total = length * missing + way.windows(2).map(|pair| cost(pair[0], pair[1])).sum::<f64>();
+        if best.as_ref().is_none_or(|(least, _)| total < *least) {
+            best = Some((total, way));
+        }
+    }
+    best.map(|(_, way)| way).unwrap_or_default()
 }
 
 /// Nearest point of a line, as its place in the line, and its distance.
 fn nearest(line: &[Vector3<f64>], at: Vector3<f64>) -> Option<(usize, f64)> {
     let away = line.iter().map(|point| (point - at).norm()).enumerate();
     away.min_by(|a, b| a.1.total_cmp(&b.1))
-}
-
-/// One node of each place along the line: of those that lie beside each other the one nearest to the middle.
-fn thinned(placed: &[(usize, f64, u32)]) -> Vec<u32> {
-    let mut chosen: Vec<(usize, f64, u32)> = Vec::new();
-    for &(k, off, node) in placed {
-        match chosen.last_mut() {
-            Some(last) if k - last.0 <= 1 => {
-                if off.abs() < last.1.abs() {
-                    *last = (k, off, node);
-                }
-            }
-            _ => chosen.push((k, off, node)),
-        }
-    }
-    chosen.into_iter().map(|(.., node)| node).collect()
 }

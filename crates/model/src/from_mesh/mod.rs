@@ -6,6 +6,8 @@
 
 mod body;
 mod clamp;
+mod conforming;
+mod contact_points;
 mod cyclic;
 mod edges;
 pub mod error;
@@ -13,12 +15,14 @@ mod found;
 mod materials;
 mod matrices;
 mod midline;
+mod opposite;
 mod sector;
 mod sets;
 mod settings;
 mod surface;
 mod tip;
 mod upload;
+mod way;
 
 pub use clamp::ClampSource;
 pub use error::FromMeshError;

@@ -1,19 +1,18 @@
 //! Sector in a mesh: all steps from the file to what is assembled.
 
-use std::collections::HashSet;
-
 use nalgebra::Vector3;
 use rubmap_mesh::MeshFile;
-use rubmap_solid::frame::distance;
+use rubmap_solid::frame::AxisFrame;
+use rubmap_solid::mesh::SectorMesh;
 
-use super::cyclic;
+use super::contact_points::contact_line;
+use super::cyclic::{self, Symmetry};
 use super::error::FromMeshError;
 use super::found::Found;
 use super::settings::MeshSettings;
-use super::{body, clamp, materials, surface, tip};
-use crate::assembly::{MeshedSector, PackageFacts, TipNode, assembly_bytes, to_package, without_matrices};
+use super::{body, clamp, conforming, contact_points, materials, surface, tip};
+use crate::assembly::{MeshedSector, PackageFacts, assembly_bytes, to_package, without_matrices};
 use crate::package::by_place::tolerance;
-use crate::package::calculix::{Normals, spread, with_normals};
 use crate::package::check::slits::on_axis;
 use crate::package::raw::{Frame, RawPackage};
 use crate::package::units;
@@ -32,50 +31,33 @@ pub struct Sector {
 /// # Errors
 /// The first problem, with the element or node at fault and what to do.
 pub fn sector(file: &MeshFile, settings: &MeshSettings) -> Result<Sector, FromMeshError> {
-    if !(settings.top_speed_rad_s > 0.0 && settings.top_speed_rad_s.is_finite()) {
-        return Err(FromMeshError::TopSpeed(settings.top_speed_rad_s));
-    }
-    units::check(&settings.units).map_err(|(_, problem)| FromMeshError::Units(problem.to_string()))?;
-    if settings.contact_set.is_some() && settings.contact_between.is_some() {
-        return Err(FromMeshError::TwoContacts);
-    }
+    check_settings(settings)?;
     let (sets, set_of) = materials::assigned(file, settings)?;
     let mut mesh = body::body(file, sets, &set_of)?;
     let surface = surface::surface(&mesh);
+    conforming::check(&mesh, &surface)?;
     let symmetry = cyclic::symmetry(file, settings, &mesh, &surface)?;
     let axis = cyclic::frame(&symmetry.axis)?;
     mesh.axis = (symmetry.axis.origin, axis.direction().into());
-    let (clamped, clamp) = clamp::clamped(file, settings, &mesh, &surface, &symmetry, &axis)?;
-    let within = tolerance(mesh.nodes.iter().copied());
-    let shared = |&(node, at): &(usize, [f64; 3])| {
-        symmetry.sectors > 1 && !clamped[node] && on_axis(at, &axis, symmetry.sectors, within)
+    let steps = || {
+        let (clamped, clamp) = clamp::clamped(file, settings, &mesh, &surface, &symmetry, &axis)?;
+        check_axis(&mesh, &symmetry, &axis, &clamped)?;
+        let tip = tip::tip(file, settings, &mesh, &surface, &symmetry, &axis)?;
+        let contact = contact_line(settings, &mesh, &surface, &symmetry, &axis, &clamped, &tip)?;
+        Ok((clamped, clamp, tip, contact))
     };
-    if let Some((node, _)) = mesh.nodes.iter().copied().enumerate().find(shared) {
-        return Err(FromMeshError::OnAxis { node: mesh.node_ids[node] });
-    }
-    let (line, tip) = tip::tip(file, settings, &mesh, &surface, &symmetry, &axis)?;
+    // These follow from axis and number of sectors, which may have been found wrongly.
+    let (clamped, clamp, tip, contact) = steps().map_err(|error: FromMeshError| FromMeshError::With {
+        error: Box::new(error),
+        sectors: symmetry.sectors,
+        origin: symmetry.axis.origin,
+        direction: symmetry.axis.direction,
+        found: settings.sectors.is_none() && file.symmetry.is_none(),
+    })?;
     mesh.sectors = symmetry.sectors;
     mesh.cyclic.clone_from(&symmetry.pairs);
-    let on_faces: HashSet<u32> = symmetry.pairs.iter().flat_map(|&(low, high)| [low, high]).collect();
-    let index = |id: u64| mesh.node_ids.binary_search(&id).ok();
-    let usable = |(id, _): &(u64, [f64; 3])| {
-        index(*id).is_some_and(|node| !clamped[node] && !on_faces.contains(&(node as u32)))
-    };
-    let line: Vec<_> = line.into_iter().filter(usable).collect();
-    if line.len() < 3 {
-        return Err(FromMeshError::FewNodes { found: line.len() });
-    }
-    let of_line = line.len();
-    let chosen = spread(line, settings.contact_nodes.max(3));
-    let points = with_normals(&chosen, &Normals::ContactNodes, &axis, &mesh.nodes)
-        .map_err(|error| FromMeshError::Normals(error.to_string()))?;
-    let contact: Vec<TipNode> = points
-        .iter()
-        .filter_map(|point| Some(TipNode { node: index(point.node)?, normal: point.normal }))
-        .collect();
-    let spacing = chosen.windows(2).map(|pair| distance(pair[0].1, pair[1].1));
-    let spacing = spacing.fold([f64::INFINITY, 0.0_f64], |[low, high], x| [low.min(x), high.max(x)]);
-    let found = Found::of(file, settings, &mesh, &symmetry, clamp, &clamped, tip, &points, of_line, spacing);
+    let held = clamped.iter().filter(|&&held| held).count();
+    let found = Found::of(file, settings, &mesh, &symmetry, (clamp, held), tip, &contact);
     let facts = PackageFacts {
         name: settings.name.clone().unwrap_or_else(|| file.format.name().to_owned()),
         units: settings.units.clone(),
@@ -83,7 +65,40 @@ pub fn sector(file: &MeshFile, settings: &MeshSettings) -> Result<Sector, FromMe
         gyroscopic: settings.gyroscopic,
     };
     let clamped = clamped.into_iter().map(|clamped| [clamped; 3]).collect();
+    let contact = contact.tips(&mesh);
     Ok(Sector { meshed: MeshedSector { mesh, clamped, contact, mass: settings.mass }, facts, found })
+}
+
+/// Refuses settings that contradict themselves or lie outside of their ranges.
+fn check_settings(settings: &MeshSettings) -> Result<(), FromMeshError> {
+    if !(settings.top_speed_rad_s > 0.0 && settings.top_speed_rad_s.is_finite()) {
+        return Err(FromMeshError::TopSpeed(settings.top_speed_rad_s));
+    }
+    units::check(&settings.units).map_err(|(_, problem)| FromMeshError::Units(problem.to_string()))?;
+    if settings.contact_set.is_some() && settings.contact_between.is_some() {
+        return Err(FromMeshError::TwoContacts);
+    }
+    if settings.contact_nodes < contact_points::LEAST {
+        return Err(FromMeshError::ContactNodes(settings.contact_nodes));
+    }
+    Ok(())
+}
+
+/// Refuses free nodes on the axis, which belong to all sectors.
+fn check_axis(
+    mesh: &SectorMesh,
+    symmetry: &Symmetry,
+    axis: &AxisFrame,
+    clamped: &[bool],
+) -> Result<(), FromMeshError> {
+    let within = tolerance(mesh.nodes.iter().copied());
+    let shared = |&(node, at): &(usize, [f64; 3])| {
+        symmetry.sectors > 1 && !clamped[node] && on_axis(at, axis, symmetry.sectors, within)
+    };
+    match mesh.nodes.iter().copied().enumerate().find(shared) {
+        Some((node, _)) => Err(FromMeshError::OnAxis { node: mesh.node_ids[node] }),
+        None => Ok(()),
+    }
 }
 
 impl Sector {

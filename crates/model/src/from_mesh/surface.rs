@@ -33,6 +33,16 @@ impl Face {
         (0..corners.len()).map(move |k| [corners[k], corners[(k + 1) % corners.len()]])
     }
 
+    /// Steps from node to node around the face, over the nodes in the middle of edges.
+    pub(super) fn steps(&self) -> Vec<[u32; 2]> {
+        let middles = &self.skin.nodes[self.skin.corners..];
+        let step = |(k, [a, b]): (usize, [u32; 2])| match middles.get(k) {
+            Some(&middle) => vec![[a, middle], [middle, b]],
+            None => vec![[a, b]],
+        };
+        self.edges().enumerate().flat_map(step).collect()
+    }
+
     /// Outward unit normal in (r, θ, z) components.
     pub(super) fn cylindrical_normal(&self, axis: &AxisFrame) -> Vector3<f64> {
         let [_, theta, _] = axis.coordinates(self.centre.into());

@@ -13,9 +13,10 @@ use rubmap_solid::mesh::SectorMesh;
 use super::cyclic::Symmetry;
 use super::edges::between;
 use super::error::FromMeshError;
-use super::midline::{Line, along, midline};
+use super::midline::{along, midline};
 use super::settings::MeshSettings;
 use super::surface::{Face, SMOOTH, sides};
+use super::way::Line;
 
 /// Largest circumferential part of a tip's normal, by area.
 const MERIDIONAL: f64 = 0.4;
@@ -26,8 +27,11 @@ const FLANK: f64 = 0.3;
 /// Least share of a tip's outline with a convex edge to a flank.
 const BETWEEN_FLANKS: f64 = 0.6;
 
-/// Least share of a tip's outline with a convex edge.
-const CONVEX: f64 = 0.9;
+/// Least share of a tip's outline with a convex edge. Strips along leading and trailing edges end at the hub, where the edge is hollow.
+const CONVEX: f64 = 0.999;
+
+/// Least length of another tip, in parts of the longest, for both to be alike.
+const ALIKE: f64 = 0.98;
 
 /// Largest number of nodes of a set that is a line.
 const MOST_OF_A_LINE: usize = 5000;
@@ -45,7 +49,19 @@ pub enum TipSource {
     Found(usize),
 }
 
-/// Nodes along the tip from the end at the smaller radius.
+/// Contact line with its source.
+#[derive(Debug)]
+pub(super) struct Tip {
+    /// Nodes along the tip from the end at the smaller radius.
+    pub(super) line: Line,
+    pub(super) source: TipSource,
+    /// Faces of the tip, as places in the surface; none for a line of nodes.
+    pub(super) faces: Vec<usize>,
+    /// Sentences that the user should know of.
+    pub(super) notes: Vec<String>,
+}
+
+/// Contact line: between two nodes, of a set, or along the longest tip.
 pub(super) fn tip(
     file: &MeshFile,
     settings: &MeshSettings,
@@ -53,15 +69,24 @@ pub(super) fn tip(
     surface: &[Face],
     symmetry: &Symmetry,
     axis: &AxisFrame,
-) -> Result<(Line, TipSource), FromMeshError> {
+) -> Result<Tip, FromMeshError> {
+    let of_line =
+        |line, source| Tip { line: in_order(line, axis), source, faces: Vec::new(), notes: Vec::new() };
     if let Some(ends) = settings.contact_between {
-        return Ok((in_order(between(mesh, surface, ends)?, axis), TipSource::Edge(ends)));
+        return Ok(of_line(between(mesh, surface, ends)?, TipSource::Edge(ends)));
     }
     let Some(name) = &settings.contact_set else {
-        let tips = tips(mesh, surface, symmetry, axis);
-        let count = tips.len();
-        let longest = tips.into_iter().max_by(|a, b| a.0.total_cmp(&b.0)).ok_or(FromMeshError::NoTip)?;
-        return Ok((in_order(along(mesh, surface, &longest.1), axis), TipSource::Found(count)));
+        let mut tips = tips(mesh, surface, symmetry, axis);
+        tips.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let (length, faces) = tips.first().cloned().ok_or(FromMeshError::NoTip)?;
+        let mut found = of_strip(mesh, surface, axis, faces, TipSource::Found(tips.len()));
+        let alike = tips.iter().skip(1).filter(|(other, _)| *other > ALIKE * length).count();
+        if alike > 0 {
+            found.notes.push(format!(
+                "{alike} other tips are as long; only one of them has contact nodes. Does the sector have several equal blades?"
+            ));
+        }
+        return Ok(found);
     };
     let nodes = super::sets::node_set(file, name)?;
     let chosen: HashSet<u32> = (0..)
@@ -72,16 +97,32 @@ pub(super) fn tip(
     let covered: Vec<usize> = (0..surface.len())
         .filter(|&k| surface[k].corners().iter().all(|node| chosen.contains(node)))
         .collect();
-    if covered.is_empty() {
-        let places = (0..).zip(&mesh.node_ids).filter(|(node, _)| chosen.contains(node));
-        let nodes: Line = places.map(|(node, &id)| (id, mesh.nodes[node as usize])).collect();
-        if nodes.is_empty() {
-            return Err(FromMeshError::SetElsewhere { name: name.clone() });
-        }
-        let line = chain(&nodes).ok_or_else(|| FromMeshError::NoLine { name: name.clone() })?;
-        return Ok((in_order(line, axis), TipSource::Line(name.clone())));
+    if !covered.is_empty() {
+        return Ok(of_strip(mesh, surface, axis, covered, TipSource::Area(name.clone())));
     }
-    Ok((in_order(along(mesh, surface, &covered), axis), TipSource::Area(name.clone())))
+    let places = (0..).zip(&mesh.node_ids).filter(|(node, _)| chosen.contains(node));
+    let nodes: Line = places.map(|(node, &id)| (id, mesh.nodes[node as usize])).collect();
+    if nodes.is_empty() {
+        return Err(FromMeshError::SetElsewhere { name: name.clone() });
+    }
+    let line = chain(&nodes).ok_or_else(|| FromMeshError::NoLine { name: name.clone() })?;
+    Ok(of_line(line, TipSource::Line(name.clone())))
+}
+
+/// Contact line along the middle of a strip of faces.
+fn of_strip(
+    mesh: &SectorMesh,
+    surface: &[Face],
+    axis: &AxisFrame,
+    faces: Vec<usize>,
+    source: TipSource,
+) -> Tip {
+    let (line, in_middle) = along(mesh, surface, &faces);
+    let mut notes = Vec::new();
+    if !in_middle {
+        notes.push("the tip has no row of nodes in the middle of its thickness: contact nodes are those of the row nearest to it".to_owned());
+    }
+    Tip { line: in_order(line, axis), source, faces, notes }
 }
 
 /// Line from its end at the smaller radius, or at the smaller height where both ends have one radius.
