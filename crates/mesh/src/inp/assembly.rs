@@ -50,6 +50,14 @@ pub(super) fn assembled(
             return Err(MeshProblem::NoSuch { what: "material", name }.at(0, "*SOLID SECTION"));
         }
     }
+    let single = |support: &&Support| {
+        several && support.target.split_once('.').is_some_and(|(_, node)| is_number(node))
+    };
+    if let Some(support) = supports.iter().find(single) {
+        let what = "a support of a single node of one of several instances".to_owned();
+        let advice = "name a node set of the instance";
+        return Err(MeshProblem::NotCarried { what, advice }.at(support.line, "*BOUNDARY"));
+    }
     mesh.held = held(&whole, supports, work)?;
     let known: BTreeSet<u64> = whole.elements.keys().copied().collect();
     mesh.element_sets = (whole.element_sets.into_iter())
@@ -147,6 +155,11 @@ fn offset<T>(
     })
 }
 
+/// Whether a text is a number without sign.
+fn is_number(text: &str) -> bool {
+    !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit())
+}
+
 /// Nodes of which all three displacements are held.
 fn held(whole: &Scope, supports: &[Support], work: &mut Work) -> Result<BTreeSet<u64>, MeshFileError> {
     let mut components: BTreeMap<u64, ([bool; 3], u64)> = BTreeMap::new();
@@ -159,7 +172,7 @@ fn held(whole: &Scope, supports: &[Support], work: &mut Work) -> Result<BTreeSet
         let node;
         let nodes = match set {
             Some(set) => set.nodes(),
-            None if !plain.is_empty() && plain.bytes().all(|byte| byte.is_ascii_digit()) => {
+            None if is_number(plain) => {
                 node = [integer(plain, "a node number").map_err(failed)?];
                 &node[..]
             }

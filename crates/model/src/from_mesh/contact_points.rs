@@ -91,8 +91,7 @@ fn check_normals(
         let Some(sum) = skin.get(&point.node) else { continue };
         let normal = axis.cylindrical(point.position[1]).tr_mul(&Vector3::from(point.normal));
         let cosine = normal.dot(&sum.normalize());
-        // A comparison that a number which is none fails, too.
-        if !(cosine > LEAST_COSINE) {
+        if cosine.is_nan() || cosine <= LEAST_COSINE {
             let degrees = cosine.clamp(-1.0, 1.0).acos().to_degrees();
             return Err(FromMeshError::NormalOff { node: point.node, degrees });
         }
