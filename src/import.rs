@@ -201,7 +201,6 @@ impl Importer {
             Err(error) => return Ok(Err(error)),
         };
         let needed = sector.assembly_bytes();
-        let memory = self.memory.hold_up_to(needed).await;
         if let Some(most) = self.memory.most().filter(|&most| needed > most) {
             let message = format!(
                 "assembling this mesh needs {needed} bytes of memory, and this service gives one computation {most}: make the package with \
@@ -209,6 +208,7 @@ impl Importer {
             );
             return Ok(Err(Box::new(PackageError::Mesh { file: None, line: None, message })));
         }
+        let memory = self.memory.hold_up_to(needed).await;
         let file = match self.store.new_upload().await {
             Ok(file) => file,
             Err(source) => return Ok(Err(Box::new(source.into()))),
