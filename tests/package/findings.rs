@@ -28,14 +28,14 @@ pub(crate) fn turned(package: &mut RawPackage, basis: impl Fn(u64) -> Matrix3<f6
     for (row, dof) in dofs.iter().enumerate() {
         rows.entry(dof.node).or_default()[usize::from(dof.component) - 1] = Some(row);
     }
-    let turn = |matrix: &mut RawMatrix| {
+    let turn = |matrix: &mut RawMatrix, mirror: f64| {
         let mut blocks: HashMap<(u64, u64), Matrix3<f64>> = HashMap::new();
         for &(row, column, value) in &matrix.entries {
             let (a, b) = (dofs[row as usize], dofs[column as usize]);
             let (i, j) = (usize::from(a.component) - 1, usize::from(b.component) - 1);
             blocks.entry((a.node, b.node)).or_default()[(i, j)] += value;
             if row != column {
-                blocks.entry((b.node, a.node)).or_default()[(j, i)] += value;
+                blocks.entry((b.node, a.node)).or_default()[(j, i)] += mirror * value;
             }
         }
         matrix.entries.clear();
@@ -52,8 +52,9 @@ pub(crate) fn turned(package: &mut RawPackage, basis: impl Fn(u64) -> Matrix3<f6
             }
         }
     };
-    turn(&mut package.mass);
-    package.stiffness.iter_mut().for_each(turn);
+    turn(&mut package.mass, 1.0);
+    package.stiffness.iter_mut().for_each(|matrix| turn(matrix, 1.0));
+    package.gyroscopic.iter_mut().for_each(|matrix| turn(matrix, -1.0));
     package.elements = None;
     package.manifest.mesh = None;
 }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 use rubmap::from_mesh::{
     self, ClampSource, FileMatrices, FromMeshError, MeshSettings, Sector, TipSource, package_with_matrices,
 };
@@ -17,6 +17,8 @@ use rubmap::solid::element::ElementKind;
 use rubmap::solid::frame::AxisFrame;
 use rubmap::solid::mesh::SectorMesh;
 use rubmap::solid::natural::EDGES;
+
+use crate::findings::turned;
 
 const TOP_SPEED: f64 = 3000.0;
 
@@ -367,6 +369,52 @@ fn nastran(mesh: &SectorMesh) -> String {
     text + "ENDDATA\n"
 }
 
+/// Sixth of a disk without a bore: wedges around the axis, hexahedra outside of them, three levels of nodes; held nodes follow.
+fn solid_disk(held: &str) -> String {
+    let mut nodes: Vec<[f64; 3]> = Vec::new();
+    let mut deck = String::new();
+    for z in [0.0, 2.0, 4.0] {
+        nodes.push([0.0, 0.0, z]);
+        for r in [10.0, 20.0] {
+            nodes.extend([-0.5, 0.0, 0.5].map(|part| {
+                let theta = part * std::f64::consts::TAU / 6.0;
+                [f64::cos(theta) * r, f64::sin(theta) * r, z]
+            }));
+        }
+    }
+    deck += "*NODE\n";
+    nodes.iter().zip(1..).for_each(|([x, y, z], id)| writeln!(deck, "{id}, {x:?}, {y:?}, {z:?}").unwrap());
+    // Nodes of a level: the axis, then three at each radius.
+    for (level, id) in [0, 7].into_iter().zip([1, 3]) {
+        for column in 0..2 {
+            let at = |k: usize| level + k + 1;
+            let (a, b) = (
+                [at(0), at(1 + column), at(2 + column)],
+                [at(1 + column), at(4 + column), at(5 + column), at(2 + column)],
+            );
+            let listed = |nodes: &[usize]| {
+                let above: Vec<usize> = nodes.iter().map(|node| node + 7).collect();
+                [nodes, &above].concat().iter().map(usize::to_string).collect::<Vec<_>>().join(", ")
+            };
+            writeln!(deck, "*ELEMENT, TYPE=C3D6\n{}, {}", id + column, listed(&a)).unwrap();
+            writeln!(deck, "*ELEMENT, TYPE=C3D8I\n{}, {}", 10 + id + column, listed(&b)).unwrap();
+        }
+    }
+    deck + "*NSET, NSET=TIP\n6, 13, 20\n*BOUNDARY\n" + held
+}
+
+/// Nodes on the axis belong to all sectors: clamped they are in no pair, free they are refused.
+#[test]
+fn nodes_on_the_axis_must_be_clamped() {
+    let settings = MeshSettings { contact_set: Some("TIP".into()), ..settings() };
+    let made = |held: &str| from_mesh::sector(&read_mesh(&solid_disk(held)), &settings);
+    let sector = made("1, 1, 3\n8, 1, 3\n15, 1, 3\n").unwrap();
+    assert_eq!((sector.found.sectors, sector.found.pairs), (6, 6));
+    to_sector(sector.package().unwrap()).unwrap();
+    let refused = made("2, 1, 3\n4, 1, 3\n").map(|_| ()).unwrap_err().to_string();
+    assert!(refused.starts_with("node 1 lies on the axis and belongs to all sectors; clamp it"), "{refused}");
+}
+
 /// Refusal of a mesh that is changed.
 fn refused(change: impl FnOnce(&mut SectorMesh)) -> String {
     let mut mesh = sector_mesh(&impeller(7));
@@ -447,37 +495,11 @@ fn settings_that_do_not_fit_are_refused() {
     }
 }
 
-/// Package in Cartesian components: the generator's are cylindrical, and all three of a node are free.
+/// Package in Cartesian components: the generator's are cylindrical.
 fn cartesian(mut package: RawPackage) -> RawPackage {
     let axis = AxisFrame::new([0.0; 3], [0.0, 0.0, 1.0]).unwrap();
     let at: BTreeMap<u64, [f64; 3]> = package.nodes.iter().map(|node| (node.id, node.position)).collect();
-    let dofs = package.dofs.clone();
-    let unit = |node: u64| axis.cylindrical(axis.coordinates(at[&node])[1]);
-    let turned = |matrix: &RawMatrix, mirror: f64| {
-        let mut blocks: BTreeMap<(u32, u32), Matrix3<f64>> = BTreeMap::new();
-        for &(r, c, v) in &matrix.entries {
-            for (r, c, v) in [(r, c, v), (c, r, mirror * v)].into_iter().take(if r == c { 1 } else { 2 }) {
-                blocks.entry((r / 3, c / 3)).or_default()[(r as usize % 3, c as usize % 3)] = v;
-            }
-        }
-        let mut entries = Vec::new();
-        for ((a, b), block) in blocks {
-            let frame = |node: u32| unit(dofs[3 * node as usize].node);
-            let block = frame(a).transpose() * block * frame(b);
-            for i in 0..3 {
-                for j in 0..3 {
-                    let (r, c) = (3 * a + i, 3 * b + j);
-                    if r >= c {
-                        entries.push((r, c, block[(i as usize, j as usize)]));
-                    }
-                }
-            }
-        }
-        RawMatrix { size: matrix.size, entries }
-    };
-    package.mass = turned(&package.mass, 1.0);
-    package.stiffness = package.stiffness.iter().map(|matrix| turned(matrix, 1.0)).collect();
-    package.gyroscopic = package.gyroscopic.as_ref().map(|matrix| turned(matrix, -1.0));
+    turned(&mut package, |node| axis.cylindrical(axis.coordinates(at[&node])[1]).transpose());
     package
 }
 

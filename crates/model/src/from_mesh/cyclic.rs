@@ -63,14 +63,12 @@ pub(super) fn symmetry(
     mesh: &SectorMesh,
     surface: &[Face],
 ) -> Result<Symmetry, FromMeshError> {
-    let stated = file.symmetry.as_ref();
-    let stated = settings.sectors.or(stated.map(|stated| stated.sectors));
-    let sectors = stated;
-    if sectors == Some(0) {
+    let stated = settings.sectors.or(file.symmetry.as_ref().map(|symmetry| symmetry.sectors));
+    if stated == Some(0) {
         return Err(FromMeshError::Sectors);
     }
     let axes = candidates(file, settings);
-    if sectors == Some(1) {
+    if stated == Some(1) {
         let axis = axes.into_iter().next().ok_or(FromMeshError::AxisWithoutDirection)?;
         frame(&axis)?;
         return Ok(Symmetry { axis, sectors: 1, pairs: Vec::new(), faces: HashSet::new(), farthest: 0.0 });
@@ -81,17 +79,17 @@ pub(super) fn symmetry(
     let mut unfit: Option<(Fit, FromMeshError)> = None;
     for axis in &axes {
         let about = frame(axis)?;
-        let found = number(surface, &about, within, OPPOSITE);
-        let Some(sectors) = sectors.or(found) else { continue };
+        let Some(sectors) = stated.or_else(|| number(surface, &about, within, OPPOSITE)) else { continue };
         let (fits, area) = matched(surface, &about, sectors, within, OPPOSITE);
         if fits.is_empty() {
             continue;
         }
         let fit = Fit { more_than_two: sectors > 2, area };
-        let pairs = match missed(surface, &about, within, area).filter(|_| stated.is_none()) {
-            Some(near) => {
-                Err(FromMeshError::NoFaces { sectors: None, near: Some(near), tolerance: within, axes: 1 })
-            }
+        // Much larger faces that miss each other by little are meant, and these fit by chance.
+        let missed = almost(surface, &about, stated, within)
+            .filter(|(near, of_near)| stated.is_none() && *of_near > MUCH * area && near.farthest > within);
+        let pairs = match missed {
+            Some((near, _)) => Err(no_faces(stated, Some(near), within, axes.len())),
             None => facing(mesh, surface, &fits, &about, sectors, within)
                 .and_then(|()| paired(mesh, surface, &fits, &about, sectors, within)),
         };
@@ -113,7 +111,7 @@ pub(super) fn symmetry(
             Ok(symmetry)
         }
         (_, Some((_, error))) => Err(error),
-        (_, None) => Err(near_miss(surface, &axes, sectors, within)?),
+        (_, None) => Err(near_miss(surface, &axes, stated, within)?),
     }
 }
 
@@ -124,14 +122,23 @@ struct Fit {
     area: f64,
 }
 
-/// Fit of much larger faces than `area`, which miss each other by little.
-fn missed(surface: &[Face], axis: &AxisFrame, within: f64, area: f64) -> Option<NearMiss> {
-    let sectors = number(surface, axis, NEAR * within, ALMOST_OPPOSITE)?;
-    let (fits, of_near) = matched(surface, axis, sectors, NEAR * within, ALMOST_OPPOSITE);
+/// Faces that almost fit about an axis, and the area of the low ones; by the number of sectors that they vote for where none is stated.
+fn almost(
+    surface: &[Face],
+    axis: &AxisFrame,
+    sectors: Option<usize>,
+    within: f64,
+) -> Option<(NearMiss, f64)> {
+    let within = NEAR * within;
+    let sectors = sectors.or_else(|| number(surface, axis, within, ALMOST_OPPOSITE))?;
+    let (fits, area) = matched(surface, axis, sectors, within, ALMOST_OPPOSITE);
     let turned = |face: &Face| axis.turn_point(face.centre.into(), TAU / sectors as f64);
     let away = fits.iter().map(|&(low, high)| distance(turned(&surface[low]), surface[high].centre.into()));
-    let farthest = away.fold(0.0, f64::max);
-    (of_near > MUCH * area && farthest > within).then_some(NearMiss { sectors, faces: fits.len(), farthest })
+    Some((NearMiss { sectors, faces: fits.len(), farthest: away.fold(0.0, f64::max) }, area))
+}
+
+fn no_faces(sectors: Option<usize>, near: Option<NearMiss>, tolerance: f64, axes: usize) -> FromMeshError {
+    FromMeshError::NoFaces { sectors, near, tolerance, axes }
 }
 
 /// Axes to be tried: the given or stated one, else x, y and z through the origin, z first.
@@ -294,11 +301,10 @@ fn paired(
         farthest = farthest.max(distance(mesh.nodes[partner as usize], to));
         pairs.push((node, partner));
     }
-    match high
-        .iter()
-        .find(|node| !taken.contains(node))
-        .or_else(|| low.iter().find(|node| taken.contains(node)))
-    {
+    // Only nodes on the axis are on both faces.
+    let on_both = |node: &&u32| taken.contains(node);
+    let left_over = |node: &&u32| !taken.contains(node) && low.binary_search(node).is_err();
+    match low.iter().find(on_both).or_else(|| high.iter().find(left_over)) {
         Some(&node) => Err(FromMeshError::BothFaces { node: mesh.node_ids[node as usize] }),
         None => Ok((pairs, farthest)),
     }
@@ -313,19 +319,12 @@ fn near_miss(
 ) -> Result<FromMeshError, FromMeshError> {
     let mut best: Option<NearMiss> = None;
     for axis in axes {
-        let about = frame(axis)?;
-        let Some(sectors) = sectors.or_else(|| number(surface, &about, NEAR * within, ALMOST_OPPOSITE))
-        else {
-            continue;
-        };
-        let (fits, _) = matched(surface, &about, sectors, NEAR * within, ALMOST_OPPOSITE);
-        let turned = |face: &Face| about.turn_point(face.centre.into(), TAU / sectors as f64);
-        let away =
-            fits.iter().map(|&(low, high)| distance(turned(&surface[low]), surface[high].centre.into()));
-        let farthest = away.fold(0.0, f64::max);
-        if fits.len() > best.as_ref().map_or(0, |best| best.faces) {
-            best = Some(NearMiss { sectors, faces: fits.len(), farthest });
+        let found = almost(surface, &frame(axis)?, sectors, within);
+        if let Some((near, _)) =
+            found.filter(|(near, _)| near.faces > best.as_ref().map_or(0, |best| best.faces))
+        {
+            best = Some(near);
         }
     }
-    Ok(FromMeshError::NoFaces { sectors, near: best, tolerance: within, axes: axes.len() })
+    Ok(no_faces(sectors, best, within, axes.len()))
 }

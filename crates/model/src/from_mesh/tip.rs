@@ -17,6 +17,7 @@ use super::midline::{along, midline};
 use super::settings::MeshSettings;
 use super::surface::{Face, SMOOTH, sides};
 use super::way::Line;
+use crate::package::calculix::nearest_neighbours;
 
 /// Largest circumferential part of a tip's normal, by area.
 const MERIDIONAL: f64 = 0.4;
@@ -150,17 +151,7 @@ fn chain(nodes: &[(u64, [f64; 3])]) -> Option<Line> {
     };
     let start = farthest(farthest(nodes.first()?.1)?.1)?;
     let end = farthest(start.1)?;
-    let mut left: Line = nodes.iter().copied().filter(|node| node.0 != start.0).collect();
-    let mut chain = vec![start];
-    while let Some(last) = chain.last().copied()
-        && let Some(k) = (0..left.len()).min_by(|&a, &b| {
-            distance(left[a].1, last.1)
-                .total_cmp(&distance(left[b].1, last.1))
-                .then(left[a].0.cmp(&left[b].0))
-        })
-    {
-        chain.push(left.swap_remove(k));
-    }
+    let chain = nearest_neighbours(nodes, start);
     (chain.last().map(|node| node.0) == Some(end.0)).then_some(chain)
 }
 

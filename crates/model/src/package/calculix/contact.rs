@@ -49,6 +49,15 @@ pub(super) fn in_chord_order(
         return wrong(NoOrder::SameRadius);
     }
     let (start, end) = if difference > 0.0 { (one_end, other_end) } else { (other_end, one_end) };
+    let chain = nearest_neighbours(nodes, start);
+    if chain.last().map(|node| node.0) != Some(end.0) {
+        return wrong(NoOrder::NoLine);
+    }
+    Ok(chain)
+}
+
+/// Nodes from `start` on, each followed by the nearest of those that are left.
+pub(crate) fn nearest_neighbours(nodes: &[(u64, [f64; 3])], start: (u64, [f64; 3])) -> Vec<(u64, [f64; 3])> {
     let mut left: Vec<_> = nodes.iter().copied().filter(|node| node.0 != start.0).collect();
     let mut chain = vec![start];
     let mut last = start;
@@ -59,10 +68,7 @@ pub(super) fn in_chord_order(
         last = left.swap_remove(k);
         chain.push(last);
     }
-    if last.0 != end.0 {
-        return wrong(NoOrder::NoLine);
-    }
-    Ok(chain)
+    chain
 }
 
 /// Selection of `count` of the nodes, as evenly spaced along the line as its nodes allow; all if there are fewer.

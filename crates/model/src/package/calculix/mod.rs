@@ -28,7 +28,7 @@ use std::path::{Path, PathBuf};
 use nalgebra::Vector3;
 
 pub use contact::ContactPoint;
-pub(crate) use contact::{spread, with_normals};
+pub(crate) use contact::{nearest_neighbours, spread, with_normals};
 pub use error::{CalculixError, LineProblem, ModelProblem, NoCopy, NoOrder};
 pub use model::{CalculixModel, Normals};
 pub use no_mesh::NoMesh;
