@@ -57,6 +57,7 @@ fn chains(sectors: usize, factors: &[f64]) -> SectorModel {
             normal: [1.0, 0.0, 0.0],
             dofs: [0, 1, 2],
         }],
+        axis: Vec::new(),
         node_of_dof: (0..size).map(|dof| dof / 3).collect(),
     };
     SectorModel::new(parts).unwrap()
@@ -135,6 +136,7 @@ fn twins(blade: &SectorModel, sectors: usize) -> SectorModel {
         mass: twice(&blade.mass),
         stiffness: blade.stiffness.iter().map(twice).collect(),
         contact: blade.contact.iter().cloned().chain(second).collect(),
+        axis: Vec::new(),
         node_of_dof: blade
             .node_of_dof
             .iter()

@@ -53,6 +53,7 @@ fn sector(hub: [f64; 3], tip: [f64; 3]) -> SectorModel {
             normal: [0.8, 0.0, -0.6],
             dofs: [3, 4, 5],
         }],
+        axis: Vec::new(),
         node_of_dof: vec![0, 0, 0, 1, 1, 1],
     };
     SectorModel::new(parts).unwrap()

@@ -507,7 +507,7 @@ fn cyclic_faces() {
         ),
         case(
             |f| f.json(|j| j["cyclic"][1] = json!([2, 2])),
-            "sector.json, /cyclic/1: node 2 is paired with itself; the high node is another node, the low one turned by +2π/N; a node on the axis must be clamped",
+            "sector.json, /cyclic/1: node 2 is paired with itself; the high node is another node, the low one turned by +2π/N; a node on the axis is in no pair",
             (JSON, None, Some("/cyclic/1")),
         ),
         case(
@@ -558,7 +558,7 @@ fn cyclic_faces() {
                 f.line("nodes.csv", 1, "1,0,0,0");
                 f.line("nodes.csv", 6, "5,0,0,0");
             },
-            "sector.json, /cyclic/0: nodes 1 and 5 are free but lie on the axis, a point that all sectors share and no pair can describe; clamp them or give the hub a bore",
+            "sector.json, /cyclic/0: nodes 1 and 5 are free but lie on the axis, a point that all sectors share: make them one node, in no pair",
             (JSON, None, Some("/cyclic/0")),
         ),
         case(
@@ -567,13 +567,14 @@ fn cyclic_faces() {
             (JSON, None, Some("/cyclic")),
         ),
         case(
-            // The nodes of the second pair are moved to the axis and are in no pair any more.
+            // A node of the second pair is moved to the axis, where it is free in one direction across it.
             |f| {
                 f.json(|j| j["cyclic"] = json!([[1, 5]]));
                 f.line("nodes.csv", 2, "2,0,0,5");
+                f.line("dofs.csv", 4, "7,1");
             },
-            "sector.json, /cyclic: node 2 is free but lies on the axis, a point that all sectors share: without a pair every sector would have an axis of its own; clamp it or give the hub a bore",
-            (JSON, None, Some("/cyclic")),
+            "sector.json, /dofs: node 2 lies on the axis and has the components 2, 3 in the DOF table, which the turn by one sector does not map onto each other; clamp it along the axis, in both directions across it, or wholly",
+            (JSON, None, Some("/dofs")),
         ),
         case(
             // Low and high are swapped, and one node is 0.1 off.

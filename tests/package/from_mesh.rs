@@ -403,16 +403,20 @@ fn solid_disk(held: &str) -> String {
     deck + "*NSET, NSET=TIP\n6, 13, 20\n*BOUNDARY\n" + held
 }
 
-/// Nodes on the axis belong to all sectors: clamped they are in no pair, free they are refused.
+/// Nodes on the axis are in no pair, clamped or free, and never contact nodes.
 #[test]
-fn nodes_on_the_axis_must_be_clamped() {
-    let settings = MeshSettings { contact_set: Some("TIP".into()), ..settings() };
-    let made = |held: &str| from_mesh::sector(&read_mesh(&solid_disk(held)), &settings);
-    let sector = made("1, 1, 3\n8, 1, 3\n15, 1, 3\n").unwrap();
-    assert_eq!((sector.found.sectors, sector.found.pairs), (6, 6));
-    to_sector(sector.package().unwrap()).unwrap();
-    let refused = made("2, 1, 3\n4, 1, 3\n").map(|_| ()).unwrap_err().to_string();
-    assert!(refused.starts_with("node 1 lies on the axis and belongs to all sectors; clamp it"), "{refused}");
+fn nodes_on_the_axis_are_in_no_pair() {
+    let settings = |set: &str| MeshSettings { contact_set: Some(set.into()), ..settings() };
+    let made = |held: &str, set: &str| from_mesh::sector(&read_mesh(&solid_disk(held)), &settings(set));
+    for (held, on_axis) in [("1, 1, 3\n8, 1, 3\n15, 1, 3\n", 0), ("2, 1, 3\n4, 1, 3\n", 3)] {
+        let sector = made(held, "TIP").unwrap();
+        assert_eq!((sector.found.sectors, sector.found.on_axis), (6, on_axis));
+        let model = to_sector(sector.package().unwrap()).unwrap();
+        assert_eq!(model.axis.len(), on_axis);
+    }
+    let axis = "2, 1, 3\n4, 1, 3\n*NSET, NSET=AXIS\n1, 8, 15\n";
+    let refused = made(axis, "AXIS").map(|_| ()).unwrap_err().to_string();
+    assert!(refused.contains("the contact line has 0 free nodes"), "{refused}");
 }
 
 /// Refusal of a mesh that is changed.

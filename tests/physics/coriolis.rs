@@ -249,6 +249,7 @@ fn ring(sectors: usize) -> SectorModel {
             normal: [1.0, 0.0, 0.0],
             dofs: [3, 4, 5],
         }],
+        axis: Vec::new(),
         node_of_dof: vec![0, 0, 0, 1, 1, 1],
     };
     SectorModel::new(parts).unwrap()

@@ -122,6 +122,7 @@ pub(crate) fn wheel(recipe: WheelRecipe) -> SectorModel {
         gyroscopic: None,
         speeds_rad_s: speeds,
         contact,
+        axis: Vec::new(),
         node_of_dof: (0..size).map(|dof| dof / 3).collect(),
     };
     SectorModel::new(parts).unwrap()

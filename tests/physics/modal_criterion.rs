@@ -32,6 +32,7 @@ fn cyclic_chain() {
                 normal: [1.0, 0.0, 0.0],
                 dofs: [0, 1, 2],
             }],
+            axis: Vec::new(),
             node_of_dof: vec![0; 3],
         })
         .unwrap();

@@ -30,6 +30,7 @@
 //!     gyroscopic: None,
 //!     speeds_rad_s: vec![0.0],
 //!     contact: vec![ContactNode { id: 1, position: [1.0, 0.0, 0.0], normal: [1.0, 0.0, 0.0], dofs: [3, 4, 5] }],
+//!     axis: Vec::new(),
 //!     node_of_dof: vec![0, 0, 0, 1, 1, 1],
 //! })?;
 //!

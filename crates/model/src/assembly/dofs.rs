@@ -1,6 +1,8 @@
 //! Numbering of a sector's free displacements.
 
 use super::sector::MeshedSector;
+use crate::package::by_place::tolerance;
+use crate::package::check::slits::on_axis;
 
 /// Rows of a sector's matrices: the own DOF node by node (low face and contact nodes among them), then the DOF of the high face in the
 /// order of the cyclic pairs. Clamped DOF are absent.
@@ -35,12 +37,23 @@ impl SectorDofs {
         dofs
     }
 
-    /// Rows as in [`Self::rows`] with the high face tied to the low one (nodal diameter 0): only own rows remain.
-    pub fn tied_rows(&self, sector: &MeshedSector) -> Vec<[Option<usize>; 3]> {
-        let mut rows = self.rows.clone();
-        for &(low, high) in &sector.mesh.cyclic {
+    /// Rows for nodal diameter 0, where the high face moves as the low one and nodes on the axis along it only; none where held. Beside them
+    /// the node of each row.
+    pub(super) fn tied_rows(&self, sector: &MeshedSector) -> (Vec<[Option<usize>; 3]>, Vec<usize>) {
+        let mesh = &sector.mesh;
+        let axis = sector.axis();
+        let within = tolerance(mesh.nodes.iter().copied());
+        let mut rows = vec![[None; 3]; mesh.nodes.len()];
+        let mut node_of_row = Vec::with_capacity(self.own);
+        for &(node, component) in &self.list[..self.own] {
+            if component == 2 || !on_axis(mesh.nodes[node], &axis, mesh.sectors, within) {
+                rows[node][component] = Some(node_of_row.len());
+                node_of_row.push(node);
+            }
+        }
+        for &(low, high) in &mesh.cyclic {
             rows[high as usize] = rows[low as usize];
         }
-        rows
+        (rows, node_of_row)
     }
 }

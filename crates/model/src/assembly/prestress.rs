@@ -28,26 +28,25 @@ pub struct PreStress {
 pub struct CanMove;
 
 /// Solves `K_e u = f`, `f_a = ∫ ρ N_a r e_r dV`, with the high face tied to the low one in cylindrical
-/// components.
+/// components and nodes on the axis moving along it.
 ///
 /// # Errors
 /// [`CanMove`] if the sector can move as a rigid body.
 pub(super) fn solve(sector: &MeshedSector, dofs: &SectorDofs) -> Result<PreStress, CanMove> {
-    let numbering = dofs.tied_rows(sector);
+    let (numbering, nodes) = dofs.tied_rows(sector);
+    let size = nodes.len();
     let assembly = Assembly::new(sector, &numbering);
     let origin = Vector3::from(sector.mesh.axis.0);
     let axis = sector.axis().direction();
-    let mut solution = assembly.load(dofs.own, |element| {
-        integrals::centrifugal_load(&element.mass(), &element.positions, origin, axis)
-    });
+    let mut solution = assembly
+        .load(size, |element| integrals::centrifugal_load(&element.mass(), &element.positions, origin, axis));
 
-    let pattern = Pattern::new(&sector.mesh.elements, &numbering, dofs.own);
+    let pattern = Pattern::new(&sector.mesh.elements, &numbering, size);
     let values = assembly.matrix(&pattern, |element, _| element.stiffness());
     let stiffness = pattern.into_lower_triangle(values);
-    let nodes: Vec<usize> = dofs.list[..dofs.own].iter().map(|&(node, _)| node).collect();
     let symbolic = SymbolicFactor::new(stiffness.symbolic(), &nodes);
     let factor = SparseCholesky::new(&symbolic, &stiffness).map_err(|NotPositiveDefinite| CanMove)?;
-    factor.solve_in_place(MatMut::from_column_major_slice_mut(&mut solution, dofs.own, 1));
+    factor.solve_in_place(MatMut::from_column_major_slice_mut(&mut solution, size, 1));
 
     let displacements: Vec<[f64; 3]> =
         numbering.iter().map(|rows| rows.map(|row| row.map_or(0.0, |row| solution[row]))).collect();

@@ -12,7 +12,9 @@ use super::settings::MeshSettings;
 use super::surface::Face;
 use super::tip::Tip;
 use crate::assembly::TipNode;
+use crate::package::by_place::tolerance;
 use crate::package::calculix::{ContactPoint, Normals, spread, with_normals};
+use crate::package::check::slits::on_axis;
 
 /// Least number of contact nodes: normals are those of a curve through them.
 pub(super) const LEAST: usize = 3;
@@ -40,7 +42,7 @@ impl Contact {
     }
 }
 
-/// Contact nodes of a tip: free ones off the cyclic faces, evenly spaced, with normals that the skin confirms.
+/// Contact nodes of a tip: free ones off the cyclic faces and the axis, evenly spaced, with normals that the skin confirms.
 pub(super) fn contact_line(
     settings: &MeshSettings,
     mesh: &SectorMesh,
@@ -51,9 +53,11 @@ pub(super) fn contact_line(
     tip: &Tip,
 ) -> Result<Contact, FromMeshError> {
     let on_faces: HashSet<u32> = symmetry.pairs.iter().flat_map(|&(low, high)| [low, high]).collect();
-    let usable = |(id, _): &&(u64, [f64; 3])| {
+    let within = tolerance(mesh.nodes.iter().copied());
+    let usable = |(id, at): &&(u64, [f64; 3])| {
         let node = mesh.node_ids.binary_search(id).ok();
-        node.is_some_and(|node| !clamped[node] && !on_faces.contains(&(node as u32)))
+        let is_free = |node: usize| !clamped[node] && !on_faces.contains(&(node as u32));
+        node.is_some_and(is_free) && !on_axis(*at, axis, symmetry.sectors, within)
     };
     let line: Vec<_> = tip.line.iter().filter(usable).copied().collect();
     if line.len() < LEAST {

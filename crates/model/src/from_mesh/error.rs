@@ -196,12 +196,6 @@ pub enum FromMeshError {
         /// Number of sectors N.
         sectors: usize,
     },
-    /// Free node on the axis, which belongs to all sectors.
-    #[error("node {node} lies on the axis and belongs to all sectors; clamp it or give the wheel a bore")]
-    OnAxis {
-        /// Number of the node.
-        node: u64,
-    },
     /// Node set that is not in the file.
     #[error("the file has no nodes in a set \"{name}\"{}", listed(.known))]
     NoSuchSet {
@@ -251,7 +245,7 @@ pub enum FromMeshError {
     },
     /// Contact line of too few usable nodes.
     #[error(
-        "the contact line has {found} free nodes away from the cyclic faces; at least 3 are needed for its normals"
+        "the contact line has {found} free nodes away from the cyclic faces and the axis; at least 3 are needed for its normals"
     )]
     FewNodes {
         /// Number of usable nodes.

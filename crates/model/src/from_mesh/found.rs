@@ -5,6 +5,7 @@ use std::fmt;
 
 use rubmap_mesh::MeshFile;
 use rubmap_solid::element::ElementKind;
+use rubmap_solid::frame::AxisFrame;
 use rubmap_solid::mesh::SectorMesh;
 
 use super::clamp::ClampSource;
@@ -12,7 +13,9 @@ use super::contact_points::Contact;
 use super::cyclic::Symmetry;
 use super::settings::MeshSettings;
 use super::tip::{Tip, TipSource};
+use crate::package::by_place::tolerance;
 use crate::package::calculix::ContactPoint;
+use crate::package::check::slits;
 
 /// Findings about a mesh: what was read, what was found, and what the user should know.
 #[derive(Debug, Clone, PartialEq)]
@@ -35,6 +38,8 @@ pub struct Found {
     pub pairs: usize,
     /// Largest distance of a turned low node from its high node.
     pub farthest: f64,
+    /// Number of free nodes on the axis, which all sectors share.
+    pub on_axis: usize,
     /// Source of the clamp, and number of clamped nodes.
     pub clamp: (ClampSource, usize),
     /// Source of the contact line, and number of its usable nodes.
@@ -50,13 +55,13 @@ pub struct Found {
 }
 
 impl Found {
-    /// Findings of all steps; the clamp with the number of its nodes.
+    /// Findings of all steps; the clamp with a mark for each node that it holds.
     pub(super) fn of(
         file: &MeshFile,
         settings: &MeshSettings,
         mesh: &SectorMesh,
         symmetry: &Symmetry,
-        clamp: (ClampSource, usize),
+        (clamp, clamped): (ClampSource, &[bool]),
         tip: Tip,
         contact: &Contact,
     ) -> Self {
@@ -81,7 +86,8 @@ impl Found {
             axis: [mesh.axis.0, mesh.axis.1],
             pairs: symmetry.pairs.len(),
             farthest: symmetry.farthest,
-            clamp,
+            on_axis: on_axis(mesh, symmetry, clamped),
+            clamp: (clamp, clamped.iter().filter(|&&held| held).count()),
             tip: (tip.source, contact.of_line),
             contact: contact.points.clone(),
             spacing: contact.spacing,
@@ -89,6 +95,14 @@ impl Found {
             notes,
         }
     }
+}
+
+/// Number of free nodes on the axis of several sectors.
+fn on_axis(mesh: &SectorMesh, symmetry: &Symmetry, clamped: &[bool]) -> usize {
+    let Some(axis) = AxisFrame::new(mesh.axis.0, mesh.axis.1) else { return 0 };
+    let within = tolerance(mesh.nodes.iter().copied());
+    let free = mesh.nodes.iter().zip(clamped).filter(|(_, held)| !**held);
+    free.filter(|(at, _)| slits::on_axis(**at, &axis, symmetry.sectors, within)).count()
 }
 
 /// Warning about elements that are too stiff in bending.
@@ -129,6 +143,9 @@ impl fmt::Display for Found {
                 "; {pairs} pairs of nodes on the cyclic faces, at most {:.1e} apart",
                 self.farthest
             )?,
+        }
+        if self.on_axis > 0 {
+            writeln!(f, "axis: {} free nodes on it, shared by all sectors", self.on_axis)?;
         }
         let (clamp, count) = &self.clamp;
         match clamp {

@@ -2,18 +2,14 @@
 
 use nalgebra::Vector3;
 use rubmap_mesh::MeshFile;
-use rubmap_solid::frame::AxisFrame;
-use rubmap_solid::mesh::SectorMesh;
 
 use super::contact_points::contact_line;
-use super::cyclic::{self, Symmetry};
+use super::cyclic;
 use super::error::FromMeshError;
 use super::found::Found;
 use super::settings::MeshSettings;
 use super::{body, clamp, conforming, contact_points, materials, surface, tip};
 use crate::assembly::{MeshedSector, PackageFacts, assembly_bytes, to_package, without_matrices};
-use crate::package::by_place::tolerance;
-use crate::package::check::slits::on_axis;
 use crate::package::raw::{Frame, RawPackage};
 use crate::package::units;
 
@@ -41,7 +37,6 @@ pub fn sector(file: &MeshFile, settings: &MeshSettings) -> Result<Sector, FromMe
     mesh.axis = (symmetry.axis.origin, axis.direction().into());
     let steps = || {
         let (clamped, clamp) = clamp::clamped(file, settings, &mesh, &surface, &symmetry, &axis)?;
-        check_axis(&mesh, &symmetry, &axis, &clamped)?;
         let tip = tip::tip(file, settings, &mesh, &surface, &symmetry, &axis)?;
         let contact = contact_line(settings, &mesh, &surface, &symmetry, &axis, &clamped, &tip)?;
         Ok((clamped, clamp, tip, contact))
@@ -56,8 +51,7 @@ pub fn sector(file: &MeshFile, settings: &MeshSettings) -> Result<Sector, FromMe
     })?;
     mesh.sectors = symmetry.sectors;
     mesh.cyclic.clone_from(&symmetry.pairs);
-    let held = clamped.iter().filter(|&&held| held).count();
-    let found = Found::of(file, settings, &mesh, &symmetry, (clamp, held), tip, &contact);
+    let found = Found::of(file, settings, &mesh, &symmetry, (clamp, &clamped), tip, &contact);
     let facts = PackageFacts {
         name: settings.name.clone().unwrap_or_else(|| file.format.name().to_owned()),
         units: settings.units.clone(),
@@ -82,23 +76,6 @@ fn check_settings(settings: &MeshSettings) -> Result<(), FromMeshError> {
         return Err(FromMeshError::ContactNodes(settings.contact_nodes));
     }
     Ok(())
-}
-
-/// Refuses free nodes on the axis, which belong to all sectors.
-fn check_axis(
-    mesh: &SectorMesh,
-    symmetry: &Symmetry,
-    axis: &AxisFrame,
-    clamped: &[bool],
-) -> Result<(), FromMeshError> {
-    let within = tolerance(mesh.nodes.iter().copied());
-    let shared = |&(node, at): &(usize, [f64; 3])| {
-        symmetry.sectors > 1 && !clamped[node] && on_axis(at, axis, symmetry.sectors, within)
-    };
-    match mesh.nodes.iter().copied().enumerate().find(shared) {
-        Some((node, _)) => Err(FromMeshError::OnAxis { node: mesh.node_ids[node] }),
-        None => Ok(()),
-    }
 }
 
 impl Sector {

@@ -23,7 +23,7 @@ use super::check::layout::{Layout, NONE};
 use super::raw::{Frame, RawMatrix, RawPackage};
 use super::symmetric::Mirror;
 use rubmap_solid::frame::Basis;
-use rubmap_wheel::dynamics::sector::{ContactNode, CyclicMatrix, SectorParts};
+use rubmap_wheel::dynamics::sector::{AxisNode, ContactNode, CyclicMatrix, SectorParts};
 
 /// Builds the parts of the sector; matrices in parallel, each the same bits for any number of threads.
 pub(super) fn build(package: RawPackage, layout: &Layout) -> SectorParts {
@@ -34,6 +34,7 @@ pub(super) fn build(package: RawPackage, layout: &Layout) -> SectorParts {
     let components: Vec<u8> = package.dofs.iter().map(|dof| dof.component - 1).collect();
     let folding = Folding { layout, components: &components, bases: bases.as_deref() };
     let contact = contact_nodes(&package, layout, bases.as_deref());
+    let axis = axis_nodes(layout, bases.as_deref());
     let speeds = package.stiffness.len();
     let mass_first: Vec<(RawMatrix, Mirror)> = std::iter::once(package.mass)
         .chain(package.stiffness)
@@ -56,6 +57,7 @@ pub(super) fn build(package: RawPackage, layout: &Layout) -> SectorParts {
         gyroscopic,
         speeds_rad_s: package.manifest.speeds_rad_s,
         contact,
+        axis,
         node_of_dof: node_of_dof(layout),
     }
 }
@@ -83,6 +85,27 @@ fn contact_nodes(package: &RawPackage, layout: &Layout, bases: Option<&[Basis]>)
             }
         })
         .collect()
+}
+
+/// Nodes on the axis with the directions of their DOF, which the check has found along and across it.
+fn axis_nodes(layout: &Layout, bases: Option<&[Basis]>) -> Vec<AxisNode> {
+    let direction = layout.frame.direction();
+    let node = |&node: &u32| {
+        let rows = layout.rows_of_node[node as usize];
+        let dof = |component: usize| match rows[component] {
+            NONE => None,
+            row => Some(layout.own_of_row[row as usize] as usize),
+        };
+        // A node that is clamped in part keeps its Cartesian components.
+        let (axial, sense) = match bases {
+            Some(_) if rows.contains(&NONE) => (direction.iamax(), direction[direction.iamax()]),
+            _ => (2, 1.0),
+        };
+        let across = [(axial + 1) % 3, (axial + 2) % 3];
+        let [first, second] = if sense < 0.0 { [across[1], across[0]] } else { across };
+        AxisNode { axial: dof(axial), lateral: [dof(first), dof(second)] }
+    };
+    layout.on_axis.iter().map(node).collect()
 }
 
 /// Local basis of each node of a Cartesian package, with zero rows and columns for clamped components.

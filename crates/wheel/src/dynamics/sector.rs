@@ -49,6 +49,18 @@ pub struct ContactNode {
     pub dofs: [usize; 3],
 }
 
+/// Node on the axis of several sectors: one point that they share.
+///
+/// Its displacement, the same in all sectors, leaves it the axial direction in nodal diameter 0, a wave across the axis in nodal diameter 1
+/// (both directions across it where there are two sectors), and nothing in any other.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct AxisNode {
+    /// Row of the displacement along the axis among the own DOF; none where clamped.
+    pub axial: Option<usize>,
+    /// Rows of the displacements along two directions across the axis, the second +90° about the axis from the first; none where clamped.
+    pub lateral: [Option<usize>; 2],
+}
+
 /// Parts of a sector: matrices over the own DOF (internal, low face and contact), in (r, θ, z) components.
 #[derive(Debug, Clone)]
 pub struct SectorParts {
@@ -69,6 +81,8 @@ pub struct SectorParts {
     pub speeds_rad_s: Vec<f64>,
     /// Contact nodes from leading to trailing edge.
     pub contact: Vec<ContactNode>,
+    /// Nodes on the axis; with one sector they are nodes like others.
+    pub axis: Vec<AxisNode>,
     /// Index of the node that each own DOF belongs to (the graph that fill-reducing orderings compress): the three DOF of a node, or fewer
     /// where some are clamped, grouped node by node.
     pub node_of_dof: Vec<usize>,
@@ -105,6 +119,14 @@ pub enum UnsoundSector {
         rows: usize,
         /// Number of columns of the matrix.
         columns: usize,
+        /// Number of own DOF of the sector.
+        dofs: usize,
+    },
+    /// Node on the axis whose displacement is not among the DOF.
+    #[error("a node on the axis has degree of freedom {dof}, the sector those below {dofs}")]
+    AxisDof {
+        /// Row of the displacement.
+        dof: usize,
         /// Number of own DOF of the sector.
         dofs: usize,
     },
@@ -153,6 +175,10 @@ impl SectorModel {
             if let Some(&dof) = node.dofs.iter().find(|&&dof| dof >= dofs) {
                 return Err(UnsoundSector::ContactDof { id: node.id, dof, dofs });
             }
+        }
+        let on_axis = parts.axis.iter().flat_map(|node| [node.axial, node.lateral[0], node.lateral[1]]);
+        if let Some(dof) = on_axis.flatten().find(|&dof| dof >= dofs) {
+            return Err(UnsoundSector::AxisDof { dof, dofs });
         }
         Ok(Self(parts))
     }
@@ -207,6 +233,7 @@ mod tests {
                 normal: [1.0, 0.0, 0.0],
                 dofs: [0, 1, 2],
             }],
+            axis: Vec::new(),
             node_of_dof: vec![0; 3],
         }
     }
@@ -234,5 +261,10 @@ mod tests {
         assert_eq!(refused(|parts| parts.gyroscopic = Some(matrix(4))), other);
         let beyond = Err(UnsoundSector::ContactDof { id: 7, dof: 3, dofs: 3 });
         assert_eq!(refused(|parts| parts.contact[0].dofs[2] = 3), beyond);
+        let on_axis = AxisNode { axial: Some(3), lateral: [None; 2] };
+        let mut with_axis = parts();
+        with_axis.axis.push(on_axis);
+        let refused = SectorModel::new(with_axis).map(|_| ());
+        assert_eq!(refused, Err(UnsoundSector::AxisDof { dof: 3, dofs: 3 }));
     }
 }

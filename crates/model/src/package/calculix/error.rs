@@ -199,9 +199,10 @@ pub enum ModelProblem {
         /// Whether the node is one of the face that was named high.
         swapped: bool,
     },
-    /// Free node on the axis of several sectors.
+    /// Free node on the axis of a whole wheel, whose rows hold the shares of all sectors.
     #[error(
-        "node {node} is free but lies on the axis, a point that all sectors share; clamp it with *BOUNDARY or give the hub a bore"
+        "node {node} is free but lies on the axis, and the matrices of a whole wheel do not tell the sectors' shares of it apart; \
+         export one sector, or import the mesh itself (rubmap import mesh)"
     )]
     FreeOnAxis {
         /// Number of the node.

@@ -9,7 +9,7 @@ use super::matrices::DofList;
 use super::model::CalculixModel;
 use super::sets::set;
 use crate::package::by_place::{Nearest, NodeGrid};
-use crate::package::check::slits::{self, Unpaired};
+use crate::package::check::slits::{self, Slit};
 use crate::package::raw::RawDof;
 use rubmap_solid::frame::AxisFrame;
 
@@ -97,8 +97,7 @@ pub(super) fn check_all_paired(
     let free = free.map(|node| (node, positions[&node])).collect();
     match slits::find(free, |node| paired.contains(&node), frame, sectors, tolerance) {
         None => Ok(()),
-        Some(Unpaired::OnAxis { node }) => Err(ModelProblem::FreeOnAxis { node }),
-        Some(Unpaired::Slit { low, high }) => Err(ModelProblem::PairMissing { low, high, sectors }),
+        Some(Slit { low, high }) => Err(ModelProblem::PairMissing { low, high, sectors }),
     }
 }
 

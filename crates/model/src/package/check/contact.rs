@@ -2,6 +2,7 @@
 
 use nalgebra::Vector3;
 
+use super::cyclic::Neighbours;
 use super::layout::{NONE, components};
 use super::tables::NodeIndex;
 use crate::package::error::{ManifestProblem, PackageError};
@@ -15,8 +16,7 @@ pub(super) fn check(
     package: &RawPackage,
     index: &NodeIndex,
     rows_of_node: &[[u32; 3]],
-    high_of: &[u32],
-    low_of: &[u32],
+    neighbours: &Neighbours,
 ) -> Result<(Vec<u32>, Vec<[f64; 3]>), PackageError> {
     if package.manifest.contact.is_empty() {
         return Err(PackageError::manifest("/contact", ManifestProblem::NoContact));
@@ -34,7 +34,10 @@ pub(super) fn check(
         if let Some(first) = first_use.insert(node, k) {
             return wrong("node", ManifestProblem::ContactRepeated { node, first });
         }
-        let face = match (high_of[place as usize], low_of[place as usize]) {
+        if neighbours.on_axis.contains(&place) {
+            return wrong("node", ManifestProblem::ContactOnAxis { node });
+        }
+        let face = match (neighbours.high_of[place as usize], neighbours.low_of[place as usize]) {
             (NONE, NONE) => None,
             (NONE, _) => Some("high"),
             _ => Some("low"),

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::layout::{NONE, components};
-use super::slits::{self, Unpaired};
+use super::slits::{self, Slit, on_axis};
 use super::tables::NodeIndex;
 use crate::package::by_place;
 use crate::package::error::{ManifestProblem, PackageError, TurnFit};
@@ -13,13 +13,23 @@ use rubmap_solid::frame::{AxisFrame, Basis, distance};
 /// Largest angle (rad) of a clamped direction from its image under the turn: an axis direction of few digits.
 const DIRECTION_TOLERANCE: f64 = 1e-6;
 
-/// Checks the cyclic faces; returns `(high_of, low_of)`, partners by node, or [`NONE`].
+/// Relation of the nodes of a sector to its neighbours.
+pub(super) struct Neighbours {
+    /// High node of each low node, or [`NONE`].
+    pub(super) high_of: Vec<u32>,
+    /// Low node of each high node, or [`NONE`].
+    pub(super) low_of: Vec<u32>,
+    /// Free nodes on the axis, which all sectors share.
+    pub(super) on_axis: Vec<u32>,
+}
+
+/// Checks the cyclic faces and the nodes on the axis.
 pub(super) fn check(
     package: &RawPackage,
     frame: &AxisFrame,
     index: &NodeIndex,
     rows_of_node: &[[u32; 3]],
-) -> Result<(Vec<u32>, Vec<u32>), PackageError> {
+) -> Result<Neighbours, PackageError> {
     let (high_of, low_of) = partners(&package.manifest, package.nodes.len(), index)?;
     let tolerance = by_place::tolerance(package.nodes.iter().map(|node| node.position));
     check_places(package, frame, tolerance, index)?;
@@ -28,7 +38,8 @@ pub(super) fn check(
         let node = index[&node] as usize;
         high_of[node] != NONE || low_of[node] != NONE
     })?;
-    Ok((high_of, low_of))
+    let on_axis = check_axis(package, frame, tolerance, rows_of_node)?;
+    Ok(Neighbours { high_of, low_of, on_axis })
 }
 
 /// Partners `(high_of, low_of)` as `sector.json` states them.
@@ -105,12 +116,41 @@ fn check_all_paired(
     let free = package.nodes.iter().zip(rows_of_node).filter(|(_, rows)| **rows != [NONE; 3]);
     let free = free.map(|(node, _)| (node.id, node.position)).collect();
     let sectors = package.manifest.sectors;
-    let problem = match slits::find(free, paired, frame, sectors, tolerance) {
-        None => return Ok(()),
-        Some(Unpaired::OnAxis { node }) => ManifestProblem::FreeOnAxis { node },
-        Some(Unpaired::Slit { low, high }) => ManifestProblem::PairMissing { low, high, sectors },
-    };
-    Err(PackageError::manifest("/cyclic", problem))
+    match slits::find(free, paired, frame, sectors, tolerance) {
+        None => Ok(()),
+        Some(Slit { low, high }) => {
+            Err(PackageError::manifest("/cyclic", ManifestProblem::PairMissing { low, high, sectors }))
+        }
+    }
+}
+
+/// Free nodes on the axis. Those clamped in part must be held alike by all sectors.
+fn check_axis(
+    package: &RawPackage,
+    frame: &AxisFrame,
+    tolerance: f64,
+    rows_of_node: &[[u32; 3]],
+) -> Result<Vec<u32>, PackageError> {
+    let sectors = package.manifest.sectors;
+    let mut found = Vec::new();
+    for (index, (node, rows)) in package.nodes.iter().zip(rows_of_node).enumerate() {
+        if *rows == [NONE; 3] || !on_axis(node.position, frame, sectors, tolerance) {
+            continue;
+        }
+        let free = rows.map(|row| row != NONE);
+        let along = |component: usize| match package.manifest.frame {
+            Frame::Cartesian => frame.direction()[component].abs(),
+            Frame::Cylindrical => [0.0, 0.0, 1.0][component],
+        };
+        let oblique = |component: usize| along(component).min(1.0 - along(component)) > DIRECTION_TOLERANCE;
+        let across = (0..3).filter(|&component| free[component] && along(component) < 0.5).count();
+        if free != [true; 3] && ((0..3).any(|c| free[c] && oblique(c)) || (across == 1 && sectors > 2)) {
+            let problem = ManifestProblem::AxisClampNotCyclic { node: node.id, components: components(rows) };
+            return Err(PackageError::manifest("/dofs", problem));
+        }
+        found.push(index as u32);
+    }
+    Ok(found)
 }
 
 fn check_dofs(
@@ -136,9 +176,8 @@ fn check_dofs(
                 sectors: package.manifest.sectors,
             });
         }
-        // With one sector the high face is the low face, on the axis as elsewhere.
-        let [r, ..] = frame.coordinates(package.nodes[index[&low] as usize].position);
-        if r <= tolerance && present(rows(low)).contains(&true) && package.manifest.sectors > 1 {
+        let at = package.nodes[index[&low] as usize].position;
+        if on_axis(at, frame, package.manifest.sectors, tolerance) && present(rows(low)).contains(&true) {
             return wrong(ManifestProblem::PairOnAxis { low, high });
         }
     }

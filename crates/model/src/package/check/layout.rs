@@ -19,6 +19,8 @@ pub(crate) struct Layout {
     pub(crate) high_of: Vec<u32>,
     /// Low node of each high node, or [`NONE`].
     pub(crate) low_of: Vec<u32>,
+    /// Free nodes on the axis, which all sectors share.
+    pub(crate) on_axis: Vec<u32>,
     /// Rows that stay, in package order: all but those of high nodes.
     pub(crate) own_rows: Vec<u32>,
     /// Position among the own DOF of each row; for a row of a high node, that of its low counterpart.

@@ -20,6 +20,7 @@ pub(super) mod tables;
 use super::content::SourceLines;
 use super::error::PackageError;
 use super::raw::RawPackage;
+use cyclic::Neighbours;
 use layout::{Layout, own_of_rows};
 
 /// Checks the elements of a package and their relation to its tables.
@@ -40,8 +41,9 @@ pub(super) fn check(package: &mut RawPackage, lines: &SourceLines) -> Result<Lay
     let index = tables::node_index(&names.nodes, &package.nodes, lines)?;
     let (node_of_row, rows_of_node) = tables::rows(&names.dofs, &package.dofs, lines, &index)?;
     matrices::check(package)?;
-    let (high_of, low_of) = cyclic::check(package, &frame, &index, &rows_of_node)?;
-    let (contact, normals) = contact::check(package, &index, &rows_of_node, &high_of, &low_of)?;
+    let neighbours = cyclic::check(package, &frame, &index, &rows_of_node)?;
+    let (contact, normals) = contact::check(package, &index, &rows_of_node, &neighbours)?;
+    let Neighbours { high_of, low_of, on_axis } = neighbours;
     let faces = mesh::Faces { high_of: &high_of, low_of: &low_of };
     let mesh = mesh::check(package, lines, &frame, &index, &rows_of_node, &faces)?;
     let (own_rows, own_of_row) = own_of_rows(&node_of_row, &rows_of_node, &low_of);
@@ -51,6 +53,7 @@ pub(super) fn check(package: &mut RawPackage, lines: &SourceLines) -> Result<Lay
         rows_of_node,
         high_of,
         low_of,
+        on_axis,
         own_rows,
         own_of_row,
         contact,

@@ -1,29 +1,21 @@
-//! Free nodes without a cyclic pair: a slit between sectors, or a hub whose sectors each have an axis of their own.
+//! Slits between sectors: free nodes without a cyclic pair one turn from each other.
 
 use super::super::by_place::NodeGrid;
 use rubmap_solid::frame::{AxisFrame, distance};
 use std::f64::consts::TAU;
 
-/// Free node of a sector that needs a cyclic pair and has none.
+/// Two free nodes one sector apart that are not a pair.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Unpaired {
-    /// Node on the axis of a wheel of several sectors.
-    OnAxis {
-        /// Id of the node.
-        node: u64,
-    },
-    /// Two nodes one sector apart that are not a pair.
-    Slit {
-        /// Node on the low side.
-        low: u64,
-        /// Free node where the turn by +2π/N takes the low one.
-        high: u64,
-    },
+pub(crate) struct Slit {
+    /// Node on the low side.
+    pub(crate) low: u64,
+    /// Free node where the turn by +2π/N takes the low one.
+    pub(crate) high: u64,
 }
 
-/// First free node without a pair that lies on the axis, or that the turn by ±2π/N takes to another free node; `None` if all
-/// pairs are there, and for a single sector. `free` has the id and position of every node with a row of the matrices, `paired`
-/// says whether a node is in a pair, and `tolerance` is the distance within which two places are one.
+/// First free node without a pair that the turn by ±2π/N takes to another free node; `None` if all pairs are there, and for a single sector.
+/// Nodes on the axis need none. `free` has the id and position of every node with a row of the matrices, `paired` says whether a node is in
+/// a pair, and `tolerance` is the distance within which two places are one.
 ///
 /// Time grows linearly with the number of nodes.
 pub(crate) fn find(
@@ -32,26 +24,26 @@ pub(crate) fn find(
     frame: &AxisFrame,
     sectors: usize,
     tolerance: f64,
-) -> Option<Unpaired> {
+) -> Option<Slit> {
     if sectors == 1 {
         return None;
     }
-    let alone: Vec<(u64, [f64; 3])> = free.iter().copied().filter(|&(node, _)| !paired(node)).collect();
-    let on_axis = alone.iter().find(|(_, position)| on_axis(*position, frame, sectors, tolerance));
-    if let Some(&(node, _)) = on_axis {
-        return Some(Unpaired::OnAxis { node });
-    }
+    let needs_pair = |&(node, at): &(u64, [f64; 3])| !paired(node) && !on_axis(at, frame, sectors, tolerance);
+    let alone: Vec<(u64, [f64; 3])> = free.iter().copied().filter(needs_pair).collect();
     let places = NodeGrid::new(free, tolerance);
     let alpha = TAU / sectors as f64;
     alone.into_iter().find_map(|(node, position)| {
         let other = |turn| places.near(frame.turn_point(position, turn)).filter(|other| *other != node);
-        let above = other(alpha).map(|high| Unpaired::Slit { low: node, high });
-        above.or_else(|| other(-alpha).map(|low| Unpaired::Slit { low, high: node }))
+        let above = other(alpha).map(|high| Slit { low: node, high });
+        above.or_else(|| other(-alpha).map(|low| Slit { low, high: node }))
     })
 }
 
-/// Whether a position coincides with the axis, or with its own copy in the next sector.
+/// Whether a position is on the axis of several sectors: it coincides with the axis, or with its own copy in the next sector.
 pub(crate) fn on_axis(position: [f64; 3], frame: &AxisFrame, sectors: usize, tolerance: f64) -> bool {
+    if sectors == 1 {
+        return false;
+    }
     let own_copy = frame.turn_point(position, TAU / sectors as f64);
     frame.coordinates(position)[0].min(distance(position, own_copy)) <= tolerance
 }
@@ -74,7 +66,7 @@ mod tests {
         ]
     }
 
-    fn found(nodes: Vec<(u64, [f64; 3])>, sectors: usize, pairs: &[[u64; 2]]) -> Option<Unpaired> {
+    fn found(nodes: Vec<(u64, [f64; 3])>, sectors: usize, pairs: &[[u64; 2]]) -> Option<Slit> {
         let frame = AxisFrame::new([0.0; 3], [0.0, 0.0, 1.0]).unwrap();
         find(nodes, |node| pairs.as_flattened().contains(&node), &frame, sectors, 1e-5)
     }
@@ -84,16 +76,12 @@ mod tests {
         for sectors in [2, 3, 10, 23] {
             let nodes = || corners(sectors)[..5].to_vec();
             assert_eq!(found(nodes(), sectors, &[[1, 3], [2, 4]]), None);
-            assert_eq!(found(nodes(), sectors, &[[1, 3]]), Some(Unpaired::Slit { low: 2, high: 4 }));
+            assert_eq!(found(nodes(), sectors, &[[1, 3]]), Some(Slit { low: 2, high: 4 }));
             let mut other_order = nodes();
             other_order.reverse();
             let slit = found(other_order, sectors, &[[1, 3]]);
             // Half a turn either way is one turn, so two sectors do not tell low from high.
-            let expected = if sectors == 2 {
-                Unpaired::Slit { low: 4, high: 2 }
-            } else {
-                Unpaired::Slit { low: 2, high: 4 }
-            };
+            let expected = if sectors == 2 { Slit { low: 4, high: 2 } } else { Slit { low: 2, high: 4 } };
             assert_eq!(slit, Some(expected));
         }
     }
@@ -107,16 +95,12 @@ mod tests {
     }
 
     #[test]
-    fn a_free_node_on_the_axis_belongs_to_all_sectors() {
-        assert_eq!(found(corners(7), 7, &[[1, 3], [2, 4]]), Some(Unpaired::OnAxis { node: 6 }));
-    }
-
-    #[test]
-    fn a_free_node_so_near_the_axis_that_it_is_its_own_copy_belongs_to_all_sectors() {
-        let mut nodes = corners(23);
-        nodes[5].1 = [2e-5, 0.0, 0.3];
-        assert_eq!(found(nodes.clone(), 23, &[[1, 3], [2, 4]]), Some(Unpaired::OnAxis { node: 6 }));
-        nodes[5].1 = [5e-5, 0.0, 0.3];
-        assert_eq!(found(nodes, 23, &[[1, 3], [2, 4]]), None);
+    fn nodes_on_the_axis_need_no_pair() {
+        assert_eq!(found(corners(7), 7, &[[1, 3], [2, 4]]), None);
+        let frame = AxisFrame::new([0.0; 3], [0.0, 0.0, 1.0]).unwrap();
+        let is_on_axis = |x: f64, sectors| on_axis([x, 0.0, 0.3], &frame, sectors, 1e-5);
+        assert!(is_on_axis(0.0, 7) && !is_on_axis(0.0, 1));
+        // So near that its copy in the next sector is itself.
+        assert!(is_on_axis(2e-5, 23) && !is_on_axis(5e-5, 23));
     }
 }

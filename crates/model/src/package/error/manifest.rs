@@ -180,7 +180,7 @@ pub enum ManifestProblem {
     /// Node paired with itself.
     #[error(
         "node {node} is paired with itself; the high node is another node, the low one turned by +2π/N; a node on the axis \
-         must be clamped"
+         is in no pair"
     )]
     PairedWithItself {
         /// Id of the node.
@@ -243,8 +243,7 @@ pub enum ManifestProblem {
     },
     /// Face node with DOF on the axis.
     #[error(
-        "nodes {low} and {high} are free but lie on the axis, a point that all sectors share and no pair can \
-         describe; clamp them or give the hub a bore"
+        "nodes {low} and {high} are free but lie on the axis, a point that all sectors share: make them one node, in no pair"
     )]
     PairOnAxis {
         /// Id of the low node.
@@ -252,12 +251,20 @@ pub enum ManifestProblem {
         /// Id of the high node.
         high: u64,
     },
-    /// Free node on the axis of several sectors, in no pair.
+    /// Node on the axis whose free components the turn by one sector does not map onto each other.
     #[error(
-        "node {node} is free but lies on the axis, a point that all sectors share: without a pair every sector would have an \
-         axis of its own; clamp it or give the hub a bore"
+        "node {node} lies on the axis and has the components {components} in the DOF table, which the turn by one sector does \
+         not map onto each other; clamp it along the axis, in both directions across it, or wholly"
     )]
-    FreeOnAxis {
+    AxisClampNotCyclic {
+        /// Id of the node.
+        node: u64,
+        /// Components of the node.
+        components: Components,
+    },
+    /// Contact node on the axis of several sectors.
+    #[error("node {node} lies on the axis, a point that all sectors share, and cannot touch the casing")]
+    ContactOnAxis {
         /// Id of the node.
         node: u64,
     },

@@ -61,8 +61,8 @@ impl<'a> Basis<'a> {
 
     /// Row of own DOF `dof`.
     pub(super) fn row(&self, dof: usize) -> impl Iterator<Item = c64> + use<'_> {
-        let row = self.untied.tied_row(dof);
-        (0..self.vectors.ncols()).map(move |column| self.vectors[(row, column)])
+        let (row, factor) = self.untied.tied_row(&self.tie, dof);
+        (0..self.vectors.ncols()).map(move |column| self.vectors[(row, column)] * factor)
     }
 
     fn product(&self, transpose: &SparseColMat<usize, f64>) -> Mat<c64> {

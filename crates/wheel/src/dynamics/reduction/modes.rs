@@ -235,7 +235,9 @@ impl Pencil<'_> {
     /// round-off even where M is nearly singular.
     fn dense(&self, tie: &Tie, rows: usize, count: usize, tolerance: f64) -> Result<Modes, ModeError> {
         let harmonic = tie.harmonic;
-        let [m, k] = [self.mass, self.stiffness].map(|matrix| self.untied.tied_dense(matrix, tie, rows));
+        // Stiff and without mass is what does not move.
+        let [m, k] = [(self.mass, 0.0), (self.stiffness, 1.0)]
+            .map(|(matrix, held)| self.untied.tied_dense(matrix, tie, rows, held));
         let pairs = Dense::generalised_eigenpairs(m.as_ref(), k.as_ref())
             .map_err(|_| ModeError::DenseFailed { harmonic })?;
         let theta = |m: usize| pairs.values[rows - 1 - m];
@@ -287,8 +289,7 @@ impl Pencil<'_> {
         magnitudes.val_mut().iter_mut().for_each(|value| *value = value.abs());
         let terms =
             Mat::from_fn(vectors.nrows(), vectors.ncols(), |i, j| c64::new(vectors[(i, j)].norm(), 0.0));
-        // Tied without its phases, which have magnitude one.
-        let terms = self.untied.product(&magnitudes, &self.untied.tie(0), terms.as_ref());
+        let terms = self.untied.product(&magnitudes, &tie.magnitudes(), terms.as_ref());
         let floor = |j: usize| 64.0 * f64::EPSILON * terms.col(j).norm_l2() / tolerance;
         let eased: Vec<f64> =
             norms.iter().enumerate().map(|(j, (residual, norm))| residual / norm.max(floor(j))).collect();

@@ -45,7 +45,8 @@ pub fn static_response(
     let size = untied.internal() + untied.contact();
     let mut tied_load = Mat::<c64>::zeros(size, 1);
     for (dof, &force) in load.iter().enumerate() {
-        tied_load[(untied.tied_row(dof), 0)] += c64::new(force, 0.0);
+        let (row, factor) = untied.tied_row(&tie, dof);
+        tied_load[(row, 0)] += factor.conj() * force;
     }
     let speeds = &sector.speeds_rad_s;
     let mut solutions = Mat::zeros(size, speeds.len());
@@ -94,7 +95,10 @@ pub fn static_response(
         stiffness: sector.stiffness.iter().map(on_span).collect(),
         load: (0..speeds.len()).map(work).collect(),
     };
-    let own = |dof: usize, index: usize| solutions[(untied.tied_row(dof), index)];
+    let own = |dof: usize, index: usize| {
+        let (row, factor) = untied.tied_row(&tie, dof);
+        solutions[(row, index)] * factor.re
+    };
     Ok(StaticResponse { solutions: Mat::from_fn(load.len(), speeds.len(), own), span })
 }
 

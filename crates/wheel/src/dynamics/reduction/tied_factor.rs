@@ -80,7 +80,7 @@ impl TiedFactor {
 }
 
 /// Tied Schur complement S(i) = Tᴴ (A_FF − A_FI A_II⁻¹ A_IF) T over (face, contact), both triangles, for A = Σ factor · matrix over
-/// `terms`; `eliminated` is the Schur complement that elimination of its interior leaves.
+/// `terms`; `eliminated` is the Schur complement that elimination of its interior leaves. Rows without motion have 1 on the diagonal.
 pub(super) fn tied_schur(
     untied: &UntiedSector,
     eliminated: &Mat<f64>,
@@ -111,6 +111,7 @@ pub(super) fn tied_schur(
             add(q, p, eliminated[p]);
         }
     }
+    untied.held(tie).into_iter().for_each(|row| schur[(row - interior, row - interior)] = c64::ONE);
     schur
 }
 

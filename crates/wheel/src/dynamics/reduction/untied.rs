@@ -7,15 +7,18 @@
 //! ```text
 //! untied  [ I | L | H | b ]        tied  [ I | L | b ],  u_H = e^{jiα} u_L        Ŷ(i) = Tᴴ Y T
 //! ```
+//!
+//! Nodes on the axis stand among the low face, without a copy on the high one. Their displacement u in the components of one sector is
+//! that of the next one, R(α)ᵀu = e^{jiα}u: u = q e_z for i = 0, u = q (e_1 + j e_2)/√2 for i = 1, and u = 0 for others, where T holds their rows.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_1_SQRT_2, TAU};
 
 use faer::sparse::SparseColMat;
 use faer::{Mat, MatRef, c64};
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
 use super::ordering::interior_order;
-use crate::dynamics::sector::{CyclicMatrix, SectorModel};
+use crate::dynamics::sector::{AxisNode, CyclicMatrix, SectorModel};
 use rubmap_numerics::multifrontal::{Analysis, postorder};
 
 use rubmap_numerics::panel::Panel;
@@ -23,15 +26,28 @@ use rubmap_numerics::sector_fourier::is_single;
 use rubmap_numerics::sparse_product::row_product;
 use rubmap_numerics::vector_block::VectorBlock;
 
-/// Tie of the faces by one nodal diameter.
+/// Tie of the faces, and of the sectors at the axis, by one nodal diameter.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Tie {
     /// Nodal diameter i.
     pub(super) harmonic: usize,
     /// Phase e^{jiα} from face to face.
     phase: c64,
+    /// Motion of nodes on the axis across it.
+    across: Across,
     /// Whether the vectors of the nodal diameter are real.
     single: bool,
+}
+
+/// Motion of nodes on the axis across it.
+#[derive(Debug, Clone, Copy)]
+enum Across {
+    /// No motion.
+    Held,
+    /// Both directions on their own: the turn by one sector reverses both, or neither.
+    Free,
+    /// One coordinate that moves both directions by these factors.
+    Wave([c64; 2]),
 }
 
 /// Numbering of the untied rows, and the analysis of their factorisation.
@@ -46,6 +62,8 @@ pub(super) struct UntiedSector {
     contact: usize,
     /// Contact DOF that lie on the low face: their high copies come last.
     shared: Vec<usize>,
+    /// Nodes on the axis, by their rows on the low face.
+    axis: Vec<AxisNode>,
     /// Untied row of each own DOF.
     pub(super) place: Vec<usize>,
     /// Row on the high face of each low-face DOF; the DOF's own row elsewhere.
@@ -65,6 +83,9 @@ impl UntiedSector {
                 *on_low |= !matrix.next.row_idx_of_col_raw(column).is_empty();
             }
         }
+        for dof in sector.axis.iter().flat_map(of_axis).flatten() {
+            on_low[dof] = true;
+        }
         let mut inside: Vec<bool> = on_low.iter().map(|low| !low).collect();
         contact.iter().for_each(|&dof| inside[dof] = false);
         let interior: Vec<usize> = interior_order(sector, matrices, &inside);
@@ -77,12 +98,19 @@ impl UntiedSector {
             face: low.len(),
             contact: contact.len(),
             shared,
+            axis: Vec::new(),
             place: vec![usize::MAX; own],
             high: Vec::new(),
             analysis: Analysis::default(),
         };
         let rows = interior.iter().chain(&low);
         rows.enumerate().for_each(|(row, &dof)| untied.place[dof] = row);
+        let on_low = |dof: usize| untied.place[dof] - interior.len();
+        let face_rows = |node: &AxisNode| AxisNode {
+            axial: node.axial.map(on_low),
+            lateral: node.lateral.map(|dof| dof.map(on_low)),
+        };
+        untied.axis = sector.axis.iter().map(face_rows).collect();
         let first_contact = interior.len() + 2 * low.len();
         contact.iter().enumerate().for_each(|(k, &dof)| untied.place[dof] = first_contact + k);
         untied.high = untied.place.clone();
@@ -134,7 +162,12 @@ impl UntiedSector {
             _ if single => c64::new(-1.0, 0.0),
             _ => c64::new(angle.cos(), angle.sin()),
         };
-        Tie { harmonic, phase, single }
+        let across = match (harmonic, self.sectors) {
+            (_, 1) | (1, 2) => Across::Free,
+            (1, _) => Across::Wave([c64::new(FRAC_1_SQRT_2, 0.0), c64::new(0.0, FRAC_1_SQRT_2)]),
+            _ => Across::Held,
+        };
+        Tie { harmonic, phase, across, single }
     }
 
     /// Tied row and factor of every boundary row (low face, high face, contact), u_F = T u: rows count from the
@@ -145,13 +178,54 @@ impl UntiedSector {
         let high = (0..self.face).map(|row| (row, tie.phase));
         let contact = (0..self.contact).map(|row| (self.face + row, one));
         let shared = self.shared.iter().map(|&row| (self.face + row, tie.phase));
-        low.chain(high).chain(contact).chain(shared).collect()
+        let mut rows: Vec<(usize, c64)> = low.chain(high).chain(contact).chain(shared).collect();
+        for node in &self.axis {
+            for row in of_axis(node).into_iter().flatten() {
+                rows[row].1 = c64::ZERO;
+                rows[self.face + row].1 = c64::ZERO;
+            }
+            for (row, image) in tie.on_axis(node) {
+                rows[row] = image;
+            }
+        }
+        rows
     }
 
-    /// Tied row of an own DOF.
-    pub(super) fn tied_row(&self, dof: usize) -> usize {
+    /// Tied rows on which a nodal diameter leaves no motion: directions of nodes on the axis.
+    pub(super) fn held(&self, tie: &Tie) -> Vec<usize> {
+        let mut held = Vec::new();
+        for node in &self.axis {
+            let moved: Vec<usize> = tie.on_axis(node).map(|(_, (row, _))| row).collect();
+            held.extend(of_axis(node).into_iter().flatten().filter(|row| !moved.contains(row)));
+        }
+        held.iter_mut().for_each(|row| *row += self.interior);
+        held
+    }
+
+    /// Whether nodes lie on the axis.
+    pub(super) fn has_axis(&self) -> bool {
+        !self.axis.is_empty()
+    }
+
+    /// Tied row that moves an own DOF, and the factor from one to the other.
+    pub(super) fn tied_row(&self, tie: &Tie, dof: usize) -> (usize, c64) {
         let row = self.place[dof];
-        if row < self.internal() { row } else { row - self.face }
+        match row.checked_sub(self.interior) {
+            None => (row, c64::ONE),
+            Some(row) if self.has_axis() && row < self.face => {
+                let (tied, factor) = self.axis_row(tie, row);
+                (self.interior + tied, factor)
+            }
+            Some(row) if row < self.face => (self.interior + row, c64::ONE),
+            Some(row) => (self.interior + row - self.face, c64::ONE),
+        }
+    }
+
+    /// Tied row and factor of a row of the low face, counted from its first.
+    fn axis_row(&self, tie: &Tie, row: usize) -> (usize, c64) {
+        let is_of = |node: &&AxisNode| of_axis(node).contains(&Some(row));
+        let Some(node) = self.axis.iter().find(is_of) else { return (row, c64::ONE) };
+        tie.on_axis(node).find(|&(moved, _)| moved == row).map_or((row, c64::ZERO), |(_, image)| image)
     }
 
     /// Own DOF of a tied row.
@@ -243,8 +317,14 @@ impl UntiedSector {
         product
     }
 
-    /// Block of Ŷ(i), its first `rows` rows and columns, with `matrix` the untied Y.
-    pub(super) fn tied_dense(&self, matrix: &SparseColMat<usize, f64>, tie: &Tie, rows: usize) -> Mat<c64> {
+    /// Block of Ŷ(i), its first `rows` rows and columns, with `matrix` the untied Y; `held` on the diagonal of rows without motion.
+    pub(super) fn tied_dense(
+        &self,
+        matrix: &SparseColMat<usize, f64>,
+        tie: &Tie,
+        rows: usize,
+        held: f64,
+    ) -> Mat<c64> {
         let boundary = self.boundary(tie);
         let place = |row: usize| match row.checked_sub(self.interior) {
             None => (row, c64::new(1.0, 0.0)),
@@ -257,6 +337,38 @@ impl UntiedSector {
                 dense[(row, column)] += left.conj() * right * *entry.val;
             }
         }
+        self.held(tie).into_iter().for_each(|row| dense[(row, row)] = c64::new(held, 0.0));
         dense
+    }
+}
+
+/// Rows of a node on the axis: along it, then across it.
+fn of_axis(node: &AxisNode) -> [Option<usize>; 3] {
+    [node.axial, node.lateral[0], node.lateral[1]]
+}
+
+impl Tie {
+    /// Rows of a node on the axis that can move, each with the row that moves it and the factor from one to the other.
+    fn on_axis(&self, node: &AxisNode) -> impl Iterator<Item = (usize, (usize, c64))> + use<> {
+        let own = |row: Option<usize>| row.map(|row| (row, (row, c64::ONE)));
+        let axial = if self.harmonic == 0 { own(node.axial) } else { None };
+        let lateral = match (self.across, node.lateral) {
+            (Across::Free, rows) => rows.map(own),
+            (Across::Wave(factors), [Some(first), Some(second)]) => {
+                [Some((first, (first, factors[0]))), Some((second, (first, factors[1])))]
+            }
+            // A wave needs both directions.
+            (Across::Wave(_) | Across::Held, _) => [None; 2],
+        };
+        [axial, lateral[0], lateral[1]].into_iter().flatten()
+    }
+
+    /// Tie by the magnitudes of all phases and factors.
+    pub(super) fn magnitudes(&self) -> Self {
+        let across = match self.across {
+            Across::Wave(factors) => Across::Wave(factors.map(|factor| c64::new(factor.norm(), 0.0))),
+            other => other,
+        };
+        Self { phase: c64::ONE, across, single: true, ..*self }
     }
 }
