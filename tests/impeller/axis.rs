@@ -5,7 +5,7 @@ use std::collections::{HashMap, HashSet};
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
 
-use faer::c64;
+use faer::{Mat, c64};
 use rubmap::dynamics::casing::{Casing, Lobes};
 use rubmap::dynamics::direction::Direction;
 use rubmap::dynamics::effects::Effects;
@@ -19,9 +19,11 @@ use rubmap::dynamics::sector::SectorModel;
 use rubmap::from_mesh::{self, MeshSettings};
 use rubmap::mesh;
 use rubmap::package::raw::RawPackage;
-use rubmap::package::{Limits, read_nodes, to_sector, write};
+use rubmap::package::{Limits, look_at, read_mesh, read_nodes, to_sector, write};
 use rubmap::solid::element::ElementKind;
 use rubmap::solid::mesh::SectorMesh;
+use rubmap::solid::skin::skin;
+use rubmap::solid::stress::NodalStress;
 
 use crate::meshes::block;
 
@@ -159,6 +161,9 @@ const WHEELS: [(ElementKind, usize); 5] = [
 fn frequencies_are_those_of_the_whole_wheel() {
     for (kind, sectors) in WHEELS {
         let pair = pair(kind, sectors);
+        let findings = look_at(pair.sector.clone()).unwrap();
+        assert!(findings.warnings().is_empty(), "{kind:?} {sectors}: {:?}", findings.warnings());
+        assert!(findings.spin.iter().all(|at| at.finding.residual().is_some_and(|residual| residual < 1e-6)));
         let sector = to_sector(pair.sector).unwrap();
         assert_eq!(sector.axis.len(), if kind == ElementKind::C3D8I { 3 } else { 5 });
         let whole = to_sector(pair.whole).unwrap();
@@ -191,14 +196,17 @@ fn copies(pair: &Pair, s: usize) -> Vec<usize> {
     pair.sector.nodes.iter().map(|node| places[&key(turned(node.position, s, pair.sectors))]).collect()
 }
 
-/// Shapes at all nodes of all sectors, those on the axis and on the high face among them, solve the eigenproblem of the whole wheel.
+/// Shapes at all nodes of all sectors, those on the axis and on the high face among them, solve the eigenproblem of the whole wheel and have
+/// its stress; cuts that meet at the axis are no part of the skin.
 #[test]
 fn shapes_solve_the_eigenproblem_of_the_whole_wheel() {
     for (kind, sectors) in [(ElementKind::C3D8I, 5), (ElementKind::C3D10, 2), (ElementKind::C3D20, 4)] {
         let pair = pair(kind, sectors);
         let [of_sector, of_whole] = [&pair.sector, &pair.whole].map(nodes);
         let copies: Vec<Vec<usize>> = (0..sectors).map(|s| copies(&pair, s)).collect();
+        let [mesh, whole_mesh] = [&pair.sector, &pair.whole].map(mesh_of);
         let [sector, whole] = [pair.sector, pair.whole].map(|package| to_sector(package).unwrap());
+        assert_eq!(skin(&mesh).free().count() * sectors, skin(&whole_mesh).faces.len());
         let kept = KeptRows::new(&NoCheckpoints, &of_sector);
         let reduced = reduce(&sector, &ReductionOptions::new(10_000), &kept, &|_, _| true).unwrap();
         let rows = kept.of(&reduced);
@@ -236,6 +244,8 @@ fn shapes_solve_the_eigenproblem_of_the_whole_wheel() {
                         }
                     }
                 }
+                let wanted = (harmonic.harmonic, mode);
+                check_stress(&[&mesh, &whole_mesh], &copies, &of_whole, wanted, &modal, &shape);
                 let (k, m) = (times(&whole.stiffness[2], &shape), times(&whole.mass, &shape));
                 let norm = |x: &[c64]| x.iter().map(|x| x.norm_sqr()).sum::<f64>().sqrt();
                 let left: Vec<c64> = k.iter().zip(&m).map(|(k, m)| k - m * (omega * omega)).collect();
@@ -247,6 +257,59 @@ fn shapes_solve_the_eigenproblem_of_the_whole_wheel() {
                     harmonic.harmonic
                 );
             }
+        }
+    }
+}
+
+fn mesh_of(package: &RawPackage) -> SectorMesh {
+    let file = tempfile::NamedTempFile::new().unwrap();
+    write(package, file.as_file()).unwrap();
+    read_mesh(file.path(), &Limits::default()).unwrap().unwrap()
+}
+
+/// Asserts that the stress of a mode of the sector is that of the whole wheel's `shape` at all nodes of the second sector.
+fn check_stress(
+    [sector, whole]: &[&SectorMesh; 2],
+    copies: &[Vec<usize>],
+    of_whole: &[SectorNode],
+    (index, mode): (usize, usize),
+    modal: &ModalWheel,
+    shape: &[c64],
+) {
+    let harmonic = &modal.harmonics[index];
+    let phase = c64::cis(TAU * harmonic.harmonic as f64 / sector.sectors as f64);
+    let below = harmonic.contact.nrows() - 3 * sector.nodes.len();
+    let own = Mat::from_fn(3 * sector.nodes.len(), 1, |row, _| harmonic.contact[(below + row, mode)]);
+    let all = Mat::from_fn(3 * whole.nodes.len(), 1, |row, _| {
+        of_whole[row / 3].dofs[row % 3].map_or(c64::ZERO, |dof| shape[dof.dof])
+    });
+    let [of_sector, of_wheel] = [sector, whole].map(|mesh| NodalStress::new(mesh));
+    let (found, expected) = (of_sector.apply(phase, own.as_ref()), of_wheel.apply(c64::ONE, all.as_ref()));
+    for (k, &node) in of_sector.places().iter().enumerate() {
+        let copy = copies[1][node as usize] as u32;
+        let place = of_wheel.places().iter().position(|&place| place == copy).unwrap();
+        let tensor = |stress: &Mat<c64>, at: usize| -> [c64; 6] {
+            std::array::from_fn(|component| stress[(6 * at + component, 0)])
+        };
+        let (mut ours, theirs) = (tensor(&found, k).map(|value| value * phase), tensor(&expected, place));
+        if sector.nodes[node as usize][0].hypot(sector.nodes[node as usize][1]) < 1e-6 {
+            // Components along the axes of the second sector; the whole wheel has those of the first.
+            let (sin, cos) = (TAU / sector.sectors as f64).sin_cos();
+            let [rr, tt, zz, rt, tz, zr] = ours;
+            ours = [
+                rr * cos * cos + tt * sin * sin - rt * (2.0 * sin * cos),
+                rr * sin * sin + tt * cos * cos + rt * (2.0 * sin * cos),
+                zz,
+                (rr - tt) * (sin * cos) + rt * (cos * cos - sin * sin),
+                zr * sin + tz * cos,
+                zr * cos - tz * sin,
+            ];
+        }
+        for (a, b) in ours.into_iter().zip(theirs) {
+            assert!(
+                (a - b).norm() < 1e-9 * expected.norm_max(),
+                "{index} {mode} {node}: {ours:?} {theirs:?}"
+            );
         }
     }
 }

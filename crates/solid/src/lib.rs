@@ -16,6 +16,7 @@ pub mod load;
 pub mod material;
 pub mod mesh;
 pub mod natural;
+pub mod place;
 pub mod rule;
 pub mod shape;
 pub mod skin;

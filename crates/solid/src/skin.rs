@@ -44,8 +44,9 @@ impl Skin {
 
 /// Skin of a mesh.
 pub fn skin(mesh: &SectorMesh) -> Skin {
-    let mut low = vec![false; mesh.nodes.len()];
-    let mut high = vec![false; mesh.nodes.len()];
+    // Nodes on the axis are on both cuts.
+    let mut low = mesh.on_axis();
+    let mut high = low.clone();
     for &(from, to) in &mesh.cyclic {
         (low[from as usize], high[to as usize]) = (true, true);
     }

@@ -1,8 +1,6 @@
 //! Numbering of a sector's free displacements.
 
 use super::sector::MeshedSector;
-use crate::package::by_place::tolerance;
-use crate::package::check::slits::on_axis;
 
 /// Rows of a sector's matrices: the own DOF node by node (low face and contact nodes among them), then the DOF of the high face in the
 /// order of the cyclic pairs. Clamped DOF are absent.
@@ -41,12 +39,11 @@ impl SectorDofs {
     /// the node of each row.
     pub(super) fn tied_rows(&self, sector: &MeshedSector) -> (Vec<[Option<usize>; 3]>, Vec<usize>) {
         let mesh = &sector.mesh;
-        let axis = sector.axis();
-        let within = tolerance(mesh.nodes.iter().copied());
+        let on_axis = mesh.on_axis();
         let mut rows = vec![[None; 3]; mesh.nodes.len()];
         let mut node_of_row = Vec::with_capacity(self.own);
         for &(node, component) in &self.list[..self.own] {
-            if component == 2 || !on_axis(mesh.nodes[node], &axis, mesh.sectors, within) {
+            if component == 2 || !on_axis[node] {
                 rows[node][component] = Some(node_of_row.len());
                 node_of_row.push(node);
             }

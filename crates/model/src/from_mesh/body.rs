@@ -6,9 +6,10 @@ use rubmap_mesh::MeshFile;
 use rubmap_solid::defect::{Defect, Likely, defect};
 use rubmap_solid::frame::distance;
 use rubmap_solid::mesh::{Element, ElementSet, SectorMesh};
+use rubmap_solid::place::tolerance;
 
 use super::error::{FromMeshError, Twin};
-use crate::package::by_place::{NodeGrid, tolerance};
+use crate::package::by_place::NodeGrid;
 
 /// Distance within which two nodes are one, in parts of the distance within which a turned node meets its partner.
 const SAME: f64 = 1e-2;

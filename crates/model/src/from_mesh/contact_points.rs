@@ -5,6 +5,7 @@ use std::collections::{HashMap, HashSet};
 use nalgebra::Vector3;
 use rubmap_solid::frame::{AxisFrame, distance};
 use rubmap_solid::mesh::SectorMesh;
+use rubmap_solid::place::{on_axis, tolerance};
 
 use super::cyclic::Symmetry;
 use super::error::FromMeshError;
@@ -12,9 +13,7 @@ use super::settings::MeshSettings;
 use super::surface::Face;
 use super::tip::Tip;
 use crate::assembly::TipNode;
-use crate::package::by_place::tolerance;
 use crate::package::calculix::{ContactPoint, Normals, spread, with_normals};
-use crate::package::check::slits::on_axis;
 
 /// Least number of contact nodes: normals are those of a curve through them.
 pub(super) const LEAST: usize = 3;

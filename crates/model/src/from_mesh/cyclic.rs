@@ -7,13 +7,14 @@ use nalgebra::Vector3;
 use rubmap_mesh::MeshFile;
 use rubmap_solid::frame::{AxisFrame, distance};
 use rubmap_solid::mesh::SectorMesh;
+use rubmap_solid::place::tolerance;
 
 use super::body::grid;
 use super::error::{FromMeshError, NearMiss};
 use super::opposite::Opposite;
 use super::settings::MeshSettings;
 use super::surface::Face;
-use crate::package::by_place::{NodeGrid, tolerance};
+use crate::package::by_place::NodeGrid;
 use crate::package::raw::Axis;
 
 /// Largest number of sectors that is looked for.

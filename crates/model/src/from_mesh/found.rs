@@ -5,7 +5,6 @@ use std::fmt;
 
 use rubmap_mesh::MeshFile;
 use rubmap_solid::element::ElementKind;
-use rubmap_solid::frame::AxisFrame;
 use rubmap_solid::mesh::SectorMesh;
 
 use super::clamp::ClampSource;
@@ -13,9 +12,7 @@ use super::contact_points::Contact;
 use super::cyclic::Symmetry;
 use super::settings::MeshSettings;
 use super::tip::{Tip, TipSource};
-use crate::package::by_place::tolerance;
 use crate::package::calculix::ContactPoint;
-use crate::package::check::slits;
 
 /// Findings about a mesh: what was read, what was found, and what the user should know.
 #[derive(Debug, Clone, PartialEq)]
@@ -86,7 +83,12 @@ impl Found {
             axis: [mesh.axis.0, mesh.axis.1],
             pairs: symmetry.pairs.len(),
             farthest: symmetry.farthest,
-            on_axis: on_axis(mesh, symmetry, clamped),
+            on_axis: mesh
+                .on_axis()
+                .iter()
+                .zip(clamped)
+                .filter(|(on_axis, held)| **on_axis && !**held)
+                .count(),
             clamp: (clamp, clamped.iter().filter(|&&held| held).count()),
             tip: (tip.source, contact.of_line),
             contact: contact.points.clone(),
@@ -95,14 +97,6 @@ impl Found {
             notes,
         }
     }
-}
-
-/// Number of free nodes on the axis of several sectors.
-fn on_axis(mesh: &SectorMesh, symmetry: &Symmetry, clamped: &[bool]) -> usize {
-    let Some(axis) = AxisFrame::new(mesh.axis.0, mesh.axis.1) else { return 0 };
-    let within = tolerance(mesh.nodes.iter().copied());
-    let free = mesh.nodes.iter().zip(clamped).filter(|(_, held)| !**held);
-    free.filter(|(at, _)| slits::on_axis(**at, &axis, symmetry.sectors, within)).count()
 }
 
 /// Warning about elements that are too stiff in bending.

@@ -4,10 +4,6 @@ use std::collections::HashMap;
 
 use rubmap_solid::frame::distance;
 
-/// Largest distance of a copy of a node from where the turn puts it, relative to the diagonal of the mesh's bounding box: the tolerance of
-/// the package's own check.
-const TOLERANCE: f64 = 1e-5;
-
 /// Largest number of nodes within the tolerance of a position that are compared.
 const MOST_NEAR: usize = 100;
 
@@ -66,19 +62,6 @@ impl NodeGrid {
             .map(|k| Nearest { node: self.nodes[k].0, distance: distance(self.nodes[k].1, position) })
             .min_by(|a, b| a.distance.total_cmp(&b.distance).then(a.node.cmp(&b.node)))
     }
-}
-
-/// Tolerance for a mesh of these positions.
-pub(crate) fn tolerance(positions: impl Iterator<Item = [f64; 3]>) -> f64 {
-    let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-    for position in positions {
-        for k in 0..3 {
-            low[k] = low[k].min(position[k]);
-            high[k] = high[k].max(position[k]);
-        }
-    }
-    // A mesh of one point must still have cells.
-    (TOLERANCE * distance(low, high)).max(f64::MIN_POSITIVE)
 }
 
 fn cell(position: [f64; 3], width: f64) -> [i64; 3] {

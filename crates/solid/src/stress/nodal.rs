@@ -1,5 +1,6 @@
 //! Stress at nodes, averaged over the elements around them.
 
+use std::f64::consts::TAU;
 use std::ops::Range;
 
 use faer::{Mat, MatRef, c64};
@@ -23,7 +24,7 @@ type Vectors = [Lanes; 3];
 ///
 /// Displacement gradients of each element are carried from its integration points to its nodes ([`crate::extrapolation`]), made stress by
 /// the element's own material, and averaged over all elements around the node, whatever their material, as CalculiX does; unlike CalculiX,
-/// across the cyclic faces too. Stress jumps between materials are averaged away.
+/// across the cyclic faces and around the axis too. Stress jumps between materials are averaged away.
 #[derive(Debug)]
 pub struct NodalStress {
     nodes: usize,
@@ -33,6 +34,8 @@ pub struct NodalStress {
     cyclic: Vec<(u32, u32)>,
     /// Nodes at which there is stress, as indices in the mesh's nodes.
     places: Vec<u32>,
+    /// Indices of the places on the axis, where the elements of all sectors meet, and number of sectors.
+    on_axis: (Vec<usize>, usize),
     /// Rows of each place, those of its high node, and one over the number of elements around both.
     parts: Vec<(Range<usize>, Range<usize>, f64)>,
     rows: Vec<Row>,
@@ -78,7 +81,10 @@ impl NodalStress {
                 parts.push((of_node[node].clone(), of_high, 1.0 / f64::from(around)));
             }
         }
-        Self { nodes, frames, cyclic: mesh.cyclic.clone(), places, parts, rows, columns, weights, bubbles }
+        let axis = mesh.on_axis();
+        let on_axis = (0..places.len()).filter(|&place| axis[places[place] as usize]).collect();
+        let (cyclic, on_axis) = (mesh.cyclic.clone(), (on_axis, mesh.sectors));
+        Self { nodes, frames, cyclic, places, on_axis, parts, rows, columns, weights, bubbles }
     }
 
     /// Nodes at which there is stress: those of elements, but for the high face. Places in [`SectorMesh::nodes`].
@@ -113,6 +119,13 @@ impl NodalStress {
                         stress[(6 * place + component, first + column)] = sum * *share;
                     }
                 }
+            }
+        }
+        for &place in &self.on_axis.0 {
+            for column in 0..u.ncols() {
+                let own = std::array::from_fn(|component| stress[(6 * place + component, column)]);
+                let mean = around_axis(own, phase, self.on_axis.1);
+                mean.iter().enumerate().for_each(|(k, mean)| stress[(6 * place + k, column)] = *mean);
             }
         }
         stress
@@ -188,6 +201,31 @@ impl NodalStress {
         }
         sum
     }
+}
+
+/// Mean at the axis of the stress of all sectors, in the components of one: that of sector s is the one's turned by sα about z, times
+/// `phase` to the power of s.
+fn around_axis(own: [c64; 6], phase: c64, sectors: usize) -> [c64; 6] {
+    let [rr, tt, zz, rt, tz, zr] = own;
+    // Half the difference and the shear turn by twice the angle.
+    let (half_sum, half_difference) = ((rr + tt) * 0.5, (rr - tt) * 0.5);
+    let mut mean = [c64::ZERO; 6];
+    for s in 0..sectors {
+        let angle = TAU * s as f64 / sectors as f64;
+        let ((sin, cos), (sin2, cos2)) = (angle.sin_cos(), (2.0 * angle).sin_cos());
+        let difference = half_difference * cos2 - rt * sin2;
+        let turned = [
+            half_sum + difference,
+            half_sum - difference,
+            zz,
+            half_difference * sin2 + rt * cos2,
+            zr * sin + tz * cos,
+            zr * cos - tz * sin,
+        ];
+        let factor = phase.powi(s as i32) / sectors as f64;
+        mean.iter_mut().zip(turned).for_each(|(mean, turned)| *mean += turned * factor);
+    }
+    mean
 }
 
 /// Adds `factor · value` to `sum`.

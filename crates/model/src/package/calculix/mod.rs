@@ -33,7 +33,6 @@ pub use error::{CalculixError, LineProblem, ModelProblem, NoCopy, NoOrder};
 pub use model::{CalculixModel, Normals};
 pub use no_mesh::NoMesh;
 
-use super::by_place;
 use super::check;
 use super::coriolis::gyroscopic_of_mass;
 use super::raw::{Axis, Frame, Manifest, ManifestContact, RawMatrix, RawNode, RawPackage};
@@ -42,6 +41,7 @@ use elements::SectorTable;
 use faces::{check_all_paired, check_ties, faces, pair};
 use matrices::DofList;
 use rubmap_solid::frame::AxisFrame;
+use rubmap_solid::place::tolerance;
 use sets::set;
 use solids::DeckElement;
 use strengths::Strengths;
@@ -80,7 +80,7 @@ pub fn import(model: &CalculixModel) -> Result<(RawPackage, ImportSummary), Calc
     require_coordinates(&positions, contact_set.iter().copied(), &model.contact_set)?;
     let (low, high) = faces(model, &deck, sectors)?;
     require_coordinates(&positions, low.iter().chain(&high).copied(), "the cyclic faces")?;
-    let tolerance = by_place::tolerance(rest.dofs.iter().map(|dof| positions[&dof.node]));
+    let tolerance = tolerance(rest.dofs.iter().map(|dof| positions[&dof.node]));
     let mut files = vec![extended(&model.rest, ".mas"), extended(&model.rest, ".sti")];
     files.extend(model.at_speed.iter().map(|(_, job)| extended(job, ".sti")));
     let mut read = vec![matrices::read(&files[0], &rest, None)?, matrices::read(&files[1], &rest, None)?];

@@ -19,9 +19,9 @@ use super::error::{ModelProblem, NoCopy};
 use super::matrices::DofList;
 use super::no_mesh::NoMesh;
 use crate::package::by_place::NodeGrid;
-use crate::package::check::slits::on_axis;
 use crate::package::raw::{RawDof, RawMatrix};
 use rubmap_solid::frame::AxisFrame;
+use rubmap_solid::place::on_axis;
 
 /// Largest difference of the sectors, relative to the largest force: meshes copied with six digits stay well below.
 const CYCLIC_TOLERANCE: f64 = 1e-3;

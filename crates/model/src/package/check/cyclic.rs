@@ -3,12 +3,12 @@
 use std::f64::consts::TAU;
 
 use super::layout::{NONE, components};
-use super::slits::{self, Slit, on_axis};
+use super::slits::{self, Slit};
 use super::tables::NodeIndex;
-use crate::package::by_place;
 use crate::package::error::{ManifestProblem, PackageError, TurnFit};
 use crate::package::raw::{Frame, Manifest, RawPackage};
 use rubmap_solid::frame::{AxisFrame, Basis, distance};
+use rubmap_solid::place::{on_axis, tolerance};
 
 /// Largest angle (rad) of a clamped direction from its image under the turn: an axis direction of few digits.
 const DIRECTION_TOLERANCE: f64 = 1e-6;
@@ -31,7 +31,7 @@ pub(super) fn check(
     rows_of_node: &[[u32; 3]],
 ) -> Result<Neighbours, PackageError> {
     let (high_of, low_of) = partners(&package.manifest, package.nodes.len(), index)?;
-    let tolerance = by_place::tolerance(package.nodes.iter().map(|node| node.position));
+    let tolerance = tolerance(package.nodes.iter().map(|node| node.position));
     check_places(package, frame, tolerance, index)?;
     check_dofs(package, frame, tolerance, rows_of_node, index)?;
     check_all_paired(package, frame, tolerance, rows_of_node, |node| {

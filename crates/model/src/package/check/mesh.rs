@@ -5,13 +5,14 @@ use std::f64::consts::TAU;
 
 use rubmap_solid::frame::AxisFrame;
 use rubmap_solid::mesh::{Element, SectorMesh};
+use rubmap_solid::place::tolerance;
 use rubmap_solid::skin::{Cut, skin};
 
 use super::elements;
 use super::layout::NONE;
 use super::overlap;
 use super::tables::NodeIndex;
-use crate::package::by_place::{NodeGrid, tolerance};
+use crate::package::by_place::NodeGrid;
 use crate::package::content::SourceLines;
 use crate::package::error::{ArchiveProblem, ManifestProblem, PackageError, TableProblem};
 use crate::package::raw::{Manifest, ManifestMesh, RawElement, RawNode, RawPackage};

@@ -1,7 +1,8 @@
 //! Slits between sectors: free nodes without a cyclic pair one turn from each other.
 
 use super::super::by_place::NodeGrid;
-use rubmap_solid::frame::{AxisFrame, distance};
+use rubmap_solid::frame::AxisFrame;
+use rubmap_solid::place::on_axis;
 use std::f64::consts::TAU;
 
 /// Two free nodes one sector apart that are not a pair.
@@ -37,15 +38,6 @@ pub(crate) fn find(
         let above = other(alpha).map(|high| Slit { low: node, high });
         above.or_else(|| other(-alpha).map(|low| Slit { low, high: node }))
     })
-}
-
-/// Whether a position is on the axis of several sectors: it coincides with the axis, or with its own copy in the next sector.
-pub(crate) fn on_axis(position: [f64; 3], frame: &AxisFrame, sectors: usize, tolerance: f64) -> bool {
-    if sectors == 1 {
-        return false;
-    }
-    let own_copy = frame.turn_point(position, TAU / sectors as f64);
-    frame.coordinates(position)[0].min(distance(position, own_copy)) <= tolerance
 }
 
 #[cfg(test)]
@@ -97,10 +89,5 @@ mod tests {
     #[test]
     fn nodes_on_the_axis_need_no_pair() {
         assert_eq!(found(corners(7), 7, &[[1, 3], [2, 4]]), None);
-        let frame = AxisFrame::new([0.0; 3], [0.0, 0.0, 1.0]).unwrap();
-        let is_on_axis = |x: f64, sectors| on_axis([x, 0.0, 0.3], &frame, sectors, 1e-5);
-        assert!(is_on_axis(0.0, 7) && !is_on_axis(0.0, 1));
-        // So near that its copy in the next sector is itself.
-        assert!(is_on_axis(2e-5, 23) && !is_on_axis(5e-5, 23));
     }
 }

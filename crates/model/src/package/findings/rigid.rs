@@ -32,6 +32,8 @@ pub(super) struct Body {
     pub(super) stated: Reading,
     /// Whether each node is on a cyclic face.
     pub(super) on_face: Vec<bool>,
+    /// Whether each node is on the axis of several sectors, where the sector alone is not in balance under its own load.
+    on_axis: Vec<bool>,
     rows: usize,
     /// Largest distance of a node from the middle.
     pub(super) size: f64,
@@ -71,6 +73,7 @@ impl Body {
             cylindrical,
             stated: Reading { rows_of_node: layout.rows_of_node.clone(), bases },
             on_face: (0..nodes).map(|k| layout.high_of[k] != NONE || layout.low_of[k] != NONE).collect(),
+            on_axis: (0..nodes).map(|node| layout.on_axis.contains(&(node as u32))).collect(),
             rows: package.dofs.len(),
             size,
         }
@@ -145,10 +148,11 @@ impl Body {
         by_row
     }
 
-    /// Nodes that have all three components and are on no cyclic face.
+    /// Nodes that have all three components and are neither on a cyclic face nor on the axis.
     pub(super) fn inner(&self) -> impl Iterator<Item = usize> + '_ {
         let rows = &self.stated.rows_of_node;
-        (0..rows.len()).filter(|&node| !self.on_face[node] && !rows[node].contains(&NONE))
+        (0..rows.len())
+            .filter(|&node| !self.on_face[node] && !self.on_axis[node] && !rows[node].contains(&NONE))
     }
 }
 
