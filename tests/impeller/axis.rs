@@ -18,13 +18,14 @@ use rubmap::dynamics::schemes::Scheme;
 use rubmap::dynamics::sector::SectorModel;
 use rubmap::from_mesh::{self, MeshSettings};
 use rubmap::mesh;
-use rubmap::package::raw::RawPackage;
+use rubmap::package::raw::{Frame, RawMatrix, RawPackage};
 use rubmap::package::{Limits, look_at, read_mesh, read_nodes, to_sector, write};
 use rubmap::solid::element::ElementKind;
 use rubmap::solid::mesh::SectorMesh;
 use rubmap::solid::skin::skin;
 use rubmap::solid::stress::NodalStress;
 
+use crate::eigen::dense;
 use crate::meshes::block;
 
 /// Speed of the last stiffness matrix, rad/s.
@@ -147,6 +148,18 @@ fn whole_basis(sector: &SectorModel) -> ReducedWheel {
     reduce(sector, &ReductionOptions::new(10_000), &NoCheckpoints, &|_, _| true).unwrap()
 }
 
+/// Natural frequencies of all waves, ascending: twice those that travel either way.
+fn frequencies(wheel: &ReducedWheel, speed: f64) -> Vec<f64> {
+    let modal = ModalWheel::at(wheel, speed, RotationEffects::stiffening(true)).unwrap();
+    let all = modal.harmonics.into_iter().flat_map(|harmonic| {
+        let count = if harmonic.single { 1 } else { 2 };
+        harmonic.omega.into_iter().flat_map(move |omega| std::iter::repeat_n(omega, count))
+    });
+    let mut all: Vec<f64> = all.collect();
+    all.sort_by(f64::total_cmp);
+    all
+}
+
 /// Kinds and numbers of sectors.
 const WHEELS: [(ElementKind, usize); 5] = [
     (ElementKind::C3D8I, 2),
@@ -170,18 +183,7 @@ fn frequencies_are_those_of_the_whole_wheel() {
         assert!(whole.axis.is_empty());
         let [reduced, whole] = [&sector, &whole].map(whole_basis);
         for speed in [0.0, 0.5 * SPEED, SPEED] {
-            let frequencies = |wheel: &ReducedWheel| {
-                let modal = ModalWheel::at(wheel, speed, RotationEffects::stiffening(true)).unwrap();
-                let all = modal.harmonics.iter().flat_map(|harmonic| {
-                    // Modes that travel either way.
-                    let count = if harmonic.single { 1 } else { 2 };
-                    harmonic.omega.iter().flat_map(move |omega| std::iter::repeat_n(*omega, count))
-                });
-                let mut all: Vec<f64> = all.collect();
-                all.sort_by(f64::total_cmp);
-                all
-            };
-            let (ours, theirs) = (frequencies(&reduced), frequencies(&whole));
+            let (ours, theirs) = (frequencies(&reduced, speed), frequencies(&whole, speed));
             assert_eq!(ours.len(), theirs.len(), "{kind:?} {sectors}");
             for (ours, theirs) in ours.iter().zip(&theirs).take(40) {
                 assert!((ours / theirs - 1.0).abs() < 1e-9, "{kind:?} {sectors} {speed}: {ours} {theirs}");
@@ -350,7 +352,7 @@ fn static_responses_are_those_of_the_whole_wheel() {
     }
 }
 
-/// Contact: tips of all sectors against a lobed casing move as those of the whole wheel do.
+/// Contact under Coriolis forces: tips of all sectors against a lobed casing move as those of the whole wheel do.
 #[test]
 fn contact_is_that_of_the_whole_wheel() {
     let pair = pair(ElementKind::C3D8I, 5);
@@ -358,7 +360,8 @@ fn contact_is_that_of_the_whole_wheel() {
     let [sector, whole] = [pair.sector, pair.whole].map(|package| to_sector(package).unwrap());
     let run = |model: &SectorModel| {
         let reduced = whole_basis(model);
-        let modal = ModalWheel::at(&reduced, SPEED, RotationEffects::stiffening(true)).unwrap();
+        let modal =
+            ModalWheel::at(&reduced, SPEED, RotationEffects { stiffening: true, coriolis: true }).unwrap();
         let lobes = Lobes { count: 2, amplitude: 0.03, width_rad: 0.5, phase_rad: 0.1 };
         let casing = Casing {
             clearance: vec![0.02; reduced.contact.len()],
@@ -400,6 +403,69 @@ fn contact_is_that_of_the_whole_wheel() {
     for (ours, theirs) in ours.iter().zip(&theirs) {
         for (a, b) in ours.iter().zip(theirs) {
             assert!((a - b).abs() < 1e-7 * largest, "{a} {b} {largest}");
+        }
+    }
+}
+
+/// Package in Cartesian components without the rows that `is_held` names by their node's position and component.
+fn cartesian(package: &RawPackage, is_held: impl Fn([f64; 3], u8) -> bool) -> RawPackage {
+    let position: HashMap<u64, [f64; 3]> =
+        package.nodes.iter().map(|node| (node.id, node.position)).collect();
+    let row_of: HashMap<(u64, u8), usize> =
+        package.dofs.iter().enumerate().map(|(row, dof)| ((dof.node, dof.component), row)).collect();
+    let kept: Vec<_> =
+        package.dofs.iter().copied().filter(|dof| !is_held(position[&dof.node], dof.component)).collect();
+    // Row of each Cartesian displacement: what it is of r, θ and z there.
+    let turn = Mat::from_fn(package.dofs.len(), kept.len(), |row, column| {
+        let (own, dof) = (package.dofs[row], kept[column]);
+        let [x, y, _] = position[&dof.node];
+        let (sin, cos) = y.atan2(x).sin_cos();
+        let basis = [[cos, sin, 0.0], [-sin, cos, 0.0], [0.0, 0.0, 1.0]];
+        let same = own.node == dof.node && row_of[&(own.node, own.component)] == row;
+        if same { basis[usize::from(own.component) - 1][usize::from(dof.component) - 1] } else { 0.0 }
+    });
+    let turned = |matrix: &RawMatrix| {
+        let dense = turn.transpose() * dense(matrix) * &turn;
+        let lower = (0..kept.len()).flat_map(|column| (column..kept.len()).map(move |row| (row, column)));
+        let entries = lower.map(|(row, column)| (row as u32, column as u32, dense[(row, column)]));
+        RawMatrix { size: kept.len(), entries: entries.filter(|entry| entry.2 != 0.0).collect() }
+    };
+    let mut cartesian = package.clone();
+    cartesian.mass = turned(&package.mass);
+    cartesian.stiffness = package.stiffness.iter().map(turned).collect();
+    cartesian.gyroscopic = None;
+    cartesian.manifest.gyroscopic = None;
+    cartesian.manifest.frame = Frame::Cartesian;
+    for contact in &mut cartesian.manifest.contact {
+        let [x, y, _] = position[&contact.node];
+        let (sin, cos) = y.atan2(x).sin_cos();
+        let [r, t, z] = contact.normal;
+        contact.normal = [r * cos - t * sin, r * sin + t * cos, z];
+    }
+    cartesian.dofs = kept;
+    cartesian
+}
+
+/// Nodes on the axis that are clamped along it, or across it: the frequencies of the whole wheel, whichever way the axis points.
+#[test]
+fn nodes_on_the_axis_may_be_clamped_in_part() {
+    for held in [&[3_u8][..], &[1, 2]] {
+        for sectors in [2, 5] {
+            let pair = pair(ElementKind::C3D8I, sectors);
+            let is_held = |[x, y, _]: [f64; 3], component: u8| x.hypot(y) < 1e-6 && held.contains(&component);
+            let [mut sector, whole] = [&pair.sector, &pair.whole].map(|package| cartesian(package, is_held));
+            let found = |package| frequencies(&whole_basis(&to_sector(package).unwrap()), SPEED);
+            let expected = found(whole);
+            let forward = found(sector.clone());
+            sector.manifest.axis.direction = [0.0, 0.0, -1.0];
+            sector.manifest.cyclic.iter_mut().for_each(|pair| pair.reverse());
+            let reversed = found(sector);
+            for ours in [forward, reversed] {
+                assert_eq!(ours.len(), expected.len());
+                for (ours, theirs) in ours.iter().zip(&expected).take(40) {
+                    assert!((ours / theirs - 1.0).abs() < 1e-9, "{held:?} {sectors}: {ours} {theirs}");
+                }
+            }
         }
     }
 }
