@@ -212,17 +212,16 @@ impl UntiedSector {
         let row = self.place[dof];
         match row.checked_sub(self.interior) {
             None => (row, c64::ONE),
-            Some(row) if self.has_axis() && row < self.face => {
-                let (tied, factor) = self.axis_row(tie, row);
+            Some(row) if row < self.face => {
+                let (tied, factor) = self.face_row(tie, row);
                 (self.interior + tied, factor)
             }
-            Some(row) if row < self.face => (self.interior + row, c64::ONE),
             Some(row) => (self.interior + row - self.face, c64::ONE),
         }
     }
 
-    /// Tied row and factor of a row of the low face, counted from its first.
-    fn axis_row(&self, tie: &Tie, row: usize) -> (usize, c64) {
+    /// Tied row and factor of a row of the low face, both counted from its first.
+    fn face_row(&self, tie: &Tie, row: usize) -> (usize, c64) {
         let is_of = |node: &&AxisNode| of_axis(node).contains(&Some(row));
         let Some(node) = self.axis.iter().find(is_of) else { return (row, c64::ONE) };
         tie.on_axis(node).find(|&(moved, _)| moved == row).map_or((row, c64::ZERO), |(_, image)| image)
