@@ -121,7 +121,7 @@ export function sectorStage(first, { label, over, clicked }, signal) {
     over(null);
   });
   shown.canvas.addEventListener('click', (event) => {
-    const part = down && Math.hypot(event.clientX - down.clientX, event.clientY - down.clientY) < STILL ? at(event) : null;
+    const part = down && Math.hypot(event.clientX - down.clientX, event.clientY - down.clientY) < STILL ? at(down) : null;
     if (part) clicked(part);
   });
   draw();

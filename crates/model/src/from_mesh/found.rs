@@ -5,7 +5,7 @@ use std::fmt;
 
 use rubmap_mesh::MeshFile;
 use rubmap_solid::element::ElementKind;
-use rubmap_solid::mesh::SectorMesh;
+use rubmap_solid::mesh::{ElementSet, SectorMesh};
 
 use super::clamp::ClampSource;
 use super::contact_points::Contact;
@@ -64,10 +64,6 @@ impl Found {
         let mut notes = file.notes.clone();
         notes.extend(locking(mesh));
         notes.extend(tip.notes);
-        let constants = |set: &rubmap_solid::mesh::ElementSet| {
-            let material = &set.material;
-            (set.name.clone(), [material.youngs_modulus, material.poissons_ratio, material.density])
-        };
         Self {
             format: file.format.name(),
             nodes: mesh.nodes.len(),
@@ -82,7 +78,7 @@ impl Found {
             tip: (tip.source, contact.of_line),
             contact: contact.points.clone(),
             spacing: contact.spacing,
-            materials: mesh.sets.iter().map(constants).collect(),
+            materials: mesh.sets.iter().map(|set| (set.name.clone(), constants(set))).collect(),
             notes,
         }
     }
@@ -117,10 +113,10 @@ impl fmt::Display for Found {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "{}", body_line(self.format, self.nodes, &self.elements))?;
         for (kind, count) in &self.left_out {
-            writeln!(f, "left out: {count} of type {kind}")?;
+            writeln!(f, "{}", left_out_line(kind, *count))?;
         }
-        for (set, [e, nu, rho]) in &self.materials {
-            writeln!(f, "material of {set}: E = {e}, ν = {nu}, ρ = {rho:?}")?;
+        for (set, constants) in &self.materials {
+            writeln!(f, "{}", material_line(set, *constants))?;
         }
         writeln!(f, "{}", axis_line(self.axis))?;
         writeln!(f, "{}", sectors_line(self.sectors, self.sectors_found, self.pairs, self.farthest))?;
@@ -139,6 +135,21 @@ impl fmt::Display for Found {
 pub(super) fn body_line(format: &str, nodes: usize, elements: &BTreeMap<&'static str, usize>) -> String {
     let kinds: Vec<String> = elements.iter().map(|(kind, count)| format!("{count} {kind}")).collect();
     format!("{format}: {nodes} nodes, {}", kinds.join(", "))
+}
+
+/// Line about elements that were left out.
+pub(super) fn left_out_line(kind: &str, count: usize) -> String {
+    format!("left out: {count} of type {kind}")
+}
+
+/// Young's modulus, Poisson's ratio and density of an element set.
+pub(super) fn constants(set: &ElementSet) -> [f64; 3] {
+    [set.material.youngs_modulus, set.material.poissons_ratio, set.material.density]
+}
+
+/// Line about the material of an element set.
+pub(super) fn material_line(set: &str, [e, nu, rho]: [f64; 3]) -> String {
+    format!("material of {set}: E = {e}, ν = {nu}, ρ = {rho:?}")
 }
 
 /// Line about the axis of rotation: a point on it, and its direction.

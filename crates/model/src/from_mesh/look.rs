@@ -132,6 +132,9 @@ pub fn look(file: &MeshFile, settings: &MeshSettings) -> Result<MeshLook, FromMe
         told.kept(LookStep::Materials, materials::assigned(file, settings)).unwrap_or_default();
     let mut mesh = body::body(file, sets, &set_of);
     told.found.push(found::body_line(file.format.name(), mesh.nodes.len(), &found::kinds(&mesh)));
+    told.found.extend(file.left_out.iter().map(|(kind, count)| found::left_out_line(kind, *count)));
+    let materials = mesh.sets.iter().map(|set| found::material_line(&set.name, found::constants(set)));
+    told.found.extend(materials);
     let surface = surface::surface(&mesh);
     let sound = body::check(file, &mesh).and_then(|()| conforming::check(&mesh, &surface));
     let symmetry = told
