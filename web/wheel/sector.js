@@ -12,6 +12,9 @@ const FREE = [0.62, 0.66, 0.72];
 /** Pixels by which a pointer may move for its way to be a click. */
 const STILL = 5;
 
+/** Distance of the camera, in parts of that from which everything is in the picture however it is turned. */
+const CLOSE = 0.75;
+
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 const unit = (a) => a.map((x) => x / Math.hypot(...a));
@@ -92,7 +95,7 @@ function partsOf(body, lit) {
  */
 export function sectorStage(first, { label, over, clicked }, signal) {
   let body = bodyOf(first);
-  const shown = stage({ label, middle: 0, radius: body.radius, front: body.front }, signal);
+  const shown = stage({ label, middle: 0, radius: CLOSE * body.radius, front: body.front }, signal);
   if (!shown) return null;
   let lit = null;
   let down = null;
