@@ -81,3 +81,29 @@ fn priced(price: &AssemblyPrice) -> String {
         megabytes(price.package_bytes)
     )
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::from_mesh::{MeshSettings, look};
+
+    /// Quarter of a square ring as one brick, which turns onto itself about z.
+    const BRICK: &str = "*NODE\n1, 1, -1, 0\n2, 3, -3, 0\n3, 3, 3, 0\n4, 1, 1, 0\n5, 1, -1, 2\n6, 3, -3, 2\n7, 3, 3, 2\n8, 1, 1, 2\n\
+                         *ELEMENT, TYPE=C3D8I, ELSET=ALL\n1, 1, 2, 3, 4, 5, 6, 7, 8\n";
+
+    #[test]
+    fn a_look_is_printed_as_tables() {
+        let file = crate::mesh::read(BRICK.as_bytes(), &|_| Err(String::new())).unwrap();
+        let text = described(&look(&file, &MeshSettings::of_look(b"{}").unwrap()).unwrap());
+        let cells: Vec<Vec<&str>> = text.lines().map(|line| line.split_whitespace().collect()).collect();
+        // The bore is 2 by 2, with its centre at x = 1; the faces above and below are trapezia of height 2.
+        assert!(cells.contains(&vec!["1,4,5,8", "4.00000", "1.00000", "1.00000", "4", "clamp"]), "{text}");
+        assert!(cells.contains(&vec!["1,2,3,4", "8.00000", "2.00000", "0.00000", "4"]), "{text}");
+        assert!(
+            text.contains("sectors: 4 (found)") && text.contains("REFUSED: element 1 has no material"),
+            "{text}"
+        );
+        let cuts = cells.iter().filter(|row| row.last() == Some(&"face") && row.contains(&"cyclic"));
+        assert_eq!(cuts.count(), 8, "{text}");
+    }
+}

@@ -186,9 +186,9 @@ export function meshLook(fields, signal) {
       caption: 'Patches of the skin',
       rows,
       columns: [
-        column('Patch', ({ k }) => k + 1, String), { name: 'Role', sort: ({ role }) => ROLES[role] ?? null, cell: ({ role }) => ROLES[role] ?? '' },
+        column('Patch', ({ k }) => k + 1, String), { name: 'Take as', cell: buttons }, { name: 'Role', sort: ({ role }) => ROLES[role] ?? null, cell: ({ role }) => ROLES[role] ?? '' },
         column('Area', ({ area }) => area), column('Radius', ({ radius }) => radius), column('Along the axis', ({ axial }) => axial),
-        column('Nodes', ({ nodes }) => nodes), { name: 'Take as', cell: buttons },
+        column('Nodes', ({ nodes }) => nodes),
       ],
     })];
   }

@@ -221,14 +221,15 @@ fn drawn(
             patch.role = Some(MeshRole::Clamp);
         }
     }
-    let cyclic: HashSet<u32> =
-        symmetry.iter().flat_map(|symmetry| &symmetry.pairs).flat_map(|&(low, high)| [low, high]).collect();
+    let pairs = || symmetry.iter().flat_map(|symmetry| &symmetry.pairs);
+    let cuts: [HashSet<u32>; 2] =
+        [pairs().map(|pair| pair.0).collect(), pairs().map(|pair| pair.1).collect()];
     let chain = |nodes: Vec<u32>| MeshChain {
         length: nodes
             .windows(2)
             .map(|pair| distance(mesh.nodes[pair[0] as usize], mesh.nodes[pair[1] as usize]))
             .sum(),
-        cyclic: nodes.iter().all(|node| cyclic.contains(node)),
+        cyclic: cuts.iter().any(|cut| nodes.iter().all(|node| cut.contains(node))),
         nodes: nodes.iter().map(|node| place[node]).collect(),
     };
     let places = |nodes: &[u64]| -> Vec<u32> {

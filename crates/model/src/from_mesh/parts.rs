@@ -138,7 +138,10 @@ impl Parts<'_> {
         let off = |face: &&Face| (face.centre - centre).norm();
         let faces = patch.iter().map(|&face| &self.surface[face]);
         let nearest = faces.min_by(|a, b| off(a).total_cmp(&off(b)));
-        nearest.map_or(Vec::new(), |face| face.corners().iter().map(|&node| id(node)).collect())
+        let mut corners: Vec<u64> =
+            nearest.into_iter().flat_map(Face::corners).map(|&node| id(node)).collect();
+        corners.sort_unstable();
+        corners
     }
 
     /// Triangles of a face, over the nodes in the middle of its edges, as places among the nodes of the skin.
