@@ -14,7 +14,7 @@ use tokio_util::bytes::Bytes;
 
 use crate::analysis::run::ModelFacts;
 use crate::dynamics::nodes::SectorNode;
-use crate::from_mesh::{self, FromMeshError, MeshSettings, Sector};
+use crate::from_mesh::{self, FromMeshError, LookRefusal, LookStep, MeshLook, MeshSettings, Sector};
 use crate::memory::Memory;
 use crate::package::raw::RawPackage;
 use crate::package::{self, Limits, PackageError};
@@ -201,11 +201,7 @@ impl Importer {
             Err(error) => return Ok(Err(error)),
         };
         let needed = sector.assembly_bytes();
-        if let Some(most) = self.memory.most().filter(|&most| needed > most) {
-            let message = format!(
-                "assembling this mesh needs {needed} bytes of memory, and this service gives one computation {most}: make the package with \
-                 `rubmap import mesh` on a larger machine, or use a coarser mesh"
-            );
+        if let Some(message) = self.too_large(needed) {
             return Ok(Err(Box::new(PackageError::Mesh { file: None, line: None, message })));
         }
         let memory = self.memory.hold_up_to(needed).await;
@@ -220,6 +216,36 @@ impl Importer {
             CheckedPackage::assemble(&sector, file, &limits).map_err(Box::new)
         };
         self.threads.run_parallel(assemble).await
+    }
+
+    /// Looks at a bare mesh, of which nothing is kept.
+    pub(crate) async fn look(
+        &self,
+        file: TempPath,
+        settings: MeshSettings,
+    ) -> Result<Result<MeshLook, Box<PackageError>>, Panicked> {
+        let bytes = file.metadata().map_or(0, |file| file.len().saturating_mul(EXPANSION));
+        let memory = self.memory.hold_up_to(bytes).await;
+        let read = move || {
+            let _memory = memory;
+            let bytes = std::fs::read(&file).map_err(PackageError::from)?;
+            from_mesh::look_at_mesh(&bytes, &settings)
+        };
+        let look = self.threads.run_parallel(move || read().map_err(Box::new)).await?;
+        Ok(look.map(|mut look| {
+            let refusal = |detail| LookRefusal { step: LookStep::Memory, detail };
+            look.refusals.extend(self.too_large(look.price.memory_bytes).map(refusal));
+            look
+        }))
+    }
+
+    /// Reason why a mesh whose assembly needs these bytes of memory is refused, if it is.
+    fn too_large(&self, needed: u64) -> Option<String> {
+        let most = self.memory.most().filter(|&most| needed > most)?;
+        Some(format!(
+            "assembling this mesh needs {needed} bytes of memory, and this service gives one computation {most}: make the package with \
+             `rubmap import mesh` on a larger machine, or use a coarser mesh"
+        ))
     }
 
     /// Stores a package as a model of `owner`; returns the model and whether it is new. May be repeated where the disk was full.

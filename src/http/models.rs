@@ -29,7 +29,7 @@ use crate::tokens::Principal;
 
 const JSON: &str = "application/json";
 /// Media type of a bare mesh.
-const MESH: &str = "application/octet-stream";
+pub(super) const MESH: &str = "application/octet-stream";
 
 /// Model with its facts and labels.
 #[derive(Debug, Serialize, ToSchema)]

@@ -36,10 +36,13 @@ pub(super) async fn authenticate(
     next.run(request).await
 }
 
-/// Whether a request changes nothing that is stored: plans and casing tables are computed from the body and forgotten.
+/// Paths that answer from the body of a request and store nothing, beside plans.
+const STORE_NOTHING: [&str; 2] = ["/v1/casing-tables", "/v1/meshes/look"];
+
+/// Whether a request changes nothing that is stored.
 fn only_reads(method: &Method, path: &str) -> bool {
     [Method::GET, Method::HEAD].contains(method)
-        || (method == Method::POST && (path.ends_with("/plan") || path == "/v1/casing-tables"))
+        || (method == Method::POST && (path.ends_with("/plan") || STORE_NOTHING.contains(&path)))
 }
 
 fn is_open(path: &str) -> bool {

@@ -20,8 +20,9 @@ use utoipa_axum::routes;
 use super::state::AppState;
 use super::{
     access, archive, body, branches, campaigns, casings, contract, cross_site, events, extract, fields,
-    forces, health, histories, host, jobs, kinds, maps, mesh, metrics, models, modes, openapi, principal,
-    problem, report, results, run_ups, section, spectra, stream, stress, studies, version, web, wheel,
+    forces, health, histories, host, jobs, kinds, looks, maps, mesh, metrics, models, modes, openapi,
+    principal, problem, report, results, run_ups, section, spectra, stream, stress, studies, version, web,
+    wheel,
 };
 
 /// Routes with their descriptions.
@@ -29,6 +30,7 @@ pub(super) fn routes() -> OpenApiRouter<AppState> {
     kinds::routes(OpenApiRouter::with_openapi(openapi::ApiDoc::openapi()))
         .routes(routes!(models::create_model, models::list_models))
         .routes(routes!(models::get_model, models::label_model, models::delete_model))
+        .routes(routes!(looks::look_at_mesh))
         .routes(routes!(casings::read_casing_table))
         .routes(routes!(section::get_section))
         .routes(routes!(mesh::get_mesh))

@@ -1,4 +1,4 @@
-//! Models from meshes: bare, in a package, and refused; the same content is the same model.
+//! Models from meshes: bare, in a package, looked at before, and refused; the same content is the same model.
 
 use std::fmt::Write as _;
 
@@ -29,12 +29,17 @@ fn deck(material: bool) -> String {
 
 /// Posts a bare mesh with these settings.
 async fn post(api: &Api, mesh: &str, settings: Option<Value>, labels: &str) -> Answer {
+    post_to(api, "/v1/models", mesh, settings, labels).await
+}
+
+/// Posts a bare mesh to a path.
+async fn post_to(api: &Api, path: &str, mesh: &str, settings: Option<Value>, labels: &str) -> Answer {
     let settings = settings.map_or(String::new(), |settings| {
         let text: String = settings.to_string().bytes().map(|byte| format!("%{byte:02x}")).collect();
         format!("settings={text}&")
     });
     let request = api
-        .request("POST", &format!("/v1/models?{settings}{labels}"))
+        .request("POST", &format!("{path}?{settings}{labels}"))
         .header("content-type", "application/octet-stream")
         .body(mesh.to_owned());
     Answer::of(request.send().await.unwrap()).await
@@ -123,5 +128,73 @@ async fn meshes_that_make_no_model_are_refused_with_the_reason() {
     let lacking = api.upload(zip(&[("sector.json", manifest), ("wheel.inp", deck(true))], 6)).await;
     assert_eq!(lacking.problem(422, "invalid-package")[0]["pointer"], "/mesh_file");
     assert_eq!(api.get("/v1/models").await.body["models"], json!([]));
+    app.stop().await;
+}
+
+#[tokio::test]
+async fn a_mesh_is_looked_at_and_patches_of_it_are_chosen() {
+    let app = TestApp::start().await;
+    let api = &app.api;
+    // Neither a material nor a top speed.
+    let look = post_to(api, "/v1/meshes/look", &deck(false), None, "").await;
+    assert_eq!(look.status, 200, "{}", look.body);
+    let places = |path: &str| look.body[path].as_array().unwrap().clone();
+    let ids = places("node_ids");
+    assert_eq!(places("positions").len(), 3 * ids.len());
+    let triangles: u64 = places("patches").iter().map(|patch| patch["triangles"].as_u64().unwrap()).sum();
+    assert_eq!(places("triangles").len() as u64, 3 * triangles);
+    assert_eq!(
+        (&look.body["sectors"], &look.body["axis"]),
+        (&json!(10), &json!([[0.0, 0.0, 0.0], [0.0, 0.0, 1.0]]))
+    );
+    let refusals = places("refusals");
+    assert_eq!((refusals.len(), &refusals[0]["step"]), (1, &json!("materials")));
+    assert!(look.body["price"]["seconds"].as_f64().unwrap() > 0.0);
+    let named = |role: &str| {
+        let patch = places("patches").into_iter().find(|patch| patch["role"] == role).unwrap();
+        patch["at"].clone()
+    };
+    assert!(named("low").as_array().unwrap().is_empty() && named("high").as_array().unwrap().is_empty());
+
+    // The patches that were found, named: the same model.
+    let automatic = json!({"top_speed_rad_s": 4000.0, "name": "wheel"});
+    let mut chosen = automatic.clone();
+    (chosen["clamp_at"], chosen["contact_at"]) = (named("clamp"), named("contact"));
+    let first = post(api, &deck(true), Some(automatic), "").await;
+    let again = post(api, &deck(true), Some(chosen.clone()), "").await;
+    assert_eq!((first.status.as_u16(), again.status.as_u16()), (201, 200), "{}", again.body);
+    assert_eq!(again.text("/id"), first.text("/id"));
+
+    let mut both = chosen;
+    both["clamp_set"] = json!("BORE");
+    for (mesh, settings, status, problem, says) in [
+        (
+            deck(true),
+            Some(both),
+            422,
+            "invalid-package",
+            "`clamp_set` and `clamp_at` both say where the clamp is",
+        ),
+        (deck(true), Some(json!({"clamp": 1})), 400, "invalid-parameter", "unknown field `clamp`"),
+        (deck(true).replace("C3D8I", "C3D9"), None, 422, "invalid-package", "C3D9"),
+        ("\0\0\0".to_owned(), None, 422, "invalid-package", "no mesh file of a known format"),
+    ] {
+        let answer = post_to(api, "/v1/meshes/look", &mesh, settings, "").await;
+        let detail = answer.body["detail"].as_str().unwrap_or_default().to_owned();
+        assert!(detail.contains(says), "{detail}");
+        answer.problem(status, problem);
+    }
+    api.post("/v1/meshes/look", &json!({})).await.problem(415, "unsupported-media-type");
+    assert_eq!(api.get("/v1/models").await.body["models"].as_array().unwrap().len(), 1);
+    app.stop().await;
+}
+
+#[tokio::test]
+async fn a_look_tells_of_a_mesh_that_is_too_large_for_the_service() {
+    let app = TestApp::start_with(|config| config.memory_bytes = Some(20 << 20)).await;
+    let look = post_to(&app.api, "/v1/meshes/look", &deck(true), None, "").await;
+    let refusal = &look.body["refusals"][0];
+    assert_eq!(refusal["step"], "memory", "{}", look.body);
+    assert!(refusal["detail"].as_str().unwrap().starts_with("assembling this mesh needs "), "{refusal}");
     app.stop().await;
 }

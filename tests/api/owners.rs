@@ -116,6 +116,8 @@ async fn what_belongs_to_one_owner_is_not_there_for_another() {
     reader.post("/v1/modal-analyses", &modal_analysis_of(&model)).await.problem(403, "forbidden");
     let planned = reader.post("/v1/modal-analyses/plan", &modal_analysis_of(&model)).await;
     assert_eq!(planned.status, 200, "plans store nothing: {}", planned.body);
+    // A look at a mesh stores nothing: it is the body that is refused.
+    reader.post("/v1/meshes/look", &json!({})).await.problem(415, "unsupported-media-type");
     reader.delete(&format!("/v1/jobs/{id}")).await.problem(403, "forbidden");
     assert_eq!(admin.get("/v1/jobs").await.body["jobs"].as_array().unwrap().len(), 1);
 

@@ -23,7 +23,7 @@ use crate::findings::turned;
 const TOP_SPEED: f64 = 3000.0;
 
 /// Coarse impeller of 20-node elements with splitter blades.
-fn impeller(sectors: usize) -> ImpellerParameters {
+pub(crate) fn impeller(sectors: usize) -> ImpellerParameters {
     ImpellerParameters {
         sectors,
         contact_nodes: 5,
@@ -42,12 +42,12 @@ fn impeller(sectors: usize) -> ImpellerParameters {
     }
 }
 
-fn sector_mesh(parameters: &ImpellerParameters) -> SectorMesh {
+pub(crate) fn sector_mesh(parameters: &ImpellerParameters) -> SectorMesh {
     impeller_sector(parameters).unwrap().made_of(&parameters.material).mesh
 }
 
 /// Deck of a mesh with its material and nothing else.
-fn deck(mesh: &SectorMesh) -> String {
+pub(crate) fn deck(mesh: &SectorMesh) -> String {
     let mut deck = "*NODE\n".to_owned();
     for (id, [x, y, z]) in mesh.node_ids.iter().zip(&mesh.nodes) {
         writeln!(deck, "{id}, {x:?}, {y:?}, {z:?}").unwrap();
@@ -64,12 +64,12 @@ fn deck(mesh: &SectorMesh) -> String {
     deck
 }
 
-fn read_mesh(text: &str) -> MeshFile {
+pub(crate) fn read_mesh(text: &str) -> MeshFile {
     mesh::read(text.as_bytes(), &|_| Err("there is none".to_owned())).unwrap()
 }
 
 /// Settings with a top speed, five contact nodes, and titanium where the file has no material.
-fn settings() -> MeshSettings {
+pub(crate) fn settings() -> MeshSettings {
     let titanium = Material::default().to_solid();
     MeshSettings {
         contact_nodes: 5,
@@ -91,7 +91,7 @@ fn difference(a: &RawMatrix, b: &RawMatrix) -> f64 {
 }
 
 /// Asserts that a package has the rows, pairs, contact nodes and matrices of another.
-fn is_that(found: &RawPackage, expected: &RawPackage, within: f64) {
+pub(crate) fn is_that(found: &RawPackage, expected: &RawPackage, within: f64) {
     let sorted = |package: &RawPackage| {
         let mut pairs = package.manifest.cyclic.clone();
         pairs.sort_unstable();

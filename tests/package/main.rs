@@ -12,6 +12,7 @@ mod fixed;
 mod from_mesh;
 mod gyroscopic;
 mod joints;
+mod looks;
 mod mesh;
 mod npz;
 mod sample;

@@ -43,11 +43,51 @@ def choose(page, file):
 
 def posted(page, act):
     """What the page sends when `act` is called: the parameters."""
-    with page.expect_request(lambda request: request.method == "POST") as sent:
+    with page.expect_request(lambda request: request.method == "POST" and "/v1/models?" in request.url) as sent:
         act()
     request = sent.value
     assert request.headers["content-type"] == "application/octet-stream"
     return page.evaluate("address => Object.fromEntries(new URL(address).searchParams)", request.url)
+
+
+# Chromium does not keep the answer to a request whose body is a file.
+KEEPS_LOOKS = """
+window.looks = [];
+const asked = window.fetch;
+window.fetch = async (path, options) => {
+  const answer = await asked(path, options);
+  if (String(path).includes('/v1/meshes/look') && answer.ok) window.looks.push(await answer.clone().json());
+  return answer;
+};
+null;
+"""
+
+
+def looked(page, act):
+    """What the service sees when `act` is called and the page looks at the mesh."""
+    before = page.evaluate("window.looks.length")
+    act()
+    page.wait_for_function("before => window.looks.length > before", arg=before)
+    return page.evaluate("window.looks.at(-1)")
+
+
+def ready(form):
+    """Waits until a look is shown; the price."""
+    form.get_by_role("status").get_by_text("of sharp edges").wait_for()
+    return form.get_by_text(re.compile("unknowns: about")).inner_text()
+
+
+def pointed(page, canvas, wanted):
+    """A place of the picture under which there is such a part, the last words about it; found from left to right through the middle."""
+    box = canvas.bounding_box()
+    words = page.locator("fieldset p[aria-hidden]")
+    for height in (0.5, 0.4, 0.6, 0.3, 0.7):
+        for x in range(0, int(box["width"]), 3):
+            page.mouse.move(box["x"] + x, box["y"] + height * box["height"])
+            found = re.search(wanted, words.inner_text())
+            if found:
+                return found
+    raise AssertionError(f"nothing of the picture is {wanted}")
 
 
 def swallow(silent):
@@ -153,6 +193,73 @@ def test_a_mesh_that_is_sent_is_being_assembled(service, decks, new_page):
         assert form.get_by_role("button", name="Make the model").is_enabled()
 
 
+def test_clamp_and_contact_line_are_chosen_by_clicks(service, decks, new_page):
+    page = new_page(f"{service.url}/#/models")
+    page.evaluate(KEEPS_LOOKS)
+    form = page.get_by_role("region", name=FORM)
+    seen = looked(page, lambda: choose(page, decks[0]))
+    price = ready(form)
+    assert f"{seen['price']['unknowns']:,} unknowns" in price and "a package of" in price
+    canvas = form.locator("canvas.stage")
+    canvas.scroll_into_view_if_needed()
+    clamp, tip, between = (form.get_by_label(name) for name in ("Clamped patches", "Patch of the tip", "Ends of the contact line"))
+    undo = form.get_by_role("button", name="Undo")
+    # What is pointed at is named; a click takes nothing before it is asked to.
+    patch = int(pointed(page, canvas, r"^Patch (\d+): area")[1]) - 1
+    page.mouse.down()
+    page.mouse.up()
+    assert clamp.input_value() == "" and undo.is_disabled()
+    form.get_by_label("Clamp", exact=True).check()
+    canvas.scroll_into_view_if_needed()
+    patch = int(pointed(page, canvas, r"^Patch (\d+): area")[1]) - 1
+
+    def click():
+        page.mouse.down()
+        page.mouse.up()
+
+    node = seen["patches"][patch]["at"]
+    again = looked(page, click)
+    assert clamp.input_value() == ", ".join(map(str, node))
+    assert again["patches"][patch]["role"] == "clamp" and any(f"patches at node {node[0]}" in line for line in again["found"])
+    # Turned with the pointer it takes nothing, too.
+    page.mouse.down()
+    page.mouse.move(*(place + 40 for place in (canvas.bounding_box()["x"] + 200, canvas.bounding_box()["y"] + 100)))
+    page.mouse.up()
+    assert clamp.input_value() == ", ".join(map(str, node))
+    looked(page, undo.click)
+    assert clamp.input_value() == "" and undo.is_disabled()
+    # A chain of edges.
+    form.get_by_label("Contact line", exact=True).check()
+    canvas.scroll_into_view_if_needed()
+    ends = pointed(page, canvas, r"^Chain of sharp edges, (\d+) to (\d+),").groups()
+    again = looked(page, click)
+    assert between.input_value() == ", ".join(ends)
+    assert {str(again["node_ids"][again["contact_line"][k]]) for k in (0, -1)} == set(ends)
+    # The tables, by keyboard: the tip as it was found, which takes the place of the edge.
+    found = next(k for k, patch in enumerate(seen["patches"]) if patch.get("role") == "contact")
+    button = form.get_by_role("button", name=f"Patch {found + 1} is the tip")
+    button.focus()
+    again = looked(page, lambda: page.keyboard.press("Enter"))
+    assert (tip.input_value(), between.input_value()) == (str(seen["patches"][found]["at"][0]), "")
+    assert again["contact"] == seen["contact"]
+    page.wait_for_function("() => document.activeElement.dataset.choice !== undefined")
+    bore = next(k for k, patch in enumerate(seen["patches"]) if patch.get("role") == "clamp")
+    looked(page, form.get_by_role("button", name=f"Clamp patch {bore + 1}", exact=True).click)
+    form.get_by_label("Top speed", exact=True).fill("36000")
+    asked = settings(page, posted(page, form.get_by_role("button", name="Make the model").click))
+    assert (asked["clamp_at"], asked["contact_at"]) == (seen["patches"][bore]["at"], seen["patches"][found]["at"])
+    page.get_by_role("heading", name="blade.v2", level=1).wait_for(timeout=120_000)
+
+
+def test_a_mesh_that_cannot_be_read_is_not_shown(service, new_page, tmp_path):
+    broken = tmp_path / "broken.inp"
+    broken.write_text("*NODE\n1, 0, 0\n")
+    page = new_page(f"{service.url}/#/models", expected=["422"])
+    form = choose(page, broken)
+    form.get_by_text("The mesh cannot be shown.").wait_for()
+    assert form.locator("canvas").count() == 0 and form.get_by_role("button", name="Make the model").is_enabled()
+
+
 @pytest.mark.parametrize(("width", "theme"), WINDOWS)
 def test_the_form_can_be_read_by_everybody(service, decks, new_page, pictures, width, theme):
     page = new_page(f"{service.url}/#/models", width=width, theme=theme)
@@ -163,4 +270,7 @@ def test_the_form_can_be_read_by_everybody(service, decks, new_page, pictures, w
     form.get_by_label("Young’s modulus").fill("-1")
     form.get_by_role("button", name="Make the model").click()
     form.get_by_text("Correct the marked fields.").wait_for()
+    ready(form)
+    form.get_by_text(re.compile("has no material; give one under “Material”")).wait_for()
+    form.get_by_text(re.compile(r"^Sharp edges")).click()
     judged(page, pictures / f"mesh-form-{width}-{theme}.png")

@@ -55,6 +55,10 @@ export function camera(middle, radius, front) {
       view[14] -= distance();
       return view;
     },
+    /** From the wheel's coordinates to those of a picture with this ratio of width to height. */
+    through(aspect) {
+      return multiply(this.projection(aspect), this.view());
+    },
     /** Of a picture with this ratio of width to height. */
     projection(aspect) {
       const half = Math.tan(HALF) / Math.min(1, aspect);

@@ -84,6 +84,8 @@ export function stage({ label, middle, radius, front }, signal) {
   return {
     canvas,
     reset: moved(eye.reset),
+    /** From the coordinates of what is shown to those of the picture, by columns. */
+    through: () => eye.through(canvas.clientWidth / canvas.clientHeight),
     show: moved(drawn.show),
     scale: moved((factor) => { state.scale = factor; }),
     hide: moved((name, on) => (on ? state.hidden.add(name) : state.hidden.delete(name))),

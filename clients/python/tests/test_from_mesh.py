@@ -106,6 +106,30 @@ def test_settings_are_those_of_the_service(
     np.testing.assert_allclose(named.facts["speeds_rad_s"], from_deck.facts["speeds_rad_s"], rtol=1e-12)
 
 
+def test_patches_that_a_look_lists_are_chosen_by_their_nodes(
+    client: rubmap.Client, bare: Any, from_deck: rubmap.Model, tmp_path: Path
+) -> None:
+    path = tmp_path / "mine.inp"
+    path.write_text(deck(bare))
+    # Neither material nor top speed.
+    look = client.look_at_mesh(path)
+    assert [refusal["step"] for refusal in look["refusals"]] == ["materials"]
+    assert look.get("sectors") == 10 and len(look["positions"]) == 3 * len(look["node_ids"])
+    named = {role: patch["at"] for patch in look["patches"] if (role := patch.get("role"))}
+    assert set(named) == {"low", "high", "clamp", "contact"}
+    chosen = client.model_from_mesh(
+        path, top_speed_rad_s=4000.0, material=TITANIUM, clamp_at=named["clamp"], contact_at=named["contact"][0]
+    )
+    assert chosen.id == from_deck.id
+    # One of the long edges of the tip.
+    edge = look["chains"][0]["nodes"]
+    ends = (look["node_ids"][edge[0]], look["node_ids"][edge[-1]])
+    between = client.look_at_mesh(path, contact_between=ends, material=TITANIUM)
+    assert any(f"along the edge from node {ends[0]} to node {ends[1]}" in line for line in between["found"])
+    with pytest.raises(rubmap.Refusal, match="`clamp_set` and `clamp_at` both say"):
+        client.look_at_mesh(path, clamp_set="BORE", clamp_at=1)
+
+
 def test_what_a_mesh_lacks_is_refused(client: rubmap.Client, bare: Any, tmp_path: Path) -> None:
     path = tmp_path / "mine.inp"
     path.write_text(deck(bare))

@@ -10,6 +10,7 @@ use clap::Args;
 
 use super::arguments::{axis, units};
 use super::findings::describe_findings;
+use super::looks;
 use crate::cli::speed::speed;
 use crate::dynamics::sector::Units;
 use crate::from_mesh::{self, MeshSettings};
@@ -24,8 +25,11 @@ pub(in crate::cli) struct MeshArgs {
     /// Mesh of one sector; its content tells the format
     file: PathBuf,
     /// Highest speed of the stiffness matrices, such as 5000 (rad/s) or 48000rpm
-    #[arg(long, value_parser = speed, required_unless_present = "settings")]
+    #[arg(long, value_parser = speed, required_unless_present_any = ["settings", "look"])]
     top_speed: Option<f64>,
+    /// Print patches and sharp edges of the skin, what was found and what making the model costs, and make none
+    #[arg(long)]
+    look: bool,
     /// Integrate mass at the points of stiffness in every element, as CalculiX does [default: at more points where these leave motions without
     /// mass]
     #[arg(long)]
@@ -33,8 +37,8 @@ pub(in crate::cli) struct MeshArgs {
     #[command(flatten)]
     options: MeshOptions,
     /// Package to write
-    #[arg(long)]
-    out: PathBuf,
+    #[arg(long, required_unless_present = "look")]
+    out: Option<PathBuf>,
     /// Format in which the package stores its matrices
     #[arg(long, value_enum, default_value_t = MatrixFormat::Npz)]
     matrices: MatrixFormat,
@@ -60,6 +64,9 @@ pub(super) struct MeshOptions {
     /// Node set of the clamp [default: the nodes that the file holds, or else the bore]
     #[arg(long)]
     clamp_set: Option<String>,
+    /// Nodes of the smooth patches of the skin that are clamped, instead of a set: `--look` has their numbers
+    #[arg(long, value_name = "NODE,…", value_delimiter = ',', conflicts_with = "clamp_set")]
+    clamp_at: Vec<u64>,
     /// Node set along the blade's tip: a line of nodes, or the whole tip, of which the middle is taken [default: the longest tip that is
     /// found]
     #[arg(long)]
@@ -67,6 +74,9 @@ pub(super) struct MeshOptions {
     /// Two nodes between which the contact line runs along the sharp edges of the skin, instead of a set
     #[arg(long, value_name = "NODE,NODE", value_parser = two_nodes, conflicts_with = "contact_set")]
     contact_between: Option<[u64; 2]>,
+    /// Node of the smooth patch of the skin that is the tip, instead of a set: `--look` has its number
+    #[arg(long, value_name = "NODE,…", value_delimiter = ',', conflicts_with_all = ["contact_set", "contact_between"])]
+    contact_at: Vec<u64>,
     /// Largest number of contact nodes, evenly spaced [default: 10]
     #[arg(long)]
     contact_nodes: Option<usize>,
@@ -83,13 +93,18 @@ pub(super) struct MeshOptions {
 
 /// Makes the package, checks it as an upload would be, writes it and prints what was found.
 pub(super) fn import(args: MeshArgs) -> anyhow::Result<()> {
-    let MeshArgs { file: path, top_speed, mass_as_calculix, options, out, matrices } = args;
+    let MeshArgs { file: path, top_speed, look, mass_as_calculix, options, out, matrices } = args;
     let name = path.display().to_string();
     let file = read(&path)?;
     let mut settings = options.settings(&path, top_speed)?;
     if mass_as_calculix {
         settings.mass = MassRule::AsStiffness;
     }
+    let Some(out) = out.filter(|_| !look) else {
+        let seen = from_mesh::look(&file, &settings).with_context(|| name)?;
+        print!("{}", looks::described(&seen));
+        return Ok(());
+    };
     let sector = from_mesh::sector(&file, &settings).with_context(|| name.clone())?;
     print!("{}", sector.found);
     let package = sector.package().with_context(|| name)?;
@@ -127,7 +142,8 @@ impl MeshOptions {
             None => MeshSettings::new(top_speed.unwrap_or_default()),
             Some(path) => {
                 let text = std::fs::read(path).with_context(|| format!("cannot read {}", path.display()))?;
-                serde_json::from_slice(&text).with_context(|| path.display().to_string())?
+                // A top speed that is left out is refused by its value, where a model is made.
+                MeshSettings::of_look(&text).with_context(|| path.display().to_string())?
             }
         };
         settings.top_speed_rad_s = top_speed.unwrap_or(settings.top_speed_rad_s);
@@ -135,9 +151,12 @@ impl MeshOptions {
         settings.name = self.name.or(settings.name).or(stem);
         settings.sectors = self.sectors.or(settings.sectors);
         settings.axis = self.axis.or(settings.axis);
-        settings.clamp_set = self.clamp_set.or(settings.clamp_set);
-        if self.contact_set.is_some() || self.contact_between.is_some() {
+        if self.clamp_set.is_some() || !self.clamp_at.is_empty() {
+            (settings.clamp_set, settings.clamp_at) = (self.clamp_set, self.clamp_at);
+        }
+        if self.contact_set.is_some() || self.contact_between.is_some() || !self.contact_at.is_empty() {
             (settings.contact_set, settings.contact_between) = (self.contact_set, self.contact_between);
+            settings.contact_at = self.contact_at;
         }
         settings.contact_nodes = self.contact_nodes.unwrap_or(settings.contact_nodes);
         settings.units = self.units.unwrap_or(settings.units);

@@ -4,6 +4,7 @@ mod arguments;
 mod calculix;
 mod casing;
 mod findings;
+mod looks;
 mod matrices;
 mod mesh;
 

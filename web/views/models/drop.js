@@ -49,7 +49,7 @@ export function drop(signal) {
         form = null;
         replace(below);
         input.focus();
-      });
+      }, signal);
       replace(below, form.element);
       form.focus();
     }

@@ -41,7 +41,8 @@ export function sender(signal) {
 /** A file is no longer what it was when it was chosen. */
 class Changed extends Error {}
 
-async function readable(file) {
+/** Whether a file is still what it was when it was chosen. */
+export async function readable(file) {
   try {
     await file.slice(0, 1).arrayBuffer();
     return true;

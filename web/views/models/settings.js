@@ -11,11 +11,14 @@ const WHOLE = { holds: (x) => Number.isInteger(x) && x >= 1, words: 'A whole num
 const AT_LEAST_3 = { holds: (x) => Number.isInteger(x) && x >= 3, words: 'A whole number, at least 3.' };
 const RATIO = { holds: (x) => x > -1 && x < 0.5, words: 'A number above -1 and below 0.5.' };
 const ANY = { holds: (x) => Number.isFinite(x), words: 'A number.' };
+const NODES = { holds: (list) => list.every((node) => Number.isInteger(node) && node >= 0), words: 'Numbers of nodes.' };
+const TWO_NODES = { holds: (list) => list.length === 2 && NODES.holds(list), words: 'Numbers of two nodes.' };
 const PLACE = { holds: (list) => list.length === 3 && list.every(Number.isFinite), words: 'Three numbers: x, y, z.' };
 
 /** Settings as messages of the service name them, in the words of the form. */
 const WORDS = {
   materials: '“Material”', sectors: '“Number of sectors”', axis: '“Axis of rotation”', clamp_set: '“Node set of the clamp”',
+  clamp_at: '“Clamped patches”', contact_at: '“Patch of the tip”', contact_between: '“Ends of the contact line”',
   contact_set: '“Node set of the blade’s tip”', temperatures: '“Temperature”',
 };
 
@@ -30,6 +33,11 @@ function one(name, kind, words, { value, rule, unit = '', extra } = {}) {
   return {
     ...shown,
     unit: beside,
+    /** The value without complaint; nothing where it breaks its rule. */
+    peek() {
+      const is = made.read();
+      return is === undefined || !rule || rule.holds(is) ? is : undefined;
+    },
     read() {
       const is = made.read();
       const wrong = is !== undefined && rule && !rule.holds(is);
@@ -48,6 +56,9 @@ export function settingsFields(name) {
     sectors: one('Number of sectors', 'number', 'Left out: found from the mesh. A single blade on a rigid disk has 1.', { rule: WHOLE }),
     clamp: one('Node set of the clamp', 'text', 'Name of the set that is held. Left out: the nodes that the file holds, or else those of the bore.'),
     contact: one('Node set of the blade’s tip', 'text', 'Name of the set of the contact line, a line of nodes or the whole tip. Left out: the longest tip that is found.'),
+    clampAt: one('Clamped patches', 'numbers', 'Instead of a set: a node inside of each. A click in the picture below chooses them.', { rule: NODES }),
+    contactAt: one('Patch of the tip', 'numbers', 'Instead of a set: a node inside of it, or all corners of one of its faces.', { rule: NODES }),
+    between: one('Ends of the contact line', 'numbers', 'Instead of a set: two nodes on sharp edges.', { rule: TWO_NODES }),
     nodes: one('Number of contact nodes', 'number', 'At most so many along the tip, evenly spaced.', { value: 10, rule: AT_LEAST_3, unit: 'nodes' }),
     modulus: one('Young’s modulus E', 'number', '', { rule: POSITIVE }),
     ratio: one('Poisson’s ratio ν', 'number', '', { rule: RATIO, unit: 'no unit' }),
@@ -58,15 +69,36 @@ export function settingsFields(name) {
   };
   const units = unitSystem(beside);
   beside(units.read());
-  const { name: called, speed, sectors, clamp, contact, nodes, modulus, ratio, density, point, direction, temperature } = fields;
+  const { name: called, speed, sectors, clamp, contact, clampAt, contactAt, between, nodes, modulus, ratio, density, point, direction, temperature } = fields;
   const more = h('details', {}, h('summary', {}, 'Axis of rotation, temperature'), h('div', { class: 'fields' }, [point, direction, temperature].map(({ element }) => element)));
   const element = h('div', {},
-    h('div', { class: 'fields' }, [speed, called, sectors, clamp, contact, nodes, units].map((each) => each.element), units.others),
+    h('div', { class: 'fields' }, [speed, called, sectors, clamp, contact, clampAt, contactAt, between, nodes, units].map((each) => each.element), units.others),
     h('fieldset', {}, h('legend', {}, 'Material'),
       h('p', { class: 'quiet small' }, 'Left out: that of the file. What is given here replaces it for all elements (*).'),
       h('div', { class: 'fields' }, [modulus, ratio, density].map((each) => each.element))),
     more);
-  return { element, read, words, rename, focus: () => speed.control.focus() };
+  const choice = { clamp, contact, clampAt, contactAt, between };
+  return { element, read, seen, chosen, choose, words, rename, focus: () => speed.control.focus() };
+
+  /** Settings for a look at the mesh: those that are right so far. */
+  function seen() {
+    const is = Object.fromEntries(Object.entries(fields).map(([key, each]) => [key, each.peek()]));
+    const whole = ['modulus', 'ratio', 'density'].every((key) => is[key] !== undefined);
+    return { ...settingsOf(is, whole), top_speed_rad_s: undefined };
+  }
+
+  /** The choice of clamp and contact line as texts of their fields. */
+  function chosen() {
+    return Object.fromEntries(Object.entries(choice).map(([key, each]) => [key, each.control.value]));
+  }
+
+  /** Makes another choice of clamp and contact line; fields that are not named stay. */
+  function choose(texts) {
+    for (const [key, text] of Object.entries(texts)) {
+      choice[key].control.value = text;
+      choice[key].complain(null);
+    }
+  }
 
   /** Units beside the fields that have some. */
   function beside({ length, force, mass }) {
@@ -89,19 +121,24 @@ export function settingsFields(name) {
       wrong.control.focus();
       return null;
     }
+    return { name: is.name?.trim() || name, settings: settingsOf(is, given.length > 0) };
+  }
+
+  /** Settings from the values of the fields, with the material or without. */
+  function settingsOf(is, withMaterial) {
     return {
-      name: is.name?.trim() || name,
-      settings: {
-        top_speed_rad_s: is.speed / OF_SPEED[unitOfSpeed.value],
-        units: units.read(),
-        sectors: is.sectors,
-        clamp_set: is.clamp?.trim() || undefined,
-        contact_set: is.contact?.trim() || undefined,
-        contact_nodes: is.nodes,
-        materials: given.length > 0 ? { '*': { youngs_modulus: is.modulus, poissons_ratio: is.ratio, density: is.density } } : undefined,
-        axis: is.direction && { origin: is.point ?? [0, 0, 0], direction: is.direction },
-        temperatures: is.temperature === undefined ? undefined : { '*': is.temperature },
-      },
+      top_speed_rad_s: is.speed / OF_SPEED[unitOfSpeed.value],
+      units: units.read(),
+      sectors: is.sectors,
+      clamp_set: is.clamp?.trim() || undefined,
+      clamp_at: is.clampAt,
+      contact_set: is.contact?.trim() || undefined,
+      contact_at: is.contactAt,
+      contact_between: is.between,
+      contact_nodes: is.nodes,
+      materials: withMaterial ? { '*': { youngs_modulus: is.modulus, poissons_ratio: is.ratio, density: is.density } } : undefined,
+      axis: is.direction && { origin: is.point ?? [0, 0, 0], direction: is.direction },
+      temperatures: is.temperature === undefined ? undefined : { '*': is.temperature },
     };
   }
 

@@ -17,6 +17,7 @@ from .contract import (
     ImpellerRequest,
     MassRule,
     MeasuredCasing,
+    MeshLook,
     ModalAnalysisRequest,
     RunUpRequest,
     StudyRequest,
@@ -25,7 +26,7 @@ from .contract import (
 )
 from .gmsh_text import Mesh
 from .jobs import Job, ModelGeneration, asked_of
-from .mesh import file_of, settings_of
+from .mesh import file_of, nodes_of, settings_of
 from .models import Model
 from .results import Branches, Campaign, CaseStudy, ModalAnalysis, RunUps, Study, Sweep
 from .service import Service, plain
@@ -95,7 +96,10 @@ class Client:
         material: Sequence[float] | None = None,
         units: Units | None = None,
         clamp_set: str | None = None,
+        clamp_at: int | Sequence[int] | None = None,
         contact_set: str | None = None,
+        contact_at: int | Sequence[int] | None = None,
+        contact_between: tuple[int, int] | None = None,
         contact_nodes: int | None = None,
         gyroscopic: bool | None = None,
         mass: MassRule | None = None,
@@ -119,7 +123,10 @@ class Client:
             material: Young's modulus, Poisson's ratio and density of all other elements.
             units: of length, force, time, mass, consistent; mm, N, s, t if nothing is said.
             clamp_set: node set of the clamp; by default the nodes that the file holds, or else the bore.
+            clamp_at: instead of a set: nodes of the smooth patches of the skin that are clamped; :meth:`look_at_mesh` has their numbers.
             contact_set: node set along the blade's tip; by default the longest tip that is found.
+            contact_at: instead of a set: the node of the smooth patch of the skin that is the tip.
+            contact_between: instead of a set: two nodes between which the contact line runs along sharp edges.
             contact_nodes: how many nodes along it may touch, at most.
             gyroscopic: whether Coriolis forces can be considered; by default they can.
             mass: rule by which mass is integrated.
@@ -142,7 +149,10 @@ class Client:
             material=material,
             units=units,
             clamp_set=clamp_set,
+            clamp_at=nodes_of(clamp_at),
             contact_set=contact_set,
+            contact_at=nodes_of(contact_at),
+            contact_between=nodes_of(contact_between),
             contact_nodes=contact_nodes,
             gyroscopic=gyroscopic,
             mass=mass,
@@ -154,6 +164,58 @@ class Client:
         with file_of(mesh, (clamp_set, contact_set)) as path:
             facts = self.service.upload("/v1/models", lambda: _pieces(path), query, "application/octet-stream")
         return Model(self.service, facts)
+
+    def look_at_mesh(
+        self,
+        mesh: str | os.PathLike[str] | Mesh,
+        *,
+        sectors: int | None = None,
+        axis: Any = None,
+        clamp_set: str | None = None,
+        clamp_at: int | Sequence[int] | None = None,
+        contact_set: str | None = None,
+        contact_at: int | Sequence[int] | None = None,
+        contact_between: tuple[int, int] | None = None,
+        contact_nodes: int | None = None,
+        **others: Any,
+    ) -> MeshLook:
+        """A mesh before a model is made of it: the smooth patches and sharp edges of its skin, the cyclic faces, clamp and contact line as far as
+        they are found, and what making the model costs. Nothing is stored, and neither material nor top speed is needed.
+
+        ``patches`` have in ``at`` the nodes that name them in ``clamp_at`` and ``contact_at``; ``refusals`` says what could not be found.
+
+        Args:
+            mesh: a file, or a ``meshio.Mesh``, as for :meth:`model_from_mesh`, where the other arguments are described, too.
+            sectors: N, the number of identical sectors of the wheel.
+            axis: of rotation.
+            clamp_set: node set of the clamp.
+            clamp_at: nodes of the patches that are clamped.
+            contact_set: node set along the blade's tip.
+            contact_at: the node of the patch that is the tip.
+            contact_between: two nodes between which the contact line runs.
+            contact_nodes: how many nodes along it may touch, at most.
+            others: other arguments of :meth:`model_from_mesh`, such as ``material``.
+
+        Raises:
+            Refusal: the mesh cannot be read, or arguments contradict each other.
+        """
+        given = {"top_speed_rad_s": None, "top_speed_rpm": None, "material": None, "materials": None} | others
+        settings = settings_of(
+            needs_speed=False,
+            sectors=sectors,
+            axis=axis,
+            clamp_set=clamp_set,
+            clamp_at=nodes_of(clamp_at),
+            contact_set=contact_set,
+            contact_at=nodes_of(contact_at),
+            contact_between=nodes_of(contact_between),
+            contact_nodes=contact_nodes,
+            **given,
+        )
+        query = {"settings": json.dumps(plain(settings), allow_nan=False)}
+        with file_of(mesh, (clamp_set, contact_set)) as path:
+            look = self.service.upload("/v1/meshes/look", lambda: _pieces(path), query, "application/octet-stream")
+        return cast(MeshLook, look)
 
     def generate(self, request: ImpellerRequest) -> ModelGeneration:
         """A parametric impeller: a job whose ``model`` is the id of the model."""

@@ -30,6 +30,13 @@ class AngularGap(TypedDict):
 ArchiveZip: TypeAlias = bytes
 
 
+class AssemblyPrice(TypedDict):
+    memory_bytes: int
+    package_bytes: int
+    seconds: float
+    unknowns: int
+
+
 AutoOr: TypeAlias = Literal["auto"] | int
 
 
@@ -411,6 +418,11 @@ class Lobes(TypedDict, closed=True):
     width_rad: float
 
 
+LookStep: TypeAlias = Literal[
+    "materials", "mesh", "sectors", "clamp", "contact", "memory"
+]
+
+
 class Machine(TypedDict):
     name: str
     processor: str
@@ -453,12 +465,21 @@ class Measured(TypedDict, closed=True):
 MeshBytes: TypeAlias = bytes
 
 
+class MeshChain(TypedDict):
+    cyclic: bool
+    length: float
+    nodes: list[int]
+
+
 class MeshDensities(TypedDict, closed=True):
     between_contact_nodes: NotRequired[int]
     blade_height: NotRequired[int]
     blade_thickness: NotRequired[int]
     disk: NotRequired[int]
     half_passage: NotRequired[int]
+
+
+MeshRole: TypeAlias = Literal["low", "high", "clamp", "contact"]
 
 
 class Mistuning(TypedDict, closed=True):
@@ -1255,6 +1276,11 @@ class Integration(TypedDict, closed=True):
     window_revolutions: NotRequired[int]
 
 
+class LookRefusal(TypedDict):
+    detail: str
+    step: LookStep
+
+
 class MeasuredSurvey(TypedDict):
     gap_count: int
     gaps: list[AngularGap]
@@ -1270,9 +1296,22 @@ class MeshFacts(TypedDict):
     tip_thickness: NotRequired[float]
 
 
+class MeshPatch(TypedDict):
+    area: float
+    at: list[int]
+    axial: NotRequired[float]
+    centre: list[float]
+    nodes: int
+    radius: NotRequired[float]
+    role: NotRequired[MeshRole]
+    triangles: int
+
+
 class MeshSettings(TypedDict, closed=True):
     axis: NotRequired[dict[str, Any]]
+    clamp_at: NotRequired[list[int]]
     clamp_set: NotRequired[str]
+    contact_at: NotRequired[list[int]]
     contact_between: NotRequired[list[int] | None]
     contact_nodes: NotRequired[int]
     contact_set: NotRequired[str]
@@ -1621,6 +1660,22 @@ class MeasuredCasing(TypedDict):
     filled_count: int
     measured: Measured
     survey: MeasuredSurvey
+
+
+class MeshLook(TypedDict):
+    axis: NotRequired[list[list[float]] | None]
+    chains: list[MeshChain]
+    clamped: list[int]
+    contact: list[int]
+    contact_line: list[int]
+    found: list[str]
+    node_ids: list[int]
+    patches: list[MeshPatch]
+    positions: list[float]
+    price: AssemblyPrice
+    refusals: list[LookRefusal]
+    sectors: NotRequired[int]
+    triangles: list[int]
 
 
 class ModalAnalysisRequest(TypedDict, closed=True):

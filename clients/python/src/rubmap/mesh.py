@@ -29,6 +29,7 @@ def settings_of(
     *,
     top_speed_rad_s: float | None,
     top_speed_rpm: float | None,
+    needs_speed: bool = True,
     axis: Any,
     material: Sequence[float] | None,
     materials: Mapping[str, Any] | None,
@@ -39,7 +40,7 @@ def settings_of(
     Raises:
         ValueError: arguments that contradict each other, or that are not what they are to be.
     """
-    if (top_speed_rad_s is None) == (top_speed_rpm is None):
+    if needs_speed and (top_speed_rad_s is None) == (top_speed_rpm is None):
         raise ValueError("give the top speed once: top_speed_rad_s or top_speed_rpm")
     top = top_speed_rad_s if top_speed_rpm is None else top_speed_rpm * math.tau / 60.0
     of_sets = dict(materials or {})
@@ -51,6 +52,11 @@ def settings_of(
         of_sets["*"] = dict(zip(("youngs_modulus", "poissons_ratio", "density"), material, strict=True))
     given = {"top_speed_rad_s": top, "axis": None if axis is None else axis_of(axis), "materials": of_sets or None}
     return {name: value for name, value in (given | others).items() if value is not None}
+
+
+def nodes_of(nodes: int | Sequence[int] | None) -> list[int] | None:
+    """Numbers of nodes as a list, of which one may stand alone."""
+    return nodes if nodes is None else [int(node) for node in ([nodes] if isinstance(nodes, int) else nodes)]
 
 
 def axis_of(axis: Any) -> dict[str, list[float]]:

@@ -15,11 +15,7 @@ use crate::package::by_place::NodeGrid;
 const SAME: f64 = 1e-2;
 
 /// Makes the mesh of all elements, without axis, pairs and sectors; nodes without an element are left out.
-pub(super) fn body(
-    file: &MeshFile,
-    sets: Vec<ElementSet>,
-    set_of: &HashMap<u64, u32>,
-) -> Result<SectorMesh, FromMeshError> {
+pub(super) fn body(file: &MeshFile, sets: Vec<ElementSet>, set_of: &HashMap<u64, u32>) -> SectorMesh {
     let mut used: Vec<u64> = file.elements.values().flat_map(|element| &element.nodes).copied().collect();
     used.sort_unstable();
     used.dedup();
@@ -31,7 +27,7 @@ pub(super) fn body(
         set: set_of.get(&id).copied().unwrap_or(0),
         nodes: element.nodes.iter().filter_map(|node| index.get(node).copied()).collect(),
     });
-    let mesh = SectorMesh {
+    SectorMesh {
         sectors: 1,
         node_ids: used,
         nodes,
@@ -39,11 +35,14 @@ pub(super) fn body(
         cyclic: Vec::new(),
         elements: elements.collect(),
         sets,
-    };
-    check_elements(file, &mesh)?;
-    check_twins(&mesh)?;
-    check_connected(&mesh)?;
-    Ok(mesh)
+    }
+}
+
+/// Refuses elements that are not whole, two nodes at one place, and several bodies.
+pub(super) fn check(file: &MeshFile, mesh: &SectorMesh) -> Result<(), FromMeshError> {
+    check_elements(file, mesh)?;
+    check_twins(mesh)?;
+    check_connected(mesh)
 }
 
 fn check_elements(file: &MeshFile, mesh: &SectorMesh) -> Result<(), FromMeshError> {

@@ -1,4 +1,4 @@
-//! Clamped nodes: of a set, as the file holds them, or the bore.
+//! Clamped nodes: of a set, of patches, as the file holds them, or the bore.
 
 use rubmap_mesh::MeshFile;
 use rubmap_solid::frame::AxisFrame;
@@ -6,6 +6,7 @@ use rubmap_solid::mesh::SectorMesh;
 
 use super::cyclic::Symmetry;
 use super::error::FromMeshError;
+use super::patches::patches_at;
 use super::settings::MeshSettings;
 use super::surface::Face;
 
@@ -24,6 +25,8 @@ pub enum ClampSource {
     File,
     /// Surface of the bore, with its radius.
     Bore(f64),
+    /// Patches that these nodes name.
+    Patches(Vec<u64>),
 }
 
 /// Whether each node is clamped, and why.
@@ -38,6 +41,12 @@ pub(super) fn clamped(
     let (mut clamped, source) = if let Some(name) = &settings.clamp_set {
         let nodes = super::sets::node_set(file, name)?;
         (marked(mesh, |id| nodes.binary_search(&id).is_ok()), ClampSource::Set(name.clone()))
+    } else if !settings.clamp_at.is_empty() {
+        let named = patches_at(mesh, surface, symmetry, "clamp_at", &settings.clamp_at)?;
+        (
+            of_faces(mesh, surface, named.into_iter().flatten()),
+            ClampSource::Patches(settings.clamp_at.clone()),
+        )
     } else if !file.held.is_empty() {
         (marked(mesh, |id| file.held.contains(&id)), ClampSource::File)
     } else {
@@ -58,6 +67,13 @@ fn marked(mesh: &SectorMesh, is: impl Fn(u64) -> bool) -> Vec<bool> {
     mesh.node_ids.iter().map(|&id| is(id)).collect()
 }
 
+/// Whether each node belongs to one of these faces of the skin.
+fn of_faces(mesh: &SectorMesh, surface: &[Face], faces: impl Iterator<Item = usize>) -> Vec<bool> {
+    let mut marked = vec![false; mesh.nodes.len()];
+    faces.flat_map(|face| &surface[face].skin.nodes).for_each(|&node| marked[node as usize] = true);
+    marked
+}
+
 /// Nodes of the faces at the smallest radius.
 fn bore(
     mesh: &SectorMesh,
@@ -73,12 +89,8 @@ fn bore(
     if least < LEAST_BORE * most {
         return Err(FromMeshError::NoBore);
     }
-    let mut clamped = vec![false; mesh.nodes.len()];
     let at_bore = |node: &u32| radius[*node as usize] <= least * (1.0 + SAME_RADIUS);
-    for (k, face) in surface.iter().enumerate() {
-        if !symmetry.faces.contains(&k) && face.corners().iter().all(at_bore) {
-            face.skin.nodes.iter().for_each(|&node| clamped[node as usize] = true);
-        }
-    }
+    let on_bore = |&k: &usize| !symmetry.faces.contains(&k) && surface[k].corners().iter().all(at_bore);
+    let clamped = of_faces(mesh, surface, (0..surface.len()).filter(on_bore));
     if clamped.contains(&true) { Ok((clamped, ClampSource::Bore(least))) } else { Err(FromMeshError::NoBore) }
 }

@@ -23,7 +23,7 @@ pub(super) fn between(mesh: &SectorMesh, surface: &[Face], ends: [u64; 2]) -> Re
 }
 
 /// Neighbours of every node on a sharp edge, those in the middle of edges included.
-fn sharp(surface: &[Face]) -> BTreeMap<u32, Vec<u32>> {
+pub(super) fn sharp(surface: &[Face]) -> BTreeMap<u32, Vec<u32>> {
     let mut graph: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
     for ([a, b], faces) in sides(surface, 0..surface.len()) {
         let [one, other] = faces[..] else { continue };

@@ -215,11 +215,13 @@ pub enum FromMeshError {
     NothingClamped,
     /// Wheel without a bore, and without a stated clamp.
     #[error(
-        "nothing says where the wheel is held: the file holds no nodes and there is no bore; name a node set with `clamp_set`"
+        "nothing says where the wheel is held: the file holds no nodes and there is no bore; name a node set with `clamp_set`, or a node of the clamped face with `clamp_at`"
     )]
     NoBore,
     /// Skin without a recognisable tip.
-    #[error("no blade tip was found on the skin; name a node set along the tip with `contact_set`")]
+    #[error(
+        "no blade tip was found on the skin; name a node set along the tip with `contact_set`, or a node of the tip with `contact_at`"
+    )]
     NoTip,
     /// Contact set that is neither a line nor an area.
     #[error(
@@ -273,7 +275,7 @@ pub enum FromMeshError {
     )]
     NothingHeld,
     /// Clamp of the settings beside matrices, whose rows say what is clamped.
-    #[error("matrices clamp the nodes that have no rows; leave `clamp_set` out")]
+    #[error("matrices clamp the nodes that have no rows; leave `clamp_set` and `clamp_at` out")]
     ClampBesideMatrices,
     /// Pair of nodes of which one has rows.
     #[error(
@@ -294,9 +296,43 @@ pub enum FromMeshError {
         /// Card that says so.
         card: String,
     },
-    /// Two ways to the contact line.
-    #[error("`contact_set` and `contact_between` both say where the contact line is; leave one out")]
-    TwoContacts,
+    /// Settings that choose one thing in two ways.
+    #[error("{} both say where the {of} is; leave one out", .settings.map(|name| format!("`{name}`")).join(" and "))]
+    Conflict {
+        /// Names of the settings.
+        settings: [&'static str; 2],
+        /// Part of the model that they choose.
+        of: &'static str,
+    },
+    /// Node of a setting that lies on no free face of the skin.
+    #[error(
+        "node {node} of `{setting}` lies on no free face of the skin: it is on a cyclic face, inside of the body, or not in the mesh"
+    )]
+    OffSkin {
+        /// Number of the node.
+        node: u64,
+        /// Name of the setting.
+        setting: &'static str,
+    },
+    /// Node of a setting on an edge of several patches.
+    #[error(
+        "node {node} of `{setting}` lies on an edge of {patches} patches of the skin; name a node inside of one, or all corners of one of its \
+         faces"
+    )]
+    OnEdge {
+        /// Number of the node.
+        node: u64,
+        /// Name of the setting.
+        setting: &'static str,
+        /// Number of patches around the node.
+        patches: usize,
+    },
+    /// Nodes of the tip on several patches.
+    #[error("the nodes of `contact_at` name {patches} patches of the skin; a tip is one")]
+    TwoTips {
+        /// Number of patches.
+        patches: usize,
+    },
     /// Row of a node that the mesh does not have.
     #[error("the matrices have a row of node {node}, component {component}, which the mesh does not have")]
     RowWithoutNode {

@@ -5,7 +5,7 @@ use std::fmt;
 
 use rubmap_mesh::MeshFile;
 use rubmap_solid::element::ElementKind;
-use rubmap_solid::mesh::SectorMesh;
+use rubmap_solid::mesh::{ElementSet, SectorMesh};
 
 use super::clamp::ClampSource;
 use super::contact_points::Contact;
@@ -62,17 +62,10 @@ impl Found {
         tip: Tip,
         contact: &Contact,
     ) -> Self {
-        let mut elements: BTreeMap<&'static str, usize> = BTreeMap::new();
-        for element in &mesh.elements {
-            *elements.entry(element.kind.name()).or_default() += 1;
-        }
+        let elements = kinds(mesh);
         let mut notes = file.notes.clone();
         notes.extend(locking(mesh));
         notes.extend(tip.notes);
-        let constants = |set: &rubmap_solid::mesh::ElementSet| {
-            let material = &set.material;
-            (set.name.clone(), [material.youngs_modulus, material.poissons_ratio, material.density])
-        };
         Self {
             format: file.format.name(),
             nodes: mesh.nodes.len(),
@@ -83,24 +76,28 @@ impl Found {
             axis: [mesh.axis.0, mesh.axis.1],
             pairs: symmetry.pairs.len(),
             farthest: symmetry.farthest,
-            on_axis: mesh
-                .on_axis()
-                .iter()
-                .zip(clamped)
-                .filter(|(on_axis, held)| **on_axis && !**held)
-                .count(),
+            on_axis: on_axis(mesh, clamped),
             clamp: (clamp, clamped.iter().filter(|&&held| held).count()),
             tip: (tip.source, contact.of_line),
             contact: contact.points.clone(),
             spacing: contact.spacing,
-            materials: mesh.sets.iter().map(constants).collect(),
+            materials: mesh.sets.iter().map(|set| (set.name.clone(), constants(set))).collect(),
             notes,
         }
     }
 }
 
+/// Number of elements by kind.
+pub(super) fn kinds(mesh: &SectorMesh) -> BTreeMap<&'static str, usize> {
+    let mut kinds = BTreeMap::new();
+    for element in &mesh.elements {
+        *kinds.entry(element.kind.name()).or_default() += 1;
+    }
+    kinds
+}
+
 /// Warning about elements that are too stiff in bending.
-fn locking(mesh: &SectorMesh) -> Option<String> {
+pub(super) fn locking(mesh: &SectorMesh) -> Option<String> {
     let stiff = |kind: ElementKind| {
         matches!(kind, ElementKind::C3D4 | ElementKind::C3D5 | ElementKind::C3D6 | ElementKind::C3D8)
     };
@@ -117,56 +114,106 @@ fn locking(mesh: &SectorMesh) -> Option<String> {
 
 impl fmt::Display for Found {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let kinds: Vec<String> =
-            self.elements.iter().map(|(kind, count)| format!("{count} {kind}")).collect();
-        writeln!(f, "{}: {} nodes, {}", self.format, self.nodes, kinds.join(", "))?;
+        writeln!(f, "{}", body_line(self.format, self.nodes, &self.elements))?;
         for (kind, count) in &self.left_out {
-            writeln!(f, "left out: {count} of type {kind}")?;
+            writeln!(f, "{}", left_out_line(kind, *count))?;
         }
-        for (set, [e, nu, rho]) in &self.materials {
-            writeln!(f, "material of {set}: E = {e}, ν = {nu}, ρ = {rho:?}")?;
+        for (set, constants) in &self.materials {
+            writeln!(f, "{}", material_line(set, *constants))?;
         }
-        let [origin, direction] = self.axis.map(|v| v.map(|x| x.to_string()).join(", "));
-        writeln!(f, "axis: through ({origin}) along ({direction})")?;
-        let how = if self.sectors_found { "found" } else { "as stated" };
-        write!(f, "sectors: {} ({how})", self.sectors)?;
-        match self.pairs {
-            0 => writeln!(f, ", no cyclic faces")?,
-            pairs => writeln!(
-                f,
-                "; {pairs} pairs of nodes on the cyclic faces, at most {:.1e} apart",
-                self.farthest
-            )?,
-        }
-        if self.on_axis > 0 {
-            writeln!(f, "axis: {} free nodes on it, shared by all sectors", self.on_axis)?;
+        writeln!(f, "{}", axis_line(self.axis))?;
+        writeln!(f, "{}", sectors_line(self.sectors, self.sectors_found, self.pairs, self.farthest))?;
+        if let Some(line) = on_axis_line(self.on_axis) {
+            writeln!(f, "{line}")?;
         }
         let (clamp, count) = &self.clamp;
-        match clamp {
-            ClampSource::Set(name) => writeln!(f, "clamp: {count} nodes of the set {name}")?,
-            ClampSource::File => writeln!(f, "clamp: {count} nodes, as the file holds them")?,
-            ClampSource::Bore(radius) => {
-                writeln!(f, "clamp: {count} nodes of the bore found at r = {}", digits(*radius))?
-            }
-        }
+        writeln!(f, "{}", clamp_line(clamp, *count))?;
         let (tip, count) = &self.tip;
-        match tip {
-            TipSource::Line(name) => write!(f, "contact: line of {count} nodes of the set {name}")?,
-            TipSource::Area(name) => write!(f, "contact: {count} nodes in the middle of the set {name}")?,
-            TipSource::Edge([a, b]) => {
-                write!(f, "contact: {count} nodes along the edge from node {a} to node {b}")?
-            }
-            TipSource::Found(tips) => {
-                write!(f, "contact: {count} nodes in the middle of the longest of {tips} blade tips found")?;
-            }
-        }
-        let [least, most] = self.spacing;
-        writeln!(f, "; {} used, {} to {} apart", self.contact.len(), digits(least), digits(most))?;
+        writeln!(f, "{}", contact_line(tip, *count, self.contact.len(), self.spacing))?;
         for note in &self.notes {
             writeln!(f, "note: {note}")?;
         }
         Ok(())
     }
+}
+
+/// Line about the body: format, number of nodes, elements by kind.
+pub(super) fn body_line(format: &str, nodes: usize, elements: &BTreeMap<&'static str, usize>) -> String {
+    let kinds: Vec<String> = elements.iter().map(|(kind, count)| format!("{count} {kind}")).collect();
+    format!("{format}: {nodes} nodes, {}", kinds.join(", "))
+}
+
+/// Line about elements that were left out.
+pub(super) fn left_out_line(kind: &str, count: usize) -> String {
+    format!("left out: {count} of type {kind}")
+}
+
+/// Young's modulus, Poisson's ratio and density of an element set.
+pub(super) fn constants(set: &ElementSet) -> [f64; 3] {
+    [set.material.youngs_modulus, set.material.poissons_ratio, set.material.density]
+}
+
+/// Line about the material of an element set.
+pub(super) fn material_line(set: &str, [e, nu, rho]: [f64; 3]) -> String {
+    format!("material of {set}: E = {e}, ν = {nu}, ρ = {rho:?}")
+}
+
+/// Line about the axis of rotation: a point on it, and its direction.
+pub(super) fn axis_line(axis: [[f64; 3]; 2]) -> String {
+    let [origin, direction] = axis.map(|v| v.map(|x| x.to_string()).join(", "));
+    format!("axis: through ({origin}) along ({direction})")
+}
+
+/// Line about the cyclic faces.
+pub(super) fn sectors_line(sectors: usize, found: bool, pairs: usize, farthest: f64) -> String {
+    let how = if found { "found" } else { "as stated" };
+    let faces = match pairs {
+        0 => ", no cyclic faces".to_owned(),
+        pairs => format!("; {pairs} pairs of nodes on the cyclic faces, at most {farthest:.1e} apart"),
+    };
+    format!("sectors: {sectors} ({how}){faces}")
+}
+
+/// Number of free nodes on the axis of several sectors.
+pub(super) fn on_axis(mesh: &SectorMesh, clamped: &[bool]) -> usize {
+    mesh.on_axis().iter().zip(clamped).filter(|(on_axis, held)| **on_axis && !**held).count()
+}
+
+/// Line about free nodes on the axis, if there are any.
+pub(super) fn on_axis_line(count: usize) -> Option<String> {
+    (count > 0).then(|| format!("axis: {count} free nodes on it, shared by all sectors"))
+}
+
+/// Line about the clamp.
+pub(super) fn clamp_line(source: &ClampSource, count: usize) -> String {
+    let what = match source {
+        ClampSource::Set(name) => format!("nodes of the set {name}"),
+        ClampSource::File => return format!("clamp: {count} nodes, as the file holds them"),
+        ClampSource::Bore(radius) => format!("nodes of the bore found at r = {}", digits(*radius)),
+        ClampSource::Patches(nodes) => format!("nodes of the patches at {}", named(nodes)),
+    };
+    format!("clamp: {count} {what}")
+}
+
+/// Line about the contact nodes: usable ones, those used, and the distances between neighbours.
+pub(super) fn contact_line(source: &TipSource, count: usize, used: usize, spacing: [f64; 2]) -> String {
+    let what = match source {
+        TipSource::Line(name) => format!("line of {count} nodes of the set {name}"),
+        TipSource::Area(name) => format!("{count} nodes in the middle of the set {name}"),
+        TipSource::Edge([a, b]) => format!("{count} nodes along the edge from node {a} to node {b}"),
+        TipSource::Patch(nodes) => format!("{count} nodes in the middle of the patch at {}", named(nodes)),
+        TipSource::Found(tips) => {
+            format!("{count} nodes in the middle of the longest of {tips} blade tips found")
+        }
+    };
+    let [least, most] = spacing.map(digits);
+    format!("contact: {what}; {used} used, {least} to {most} apart")
+}
+
+/// Nodes by their numbers.
+fn named(nodes: &[u64]) -> String {
+    let numbers: Vec<String> = nodes.iter().map(u64::to_string).collect();
+    format!("node{} {}", if nodes.len() > 1 { "s" } else { "" }, numbers.join(", "))
 }
 
 /// Number with five significant digits.

@@ -31,7 +31,7 @@ pub fn package_with_matrices(
     settings: &MeshSettings,
     matrices: &FileMatrices,
 ) -> Result<(RawPackage, Found), FromMeshError> {
-    if settings.clamp_set.is_some() {
+    if settings.clamp_set.is_some() || !settings.clamp_at.is_empty() {
         return Err(FromMeshError::ClampBesideMatrices);
     }
     if let Some((line, card)) = file.nodal_frames.clone() {

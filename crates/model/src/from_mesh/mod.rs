@@ -5,6 +5,7 @@
 //! ```
 
 mod body;
+mod chains;
 mod clamp;
 mod conforming;
 mod contact_points;
@@ -12,10 +13,13 @@ mod cyclic;
 mod edges;
 pub mod error;
 mod found;
+mod look;
 mod materials;
 mod matrices;
 mod midline;
 mod opposite;
+mod parts;
+mod patches;
 mod sector;
 mod sets;
 mod settings;
@@ -27,8 +31,10 @@ mod way;
 pub use clamp::ClampSource;
 pub use error::FromMeshError;
 pub use found::Found;
+pub use look::{LookRefusal, LookStep, MeshChain, MeshLook, look};
 pub use matrices::{FileMatrices, package_with_matrices};
+pub use parts::{MeshPatch, MeshRole};
 pub use sector::{Sector, sector};
 pub use settings::MeshSettings;
 pub use tip::TipSource;
-pub use upload::{sector_of_mesh, sector_of_package};
+pub use upload::{look_at_mesh, sector_of_mesh, sector_of_package};

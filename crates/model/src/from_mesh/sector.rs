@@ -29,7 +29,8 @@ pub struct Sector {
 pub fn sector(file: &MeshFile, settings: &MeshSettings) -> Result<Sector, FromMeshError> {
     check_settings(settings)?;
     let (sets, set_of) = materials::assigned(file, settings)?;
-    let mut mesh = body::body(file, sets, &set_of)?;
+    let mut mesh = body::body(file, sets, &set_of);
+    body::check(file, &mesh)?;
     let surface = surface::surface(&mesh);
     conforming::check(&mesh, &surface)?;
     let symmetry = cyclic::symmetry(file, settings, &mesh, &surface)?;
@@ -68,14 +69,33 @@ fn check_settings(settings: &MeshSettings) -> Result<(), FromMeshError> {
     if !(settings.top_speed_rad_s > 0.0 && settings.top_speed_rad_s.is_finite()) {
         return Err(FromMeshError::TopSpeed(settings.top_speed_rad_s));
     }
+    check_choices(settings)
+}
+
+/// Refuses settings of which only one may be given, units that do not fit each other, and too few contact nodes.
+pub(super) fn check_choices(settings: &MeshSettings) -> Result<(), FromMeshError> {
     units::check(&settings.units).map_err(|(_, problem)| FromMeshError::Units(problem.to_string()))?;
-    if settings.contact_set.is_some() && settings.contact_between.is_some() {
-        return Err(FromMeshError::TwoContacts);
-    }
+    let clamps = [("clamp_set", settings.clamp_set.is_some()), ("clamp_at", !settings.clamp_at.is_empty())];
+    let contacts = [
+        ("contact_set", settings.contact_set.is_some()),
+        ("contact_between", settings.contact_between.is_some()),
+        ("contact_at", !settings.contact_at.is_empty()),
+    ];
+    one_at_most(&clamps, "clamp")?;
+    one_at_most(&contacts, "contact line")?;
     if settings.contact_nodes < contact_points::LEAST {
         return Err(FromMeshError::ContactNodes(settings.contact_nodes));
     }
     Ok(())
+}
+
+/// Refuses settings of which two are given for one part of the model.
+fn one_at_most(settings: &[(&'static str, bool)], of: &'static str) -> Result<(), FromMeshError> {
+    let mut given = settings.iter().filter(|(_, given)| *given).map(|(name, _)| *name);
+    match (given.next(), given.next()) {
+        (Some(one), Some(other)) => Err(FromMeshError::Conflict { settings: [one, other], of }),
+        _ => Ok(()),
+    }
 }
 
 impl Sector {

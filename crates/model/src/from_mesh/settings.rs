@@ -46,12 +46,20 @@ pub struct MeshSettings {
     /// Node set of the clamp. If left out, the nodes that the file holds are clamped, and if it holds none, those of the bore.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub clamp_set: Option<String>,
+    /// Nodes of the smooth patches of the skin that are clamped, instead of a set: of each patch a node away from its edges, or all corners of
+    /// one of its faces.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub clamp_at: Vec<u64>,
     /// Node set along the blade's tip, a line of nodes or the whole tip; found as the longest tip if left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub contact_set: Option<String>,
     /// Nodes between which the contact line runs along the sharp edges of the skin, instead of a set.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub contact_between: Option<[u64; 2]>,
+    /// Node of the smooth patch of the skin that is the tip, away from its edges, instead of a set; or all corners of one of its faces. The
+    /// contact line runs in the middle of its thickness.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub contact_at: Vec<u64>,
     /// Largest number of contact nodes, evenly spaced.
     #[serde(default = "default_contact_nodes")]
     pub contact_nodes: usize,
@@ -88,11 +96,23 @@ impl MeshSettings {
             materials: BTreeMap::new(),
             temperatures: BTreeMap::new(),
             clamp_set: None,
+            clamp_at: Vec::new(),
             contact_set: None,
             contact_between: None,
+            contact_at: Vec::new(),
             contact_nodes: CONTACT_NODES,
             mass: MassRule::default(),
             gyroscopic: true,
         }
+    }
+
+    /// Settings of a look at a mesh from JSON: those of a model, of which the top speed may be left out.
+    ///
+    /// # Errors
+    /// Text that is no object of settings.
+    pub fn of_look(text: &[u8]) -> serde_json::Result<Self> {
+        let mut fields: serde_json::Map<String, serde_json::Value> = serde_json::from_slice(text)?;
+        fields.entry("top_speed_rad_s").or_insert_with(|| 0.0.into());
+        serde_json::from_value(fields.into())
     }
 }

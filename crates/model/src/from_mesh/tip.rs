@@ -14,8 +14,9 @@ use super::cyclic::Symmetry;
 use super::edges::between;
 use super::error::FromMeshError;
 use super::midline::{along, midline};
+use super::patches::{one_patch_at, patches};
 use super::settings::MeshSettings;
-use super::surface::{Face, SMOOTH, sides};
+use super::surface::{Face, sides};
 use super::way::Line;
 use crate::package::calculix::nearest_neighbours;
 
@@ -46,6 +47,8 @@ pub enum TipSource {
     Area(String),
     /// Sharp edges between two nodes.
     Edge([u64; 2]),
+    /// Middle of the patch that these nodes name.
+    Patch(Vec<u64>),
     /// Middle of the longest of the tips that were found, and their number.
     Found(usize),
 }
@@ -62,7 +65,7 @@ pub(super) struct Tip {
     pub(super) notes: Vec<String>,
 }
 
-/// Contact line: between two nodes, of a set, or along the longest tip.
+/// Contact line: between two nodes, along a named patch, of a set, or along the longest tip.
 pub(super) fn tip(
     file: &MeshFile,
     settings: &MeshSettings,
@@ -75,6 +78,10 @@ pub(super) fn tip(
         |line, source| Tip { line: in_order(line, axis), source, faces: Vec::new(), notes: Vec::new() };
     if let Some(ends) = settings.contact_between {
         return Ok(of_line(between(mesh, surface, ends)?, TipSource::Edge(ends)));
+    }
+    if !settings.contact_at.is_empty() {
+        let faces = one_patch_at(mesh, surface, symmetry, &settings.contact_at)?;
+        return Ok(of_strip(mesh, surface, axis, faces, TipSource::Patch(settings.contact_at.clone())));
     }
     let Some(name) = &settings.contact_set else {
         let mut tips = tips(mesh, surface, symmetry, axis);
@@ -174,35 +181,6 @@ fn tips(
     let patches = patches(surface, &sides, free());
     let faces = patches.into_iter().filter(is_tip).map(|patch| patch.into_iter().collect::<Vec<_>>());
     faces.map(|faces| (midline(mesh, surface, &faces).length(), faces)).collect()
-}
-
-/// Smooth patches of some faces.
-fn patches(
-    surface: &[Face],
-    sides: &HashMap<[u32; 2], Vec<usize>>,
-    free: impl Iterator<Item = usize>,
-) -> Vec<BTreeSet<usize>> {
-    let mut seen = HashSet::new();
-    let mut patches = Vec::new();
-    for first in free {
-        if !seen.insert(first) {
-            continue;
-        }
-        let mut patch = BTreeSet::from([first]);
-        let mut open = vec![first];
-        while let Some(face) = open.pop() {
-            for [a, b] in surface[face].edges() {
-                for &other in sides.get(&[a.min(b), a.max(b)]).into_iter().flatten() {
-                    if surface[face].normal.dot(&surface[other].normal) > SMOOTH && seen.insert(other) {
-                        patch.insert(other);
-                        open.push(other);
-                    }
-                }
-            }
-        }
-        patches.push(patch);
-    }
-    patches
 }
 
 /// Lengths of a patch's outline: in all, of convex edges, and of convex edges to a flank.
