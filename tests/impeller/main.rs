@@ -1,6 +1,7 @@
 //! Finite-element generator against closed forms, another code and invariants.
 
 mod annulus;
+mod axis;
 mod beam;
 mod calculix;
 #[path = "../properties/campaign.rs"]

@@ -46,8 +46,8 @@ pub(super) struct MeshOptions {
     /// Number of sectors [default: found from the cyclic faces; a single blade has 1]
     #[arg(long)]
     sectors: Option<usize>,
-    /// Axis: a point and the direction about which rotation is positive, x,y,z,dx,dy,dz [default: stated by the file, or found along x, y or
-    /// z through the origin]
+    /// Axis: a point and the direction about which rotation is positive, x,y,z,dx,dy,dz [default: stated by the file, or found
+    /// from the cyclic faces, with the largest component of its direction positive]
     #[arg(long, value_parser = axis, allow_hyphen_values = true)]
     axis: Option<Axis>,
     /// Material of an element set, or of a material of the file: NAME=E,NU,DENSITY; without NAME= of all elements [default: those of the

@@ -161,6 +161,16 @@ pub enum FromMeshError {
         /// Number of axes that were tried.
         axes: usize,
     },
+    /// Several axes by which faces fit equally well.
+    #[error(
+        "the faces of the skin fit about several axes: through {:?} along {:?} with {} sectors, and through {:?} along {:?} with {}; give \
+         `axis`, and `sectors`",
+        .axes[0].0, .axes[0].1, .axes[0].2, .axes[1].0, .axes[1].1, .axes[1].2
+    )]
+    AxesAlike {
+        /// Point, direction and number of sectors of two of them.
+        axes: [([f64; 3], [f64; 3], usize); 2],
+    },
     /// Node of a cyclic face without a partner.
     #[error(
         "node {node} of the low face turned by 2π/{sectors} meets no node of the high face within {tolerance:.2e}: the nearest is {nearest}, \
@@ -352,7 +362,7 @@ fn no_faces(sectors: Option<usize>, near: Option<&NearMiss>, tolerance: f64, axe
         None => "no turn by 2π/N carries faces of the skin onto others".to_owned(),
     };
     let axis = if axes > 1 {
-        " about x, y or z through the origin; give `axis` if it is another, and `sectors`"
+        " about x, y or z through the origin, nor about another axis for which congruent faces speak; give `axis` and `sectors`"
     } else {
         " about this axis; check `axis` and `sectors`"
     };

@@ -14,6 +14,10 @@ use super::settings::MeshSettings;
 use super::tip::{Tip, TipSource};
 use crate::package::calculix::ContactPoint;
 
+/// Note about an axis that was found away from x, y and z through the origin.
+const AXIS_FOUND: &str = "the axis was found from the cyclic faces; its direction is the one whose largest component is positive, and rotation \
+                          is positive about it: give `axis` the other way round for a wheel that turns against it";
+
 /// Findings about a mesh: what was read, what was found, and what the user should know.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Found {
@@ -66,6 +70,9 @@ impl Found {
         }
         let mut notes = file.notes.clone();
         notes.extend(locking(mesh));
+        if symmetry.axis_found {
+            notes.push(AXIS_FOUND.to_owned());
+        }
         notes.extend(tip.notes);
         let constants = |set: &rubmap_solid::mesh::ElementSet| {
             let material = &set.material;

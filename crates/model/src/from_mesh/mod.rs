@@ -4,6 +4,7 @@
 //! MeshFile, MeshSettings ──▶ materials ─▶ body ─▶ surface ─▶ cyclic ─▶ clamp ─▶ tip ──▶ MeshedSector ─▶ assembly ─▶ RawPackage
 //! ```
 
+mod anywhere;
 mod body;
 mod clamp;
 mod conforming;
@@ -21,6 +22,7 @@ mod sets;
 mod settings;
 mod surface;
 mod tip;
+mod turned;
 mod upload;
 mod way;
 

@@ -32,7 +32,7 @@ pub struct MeshSettings {
     /// Number of sectors N; found from the cyclic faces if left out. A single blade on a rigid disk has 1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sectors: Option<usize>,
-    /// Axis of rotation; stated by the file or found from the cyclic faces (along x, y or z through the origin) if left out.
+    /// Axis of rotation; stated by the file or found from the cyclic faces if left out, with the largest component of its direction positive.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schema(value_type = Object))]
     pub axis: Option<Axis>,
