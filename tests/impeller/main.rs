@@ -28,6 +28,7 @@ mod plate;
 mod presets;
 mod random_wheels;
 mod sector;
+mod shroud;
 mod singular_mass;
 #[path = "../physics/to_the_end.rs"]
 mod to_the_end;

@@ -10,6 +10,7 @@ use clap::Args;
 
 use super::arguments::{axis, units};
 use super::findings::describe_findings;
+use super::shroud;
 use crate::cli::speed::speed;
 use crate::dynamics::sector::Units;
 use crate::from_mesh::{self, MeshSettings};
@@ -67,6 +68,10 @@ pub(super) struct MeshOptions {
     /// Two nodes between which the contact line runs along the sharp edges of the skin, instead of a set
     #[arg(long, value_name = "NODE,NODE", value_parser = two_nodes, conflicts_with = "contact_set")]
     contact_between: Option<[u64; 2]>,
+    /// Curve of the shroud, instead of a set: a file with r and z of a point per line (.csv, a line of names first is allowed), in the units of
+    /// the mesh; the tip that is nearest to it has the contact line
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["contact_set", "contact_between"])]
+    shroud: Option<PathBuf>,
     /// Largest number of contact nodes, evenly spaced [default: 10]
     #[arg(long)]
     contact_nodes: Option<usize>,
@@ -136,8 +141,9 @@ impl MeshOptions {
         settings.sectors = self.sectors.or(settings.sectors);
         settings.axis = self.axis.or(settings.axis);
         settings.clamp_set = self.clamp_set.or(settings.clamp_set);
-        if self.contact_set.is_some() || self.contact_between.is_some() {
+        if self.contact_set.is_some() || self.contact_between.is_some() || self.shroud.is_some() {
             (settings.contact_set, settings.contact_between) = (self.contact_set, self.contact_between);
+            settings.shroud = self.shroud.as_deref().map(shroud::read).transpose()?;
         }
         settings.contact_nodes = self.contact_nodes.unwrap_or(settings.contact_nodes);
         settings.units = self.units.unwrap_or(settings.units);

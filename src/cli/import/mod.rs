@@ -6,6 +6,7 @@ mod casing;
 mod findings;
 mod matrices;
 mod mesh;
+mod shroud;
 
 use clap::Subcommand;
 

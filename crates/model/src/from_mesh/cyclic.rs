@@ -157,17 +157,13 @@ impl Search<'_> {
         let mut tried = Tried::default();
         for axis in axes {
             match self.about(axis, axes.len())? {
-                None => {}
-                Some(Ok(found)) => {
-                    if tried.best.as_ref().is_none_or(|best| found.fit > best.fit) {
-                        tried.best = Some(found);
-                    }
+                Some(Ok(found)) if tried.best.as_ref().is_none_or(|best| found.fit > best.fit) => {
+                    tried.best = Some(found);
                 }
-                Some(Err(found)) => {
-                    if tried.unfit.as_ref().is_none_or(|unfit| found.fit > unfit.fit) {
-                        tried.unfit = Some(found);
-                    }
+                Some(Err(found)) if tried.unfit.as_ref().is_none_or(|unfit| found.fit > unfit.fit) => {
+                    tried.unfit = Some(found);
                 }
+                _ => {}
             }
         }
         Ok(tried)

@@ -311,8 +311,27 @@ pub enum FromMeshError {
         card: String,
     },
     /// Two ways to the contact line.
-    #[error("`contact_set` and `contact_between` both say where the contact line is; leave one out")]
-    TwoContacts,
+    #[error("`{}` and `{}` both say where the contact line is; leave one out", .0[0], .0[1])]
+    TwoContacts([&'static str; 2]),
+    /// Shroud curve that is none, or that no face looks at.
+    #[error("the curve `shroud` {problem}")]
+    Shroud {
+        /// Problem of the curve.
+        problem: String,
+    },
+    /// Shroud curve far away from any tip.
+    #[error(
+        "the tip that is nearest to the curve `shroud` is {distance:.4} away from it and {length:.4} long; at most {part} of its \
+         length is taken for a clearance. Points of the curve are r and z from the axis, in the units of the mesh"
+    )]
+    ShroudFar {
+        /// Mean distance of the tip.
+        distance: f64,
+        /// Length of the tip.
+        length: f64,
+        /// Largest distance, in lengths of the tip.
+        part: f64,
+    },
     /// Row of a node that the mesh does not have.
     #[error("the matrices have a row of node {node}, component {component}, which the mesh does not have")]
     RowWithoutNode {

@@ -152,6 +152,12 @@ impl fmt::Display for Found {
             TipSource::Edge([a, b]) => {
                 write!(f, "contact: {count} nodes along the edge from node {a} to node {b}")?
             }
+            TipSource::Shroud([least, most]) => write!(
+                f,
+                "contact: {count} nodes in the middle of the tip along the shroud curve, {} to {} away from it",
+                digits(*least),
+                digits(*most)
+            )?,
             TipSource::Found(tips) => {
                 write!(f, "contact: {count} nodes in the middle of the longest of {tips} blade tips found")?;
             }

@@ -20,6 +20,7 @@ mod opposite;
 mod sector;
 mod sets;
 mod settings;
+mod shroud;
 mod surface;
 mod tip;
 mod turned;

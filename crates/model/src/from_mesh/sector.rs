@@ -10,7 +10,7 @@ use super::cyclic::{self, Symmetry};
 use super::error::FromMeshError;
 use super::found::Found;
 use super::settings::MeshSettings;
-use super::{body, clamp, conforming, contact_points, materials, surface, tip};
+use super::{body, clamp, conforming, contact_points, materials, shroud, surface, tip};
 use crate::assembly::{MeshedSector, PackageFacts, assembly_bytes, to_package, without_matrices};
 use crate::package::by_place::tolerance;
 use crate::package::check::slits::on_axis;
@@ -75,9 +75,17 @@ fn check_settings(settings: &MeshSettings) -> Result<(), FromMeshError> {
         return Err(FromMeshError::TopSpeed(settings.top_speed_rad_s));
     }
     units::check(&settings.units).map_err(|(_, problem)| FromMeshError::Units(problem.to_string()))?;
-    if settings.contact_set.is_some() && settings.contact_between.is_some() {
-        return Err(FromMeshError::TwoContacts);
+    let contacts = [
+        ("contact_set", settings.contact_set.is_some()),
+        ("contact_between", settings.contact_between.is_some()),
+        ("shroud", settings.shroud.is_some()),
+    ];
+    let given: Vec<&'static str> =
+        contacts.into_iter().filter(|given| given.1).map(|(name, _)| name).collect();
+    if let [first, second, ..] = given[..] {
+        return Err(FromMeshError::TwoContacts([first, second]));
     }
+    settings.shroud.as_deref().map_or(Ok(()), shroud::check)?;
     if settings.contact_nodes < contact_points::LEAST {
         return Err(FromMeshError::ContactNodes(settings.contact_nodes));
     }

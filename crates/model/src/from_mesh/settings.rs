@@ -52,6 +52,10 @@ pub struct MeshSettings {
     /// Nodes between which the contact line runs along the sharp edges of the skin, instead of a set.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub contact_between: Option<[u64; 2]>,
+    /// Curve of the shroud as points [r, z] from the axis, in the units of the mesh: the tip that is nearest to it has the contact line, instead
+    /// of a set.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shroud: Option<Vec<[f64; 2]>>,
     /// Largest number of contact nodes, evenly spaced.
     #[serde(default = "default_contact_nodes")]
     pub contact_nodes: usize,
@@ -90,6 +94,7 @@ impl MeshSettings {
             clamp_set: None,
             contact_set: None,
             contact_between: None,
+            shroud: None,
             contact_nodes: CONTACT_NODES,
             mass: MassRule::default(),
             gyroscopic: true,

@@ -1,6 +1,6 @@
 //! Skin of a body with what is needed to recognise its parts: place, area and outward normal of every face.
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap, HashSet};
 
 use nalgebra::Vector3;
 use rubmap_solid::frame::AxisFrame;
@@ -77,4 +77,34 @@ pub(super) fn sides<'a>(
         }
     }
     sides
+}
+
+/// Patches of some faces, in which normals of neighbours have at least this cosine between them.
+pub(super) fn patches(
+    surface: &[Face],
+    sides: &HashMap<[u32; 2], Vec<usize>>,
+    free: impl Iterator<Item = usize>,
+    least_cosine: f64,
+) -> Vec<BTreeSet<usize>> {
+    let mut seen = HashSet::new();
+    let mut patches = Vec::new();
+    for first in free {
+        if !seen.insert(first) {
+            continue;
+        }
+        let mut patch = BTreeSet::from([first]);
+        let mut open = vec![first];
+        while let Some(face) = open.pop() {
+            for [a, b] in surface[face].edges() {
+                for &other in sides.get(&[a.min(b), a.max(b)]).into_iter().flatten() {
+                    if surface[face].normal.dot(&surface[other].normal) > least_cosine && seen.insert(other) {
+                        patch.insert(other);
+                        open.push(other);
+                    }
+                }
+            }
+        }
+        patches.push(patch);
+    }
+    patches
 }

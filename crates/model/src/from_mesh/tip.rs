@@ -1,4 +1,4 @@
-//! Contact nodes: from a node set, or from the longest blade tip that is found on the skin.
+//! Contact nodes: from a node set, from the tip along a shroud curve, or from the longest blade tip that is found on the skin.
 //!
 //! A tip is a smooth patch of the skin between flanks: it looks in the meridional plane, its edges are convex, and the faces beyond them
 //! look around the wheel. Contact nodes are those nearest to the middle of its thickness.
@@ -15,7 +15,8 @@ use super::edges::between;
 use super::error::FromMeshError;
 use super::midline::{along, midline};
 use super::settings::MeshSettings;
-use super::surface::{Face, SMOOTH, sides};
+use super::shroud;
+use super::surface::{Face, SMOOTH, patches, sides};
 use super::way::Line;
 use crate::package::calculix::nearest_neighbours;
 
@@ -46,6 +47,8 @@ pub enum TipSource {
     Area(String),
     /// Sharp edges between two nodes.
     Edge([u64; 2]),
+    /// Middle of the tip along a shroud curve, and the least and largest distance of its nodes from the curve.
+    Shroud([f64; 2]),
     /// Middle of the longest of the tips that were found, and their number.
     Found(usize),
 }
@@ -75,6 +78,17 @@ pub(super) fn tip(
         |line, source| Tip { line: in_order(line, axis), source, faces: Vec::new(), notes: Vec::new() };
     if let Some(ends) = settings.contact_between {
         return Ok(of_line(between(mesh, surface, ends)?, TipSource::Edge(ends)));
+    }
+    if let Some(curve) = &settings.shroud {
+        let (faces, others) = shroud::strip(mesh, surface, symmetry, axis, curve)?;
+        let mut found = of_strip(mesh, surface, axis, faces, TipSource::Shroud([0.0; 2]));
+        found.source = TipSource::Shroud(shroud::distances(&found.line, axis, curve));
+        if others > 0 {
+            found.notes.push(format!(
+                "{others} other tips lie as near to the shroud curve and are no longer; only the longest has contact nodes"
+            ));
+        }
+        return Ok(found);
     }
     let Some(name) = &settings.contact_set else {
         let mut tips = tips(mesh, surface, symmetry, axis);
@@ -171,38 +185,9 @@ fn tips(
         let [outline, convex, flanked] = outline(mesh, surface, &sides, patch, &around);
         turned <= MERIDIONAL * area && convex >= CONVEX * outline && flanked >= BETWEEN_FLANKS * outline
     };
-    let patches = patches(surface, &sides, free());
+    let patches = patches(surface, &sides, free(), SMOOTH);
     let faces = patches.into_iter().filter(is_tip).map(|patch| patch.into_iter().collect::<Vec<_>>());
     faces.map(|faces| (midline(mesh, surface, &faces).length(), faces)).collect()
-}
-
-/// Smooth patches of some faces.
-fn patches(
-    surface: &[Face],
-    sides: &HashMap<[u32; 2], Vec<usize>>,
-    free: impl Iterator<Item = usize>,
-) -> Vec<BTreeSet<usize>> {
-    let mut seen = HashSet::new();
-    let mut patches = Vec::new();
-    for first in free {
-        if !seen.insert(first) {
-            continue;
-        }
-        let mut patch = BTreeSet::from([first]);
-        let mut open = vec![first];
-        while let Some(face) = open.pop() {
-            for [a, b] in surface[face].edges() {
-                for &other in sides.get(&[a.min(b), a.max(b)]).into_iter().flatten() {
-                    if surface[face].normal.dot(&surface[other].normal) > SMOOTH && seen.insert(other) {
-                        patch.insert(other);
-                        open.push(other);
-                    }
-                }
-            }
-        }
-        patches.push(patch);
-    }
-    patches
 }
 
 /// Lengths of a patch's outline: in all, of convex edges, and of convex edges to a flank.
