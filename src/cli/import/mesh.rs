@@ -12,6 +12,7 @@ use super::arguments::{axis, units};
 use super::findings::describe_findings;
 use super::shroud;
 use crate::cli::speed::speed;
+use crate::cli::stdout::narrate;
 use crate::dynamics::sector::Units;
 use crate::from_mesh::{self, MeshSettings};
 use crate::mesh::MeshFile;
@@ -96,7 +97,7 @@ pub(super) fn import(args: MeshArgs) -> anyhow::Result<()> {
         settings.mass = MassRule::AsStiffness;
     }
     let sector = from_mesh::sector(&file, &settings).with_context(|| name.clone())?;
-    print!("{}", sector.found);
+    narrate(&sector.found.to_string())?;
     let package = sector.package().with_context(|| name)?;
     write(package, &out, matrices)
 }
@@ -120,8 +121,8 @@ pub(super) fn write(mut package: RawPackage, out: &Path, format: MatrixFormat) -
         .with_context(|| format!("cannot write {}", out.display()))?;
     let mut text = String::new();
     describe_findings(&mut text, &findings)?;
-    print!("{text}");
-    println!("Written: {}", out.display());
+    narrate(&text)?;
+    narrate(&format!("Written: {}", out.display()))?;
     Ok(())
 }
 
