@@ -17,6 +17,7 @@ mod element;
 mod euler;
 #[path = "../properties/fixed.rs"]
 mod fixed;
+mod gaps;
 mod gyroscopic;
 mod impeller_a;
 mod impeller_mesh;

@@ -77,9 +77,9 @@ pub enum FromMeshError {
     },
     /// Mesh of several bodies.
     #[error(
-        "the mesh is {bodies} bodies that share no node: one of {} elements, one of {}, to which element {element} belongs; a model is one \
-         body, so join them or leave the others out",
-        .sizes[0], .sizes[1]
+        "the mesh is {bodies} bodies that share no node: one of {} elements, one of {}, to which element {element} belongs. Their nearest nodes, \
+         {} and {}, are {distance:.3e} apart; a model is one body, so merge such nodes with a larger tolerance, or leave the others out",
+        .sizes[0], .sizes[1], .nearest[0], .nearest[1]
     )]
     Bodies {
         /// Number of bodies.
@@ -88,6 +88,10 @@ pub enum FromMeshError {
         sizes: [usize; 2],
         /// First element of the second.
         element: u64,
+        /// Nearest nodes of these two.
+        nearest: [u64; 2],
+        /// Distance between these nodes.
+        distance: f64,
     },
     /// Element without a material.
     #[error(

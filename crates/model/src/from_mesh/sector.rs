@@ -35,7 +35,7 @@ pub fn sector(file: &MeshFile, settings: &MeshSettings) -> Result<Sector, FromMe
     let (sets, set_of) = materials::assigned(file, settings)?;
     let mut mesh = body::body(file, sets, &set_of)?;
     let surface = surface::surface(&mesh);
-    conforming::check(&mesh, &surface)?;
+    let gaps = conforming::check(&mesh, &surface)?;
     let symmetry = cyclic::symmetry(file, settings, &mesh, &surface)?;
     let axis = cyclic::frame(&symmetry.axis)?;
     mesh.axis = (symmetry.axis.origin, axis.direction().into());
@@ -57,7 +57,8 @@ pub fn sector(file: &MeshFile, settings: &MeshSettings) -> Result<Sector, FromMe
     mesh.sectors = symmetry.sectors;
     mesh.cyclic.clone_from(&symmetry.pairs);
     let held = clamped.iter().filter(|&&held| held).count();
-    let found = Found::of(file, settings, &mesh, &symmetry, (clamp, held), tip, &contact);
+    let mut found = Found::of(file, settings, &mesh, &symmetry, (clamp, held), tip, &contact);
+    found.notes.extend(gaps);
     let facts = PackageFacts {
         name: settings.name.clone().unwrap_or_else(|| file.format.name().to_owned()),
         units: settings.units.clone(),
