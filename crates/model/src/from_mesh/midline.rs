@@ -181,7 +181,12 @@ pub(super) fn along(mesh: &SectorMesh, surface: &[Face], strip: &[usize]) -> (Li
             None => nearest(edge, at).map(|(_, away)| away),
         };
         let [one, other] = midline.edges.each_ref().map(|edge| away(edge).unwrap_or_default());
-        placed.insert(node, Placed { along, off: (one - other) / (one + other).max(f64::MIN_POSITIVE) });
+        // The corner of a skew end may lie beside a place farther along.
+        let reached = end.unwrap_or(along);
+        placed.insert(
+            node,
+            Placed { along, reached, off: (one - other) / (one + other).max(f64::MIN_POSITIVE) },
+        );
     }
     let line = |nodes: Vec<u32>| {
         nodes.into_iter().map(|node| (mesh.node_ids[node as usize], mesh.nodes[node as usize])).collect()
@@ -201,9 +206,11 @@ pub(super) fn along(mesh: &SectorMesh, surface: &[Face], strip: &[usize]) -> (Li
     (line(row(mesh, surface, strip, &placed)), false)
 }
 
-/// Place of a node in a strip: along the middle line, and off it from −1 on one edge to 1 on the other.
+/// Place of a node in a strip: along the middle line, as far as it reaches there with nodes on a short end at that end, and off it from −1 on
+/// one edge to 1 on the other.
 struct Placed {
     along: usize,
+    reached: usize,
     off: f64,
 }
 
@@ -217,7 +224,7 @@ fn row(mesh: &SectorMesh, surface: &[Face], strip: &[usize], placed: &BTreeMap<u
         }
     }
     let length: f64 = placed.len() as f64 * strip.iter().map(|&face| surface[face].area).sum::<f64>().sqrt();
-    let place = |node: u32| placed.get(&node).map_or((0, 1.0), |place| (place.along, place.off));
+    let place = |node: u32| placed.get(&node).map_or((0, 1.0), |place| (place.reached, place.off));
     // Ways off the middle are longer, and ways from row to row longer than any along one.
     let cost = |a: u32, b: u32| {
         let (off_a, off_b) = (place(a).1, place(b).1);
