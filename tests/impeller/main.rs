@@ -31,6 +31,7 @@ mod random_wheels;
 mod sector;
 mod shroud;
 mod singular_mass;
+mod skew_tip;
 #[path = "../physics/to_the_end.rs"]
 mod to_the_end;
 mod wheel;

@@ -18,11 +18,14 @@ const MIDDLE: f64 = 0.15;
 /// Largest distance of a node from the straight line between the corners of an end on which it lies, in lengths of that line.
 const ON_END: f64 = 0.15;
 
+/// Least cosine of the angle by which a row of nodes turns at a node.
+const STRAIGHT: f64 = 0.5;
+
 /// Largest number of nodes of an end from which rows are tried.
 const MOST_ENDS: usize = 12;
 
 /// Largest distance between the corners of a short end, in widths of the strip.
-const END: f64 = 2.5;
+const END: f64 = 3.0;
 
 /// Middle line of a strip, and both of its long edges at the same parts of their lengths.
 #[derive(Debug)]
@@ -248,7 +251,26 @@ fn row(mesh: &SectorMesh, surface: &[Face], strip: &[usize], placed: &BTreeMap<u
             best = Some((total, way));
         }
     }
-    best.map(|(_, way)| way).unwrap_or_default()
+    let mut way = best.map(|(_, way)| way).unwrap_or_default();
+    // Where ends are skew the middle line ends before the row does.
+    let at = |node: u32| Vector3::from(mesh.nodes[node as usize]);
+    for _ in 0..2 {
+        way.reverse();
+        while let [.., before, last] = way[..] {
+            let on = (at(last) - at(before)).normalize();
+            let goes_on = |node: &u32| {
+                let step = at(*node) - at(last);
+                !way.contains(node)
+                    && step.dot(&on) > STRAIGHT * step.norm()
+                    && (place(*node).1 - place(last).1).abs() <= MIDDLE
+            };
+            let Some(&next) = graph.get(&last).and_then(|next| next.iter().find(|node| goes_on(node))) else {
+                break;
+            };
+            way.push(next);
+        }
+    }
+    way
 }
 
 /// Nearest point of a line, as its place in the line, and its distance.
