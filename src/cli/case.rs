@@ -10,6 +10,7 @@ use super::client::Client;
 use super::session::{Session, impeller, save, upload};
 use super::{progress, request};
 use crate::analysis::result::SpeedHistories;
+use crate::cli::stdout::narrate;
 use crate::plot::{self, HistoryQuantity};
 
 /// Model and request of a case study, and where the results are left.
@@ -80,25 +81,30 @@ async fn play(args: &CaseArgs, client: &Client, body: Value) -> anyhow::Result<(
         save(&out.join(format!("{name}.svg")), &plot::speed_histories(&histories, what, 0).svg())?;
     }
     save(&out.join("trajectories.svg"), &plot::trajectories(&histories).svg())?;
-    tell(&histories);
-    println!("\nhistories.json, histories.csv and drawings are in {}", out.display());
+    tell(&histories)?;
+    narrate(&format!("\nhistories.json, histories.csv and drawings are in {}", out.display()))?;
     Ok(())
 }
 
-fn tell(histories: &SpeedHistories) {
+fn tell(histories: &SpeedHistories) -> anyhow::Result<()> {
     let point = &histories.point;
     let (length, force) = (&histories.units.length, &histories.units.force);
-    println!("\n{:.1} rad/s: {}", point.speed_rad_s, point.message.as_deref().unwrap_or("completed"));
+    narrate(&format!(
+        "\n{:.1} rad/s: {}",
+        point.speed_rad_s,
+        point.message.as_deref().unwrap_or("completed")
+    ))?;
     for response in &point.responses {
-        println!("  {}: rms {:.4} {length}", response.sensor, response.rms);
+        narrate(&format!("  {}: rms {:.4} {length}", response.sensor, response.rms))?;
     }
     if let Some(contact) = &point.contact {
-        println!(
+        narrate(&format!(
             "  contact: mean force {:.1} {force}, peak {:.1} {force}, {:.0} closings a revolution, {:.0} % of the clearance taken",
             contact.mean_force,
             contact.peak_force,
             contact.closings_per_revolution,
             100.0 * contact.clearance_consumption
-        );
+        ))?;
     }
+    Ok(())
 }

@@ -9,6 +9,7 @@ use zip::ZipArchive;
 
 use super::client::Client;
 use super::session::save;
+use crate::cli::stdout::narrate;
 
 /// Part of the wheel that is written, and where the work is done.
 #[derive(Debug, Args)]
@@ -83,7 +84,7 @@ impl FieldFileArgs {
         } else {
             client.save(&path, out).await?;
         }
-        println!("written   {}", out.display());
+        narrate(&format!("written   {}", out.display()))?;
         Ok(())
     }
 }

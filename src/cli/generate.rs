@@ -8,6 +8,7 @@ use anyhow::Context;
 use clap::Args;
 use serde_json::Value;
 
+use crate::cli::stdout::narrate;
 use crate::impeller::{ImpellerRequest, PaperCasing, Preset, generate as generate_package};
 use crate::package::raw::MatrixFormat;
 
@@ -53,7 +54,7 @@ pub struct GenerateArgs {
 pub fn generate(args: GenerateArgs) -> anyhow::Result<()> {
     let parameters = args.request()?.resolve()?;
     if args.print_parameters {
-        println!("{}", serde_json::to_string_pretty(&parameters)?);
+        narrate(&serde_json::to_string_pretty(&parameters)?)?;
         return Ok(());
     }
     let mut package = generate_package(&parameters)?;
@@ -61,7 +62,7 @@ pub fn generate(args: GenerateArgs) -> anyhow::Result<()> {
     let file = File::create(&args.out).with_context(|| format!("cannot create {}", args.out.display()))?;
     crate::package::write(&package, BufWriter::new(file))
         .with_context(|| format!("cannot write {}", args.out.display()))?;
-    println!(
+    narrate(&format!(
         "{}: {} sectors, {} DOF a sector, {} contact nodes, speeds up to {} rad/s ({:.0} rpm)",
         args.out.display(),
         package.manifest.sectors,
@@ -69,12 +70,12 @@ pub fn generate(args: GenerateArgs) -> anyhow::Result<()> {
         package.manifest.contact.len(),
         parameters.top_speed_rad_s,
         parameters.top_speed_rad_s * 30.0 / std::f64::consts::PI,
-    );
+    ))?;
     let casing = PaperCasing::of(&parameters);
-    println!(
+    narrate(&format!(
         "The paper's casing for it: clearance {} (leading) to {} (trailing), restriction {} {}",
         casing.leading_clearance, casing.trailing_clearance, casing.restriction, parameters.units.length,
-    );
+    ))?;
     Ok(())
 }
 

@@ -6,6 +6,7 @@ use std::process::ExitCode;
 use anyhow::Context;
 use clap::Args;
 
+use crate::cli::stdout::narrate;
 use crate::store;
 
 /// Copy a data folder, while a service works on it or not.
@@ -32,9 +33,9 @@ pub(super) fn backup(BackupArgs { data, to }: BackupArgs) -> anyhow::Result<()> 
     let copied = runtime()?
         .block_on(store::backup(&data, &to))
         .with_context(|| format!("could not back up {} to {}", data.display(), to.display()))?;
-    println!("{} models and {} jobs in {}", copied.models, copied.jobs, to.display());
+    narrate(&format!("{} models and {} jobs in {}", copied.models, copied.jobs, to.display()))?;
     if copied.dropped > 0 {
-        println!("{} models were deleted meanwhile and are not in it", copied.dropped);
+        narrate(&format!("{} models were deleted meanwhile and are not in it", copied.dropped))?;
     }
     Ok(())
 }
@@ -44,12 +45,12 @@ pub(super) fn check(CheckArgs { data }: CheckArgs) -> anyhow::Result<ExitCode> {
     let found = runtime()?
         .block_on(store::check(&data))
         .with_context(|| format!("could not check {}", data.display()))?;
-    println!(
+    narrate(&format!(
         "{} models, {} jobs and {} speeds are as they were written",
         found.models, found.jobs, found.speeds
-    );
+    ))?;
     for wrong in &found.wrong {
-        println!("{wrong}");
+        narrate(&wrong)?;
     }
     Ok(if found.wrong.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }

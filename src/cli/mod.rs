@@ -144,6 +144,12 @@ impl Cli {
     /// # Errors
     /// The reason why the command could not be done.
     pub fn run(self) -> anyhow::Result<ExitCode> {
+        // A reader who stops early has what was wanted, as in `| head`.
+        let done = self.done();
+        done.or_else(|error| if error.is::<stdout::Closed>() { Ok(ExitCode::SUCCESS) } else { Err(error) })
+    }
+
+    fn done(self) -> anyhow::Result<ExitCode> {
         match self.command {
             Command::Upload(args) => return verb::run(&args),
             Command::Plan(args) => return verb::run(&args),

@@ -12,6 +12,7 @@ use super::field_file::{FieldFileArgs, check};
 use super::progress;
 use super::session::{Session, upload};
 use super::speed::speed;
+use crate::cli::stdout::print;
 
 /// Mode that is written, and its package.
 #[derive(Debug, Args)]
@@ -80,11 +81,11 @@ async fn play(args: &ModesArgs, client: &Client) -> anyhow::Result<()> {
     );
     let Some(out) = &args.out else {
         let list: List = client.get(&format!("{path}&format=json")).await?;
-        println!("\nnatural frequencies in Hz at {:.2} rad/s", args.speed);
+        print(&format!("\nnatural frequencies in Hz at {:.2} rad/s", args.speed))?;
         for Listed { nodal_diameter, frequencies_hz } in list.nodal_diameters {
             let kept = frequencies_hz.iter().take(args.modes_per_speed as usize);
             let line: String = kept.map(|frequency| format!(" {frequency:11.3}")).collect();
-            println!("nodal diameter {nodal_diameter:>2} {line}");
+            print(&format!("nodal diameter {nodal_diameter:>2} {line}"))?;
         }
         return Ok(());
     };

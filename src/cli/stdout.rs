@@ -1,4 +1,4 @@
-//! Output stream: results, and nothing else.
+//! Output stream: results, and what commands say of their work.
 
 use std::io::{ErrorKind, Write};
 
@@ -19,6 +19,15 @@ pub(super) fn print(line: &str) -> anyhow::Result<()> {
         Ok(()) => Ok(()),
         Err(error) => Err(failed(error)),
     }
+}
+
+/// Writes a text beside the work of a command, with a new line at its end. The work goes on where nobody reads it.
+///
+/// # Errors
+/// An output that cannot be written.
+pub(super) fn narrate(text: &str) -> anyhow::Result<()> {
+    let written = print(text.strip_suffix('\n').unwrap_or(text));
+    written.or_else(|error| if error.is::<Closed>() { Ok(()) } else { Err(error) })
 }
 
 /// Writes a document for scripts.

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
 
+use crate::cli::stdout::print;
 use crate::tokens::{Scope, new_token};
 
 /// Command about tokens.
@@ -31,6 +32,6 @@ pub(super) struct NewToken {
 pub(super) fn token(
     TokenCommand::New(NewToken { tokens, owner, scope }): TokenCommand,
 ) -> anyhow::Result<()> {
-    println!("{}", new_token(&tokens, &owner, scope)?);
+    print(&new_token(&tokens, &owner, scope)?)?;
     Ok(())
 }

@@ -2,6 +2,7 @@
 
 mod annulus;
 mod axis;
+mod axis_found;
 mod beam;
 mod calculix;
 #[path = "../properties/campaign.rs"]
@@ -17,6 +18,7 @@ mod element;
 mod euler;
 #[path = "../properties/fixed.rs"]
 mod fixed;
+mod gaps;
 mod gyroscopic;
 mod impeller_a;
 mod impeller_mesh;
@@ -28,7 +30,9 @@ mod plate;
 mod presets;
 mod random_wheels;
 mod sector;
+mod shroud;
 mod singular_mass;
+mod skew_tip;
 #[path = "../physics/to_the_end.rs"]
 mod to_the_end;
 mod wheel;

@@ -110,3 +110,27 @@ fn a_reader_may_go() {
     let got = left(bash.arg("-c").arg(script).env("RUBMAP_SERVER", &shell.server));
     assert_eq!((got.code, got.out.len(), got.err.as_str()), (0, 10, ""));
 }
+
+/// Reader that goes before the first word, of commands that speak to no other service: lists end, work goes on and leaves its files.
+#[test]
+fn a_reader_may_be_gone() {
+    let shell = Shell::of("127.0.0.1:9");
+    let closed = |words: &str| {
+        let (reader, writer) = std::io::pipe().unwrap();
+        drop(reader);
+        let left = shell.command(words).stdout(writer).output().unwrap();
+        (left.status.code(), String::from_utf8_lossy(&left.stderr).into_owned())
+    };
+    let silent = (Some(0), String::new());
+    for words in
+        ["generate --preset small --out wheel.zip", "modes wheel.zip", "completions bash", "check data"]
+    {
+        if words == "check data" {
+            std::fs::create_dir(shell.path("data")).unwrap();
+        }
+        let (code, said) = closed(words);
+        assert!(!said.contains("panicked") && !said.contains("output"), "{words}: {said}");
+        assert!(code == silent.0 || words == "check data", "{words}: {said}");
+    }
+    assert!(shell.path("wheel.zip").exists());
+}

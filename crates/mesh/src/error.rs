@@ -35,6 +35,12 @@ pub enum MeshProblem {
         /// Advice on the way to go.
         advice: &'static str,
     },
+    /// File packed by gzip that cannot be had.
+    #[error("the packed file {problem}")]
+    Packed {
+        /// Problem of the file.
+        problem: String,
+    },
     /// Text that is not of the kind expected.
     #[error("\"{text}\" is not {expected}")]
     NotA {

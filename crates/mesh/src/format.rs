@@ -52,7 +52,8 @@ pub fn recognised(bytes: &[u8]) -> Result<MeshFormat, MeshFileError> {
     if lines.first().is_some_and(|line| line.starts_with("$MESHFORMAT")) {
         return Ok(MeshFormat::Gmsh);
     }
-    if any(&|line| line.starts_with("<VTKFILE")) {
+    // All may stand on the line of the XML declaration.
+    if any(&|line| line.starts_with("<VTKFILE") || line.starts_with("<?XML") && line.contains("<VTKFILE")) {
         return Ok(MeshFormat::Vtu);
     }
     if any(&|line| line.starts_with("NBLOCK") || line.starts_with("/PREP7") || line.starts_with("/COM,ANSYS"))

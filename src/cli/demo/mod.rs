@@ -14,6 +14,7 @@ use super::client::Client;
 use super::progress;
 use super::session::{Session, impeller, upload};
 use super::study;
+use crate::cli::stdout::narrate;
 
 pub(super) use args::DemoArgs;
 
@@ -41,10 +42,14 @@ async fn play(args: &DemoArgs, client: &Client, package: &Path) -> anyhow::Resul
 
     let out = &args.out;
     let results = results::download(client, &modal_analysis, &sweep, out).await?;
-    print!("\n{}\n{}", report::credentials(&results.map), report::critical_speeds(&results.critical));
-    print!("\n{}", report::places(out, sweep.link("interaction-map")?, args.full));
+    narrate(&format!(
+        "\n{}\n{}",
+        report::credentials(&results.map),
+        report::critical_speeds(&results.critical)
+    ))?;
+    narrate(&format!("\n{}", report::places(out, sweep.link("interaction-map")?, args.full)))?;
     if args.full {
-        println!();
+        narrate("\n")?;
         study::play(client, study::request::default(), &model.id, out).await?;
     }
     Ok(())

@@ -14,6 +14,7 @@ use crate::analysis::result::{Campbell, SweepPlan};
 use crate::analysis::run::ModelFacts;
 use crate::cli::client::{Answer, Client, Job};
 use crate::cli::session::{Session, save, upload};
+use crate::cli::stdout::narrate;
 use crate::cli::{progress, request};
 
 /// Name of the file in which the request of the sweep is left.
@@ -42,10 +43,10 @@ async fn play(args: &DemoArgs, client: &Client, package: &Path, given: Option<Va
     let out = &args.out;
     let model = upload(client, package).await?;
     let facts: ModelFacts = client.get(&format!("/v1/models/{}", model.id)).await?;
-    println!(
+    narrate(&format!(
         "package   {}: {} sectors of {} DOF, {} contact nodes",
         facts.name, facts.sectors, facts.own_dofs, facts.contact_nodes
-    );
+    ))?;
     let of_model = |body: Value| request::of_model(body, &model.id);
     let body = match given {
         Some(body) => body,
@@ -57,7 +58,7 @@ async fn play(args: &DemoArgs, client: &Client, package: &Path, given: Option<Va
             let radius = facts.contact_radius.filter(|radius| *radius > 0.0);
             let radius = radius.context("the tips lie on the axis: no clearance can be chosen")?;
             let (body, words) = sensible::sweep(&facts, radius, &range, args.speeds, args.revolutions);
-            print!("{words}");
+            narrate(&words)?;
             save(&out.join(REQUEST), &format!("{}\n", serde_json::to_string_pretty(&body)?))?;
             body
         }
@@ -74,13 +75,17 @@ async fn play(args: &DemoArgs, client: &Client, package: &Path, given: Option<Va
     }
     let modal_analysis = post(client, "/v1/modal-analyses", &modal_analysis, "modal analysis").await?;
     let plan: SweepPlan = client.post("/v1/sweeps/plan", &sweep).await?;
-    tell_cost(&plan);
+    tell_cost(&plan)?;
     let sweep = post(client, "/v1/sweeps", &sweep, "sweep").await?;
 
     let results = results::download(client, &modal_analysis, &sweep, out).await?;
-    print!("\n{}\n{}", report::credentials(&results.map), report::critical_speeds(&results.critical));
+    narrate(&format!(
+        "\n{}\n{}",
+        report::credentials(&results.map),
+        report::critical_speeds(&results.critical)
+    ))?;
     let request = args.request.clone().unwrap_or_else(|| out.join(REQUEST));
-    print!("\n{}", report::own_places(out, &request, package));
+    narrate(&format!("\n{}", report::own_places(out, &request, package)))?;
     Ok(())
 }
 
@@ -107,16 +112,17 @@ fn highest_speed(plan: SweepPlan) -> anyhow::Result<f64> {
 }
 
 /// Prints what the sweep will take, where that is known.
-fn tell_cost(plan: &SweepPlan) {
+fn tell_cost(plan: &SweepPlan) -> anyhow::Result<()> {
     for warning in &plan.warnings {
-        println!("warning   {warning}");
+        narrate(&format!("warning   {warning}"))?;
     }
     if let Some(estimate) = &plan.estimate {
         let (least, most) = (estimate.wall_time_s.free, estimate.wall_time_s.contact);
         let steps = estimate.steps as f64 / 1e6;
         let up_to = if plan.settings.integration.takes_all() { "" } else { "at most " };
-        println!(
+        narrate(&format!(
             "plan      {up_to}{steps:.1} million steps, {least:.0} to {most:.0} s where nothing else runs"
-        );
+        ))?;
     }
+    Ok(())
 }

@@ -10,6 +10,7 @@ use clap::Args;
 
 use super::arguments::{axis, speed_and_file, units};
 use super::findings::describe_findings;
+use crate::cli::stdout::narrate;
 use crate::dynamics::findings::Findings;
 use crate::dynamics::sector::Units;
 use crate::package::calculix::{self, CalculixModel, ImportSummary, Normals};
@@ -125,8 +126,8 @@ pub(super) fn import(args: CalculixArgs) -> anyhow::Result<()> {
     let file = File::create(&args.out).with_context(|| format!("cannot create {}", args.out.display()))?;
     crate::package::write(&package, BufWriter::new(file))
         .with_context(|| format!("cannot write {}", args.out.display()))?;
-    print!("{}", describe(&package, &summary, &findings)?);
-    println!("Written: {}", args.out.display());
+    narrate(&describe(&package, &summary, &findings)?)?;
+    narrate(&format!("Written: {}", args.out.display()))?;
     Ok(())
 }
 

@@ -7,6 +7,7 @@ use clap::Args;
 
 use super::arguments::speed_and_file;
 use super::mesh::{MeshOptions, read, write};
+use crate::cli::stdout::narrate;
 use crate::from_mesh::{FileMatrices, package_with_matrices};
 use crate::mesh::matrices::{FileMatrix, read_named};
 use crate::package::raw::MatrixFormat;
@@ -65,7 +66,7 @@ pub(super) fn import(args: MatricesArgs) -> anyhow::Result<()> {
     let settings = args.options.settings(&args.mesh, Some(top_speed))?;
     let (package, found) = package_with_matrices(file, &settings, &FileMatrices { mass, stiffness })
         .with_context(|| args.mesh.display().to_string())?;
-    print!("{found}");
+    narrate(&found.to_string())?;
     write(package, &args.out, args.matrices)
 }
 

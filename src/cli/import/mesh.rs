@@ -11,7 +11,9 @@ use clap::Args;
 use super::arguments::{axis, units};
 use super::findings::describe_findings;
 use super::looks;
+use super::shroud;
 use crate::cli::speed::speed;
+use crate::cli::stdout::narrate;
 use crate::dynamics::sector::Units;
 use crate::from_mesh::{self, MeshSettings};
 use crate::mesh::MeshFile;
@@ -50,8 +52,8 @@ pub(super) struct MeshOptions {
     /// Number of sectors [default: found from the cyclic faces; a single blade has 1]
     #[arg(long)]
     sectors: Option<usize>,
-    /// Axis: a point and the direction about which rotation is positive, x,y,z,dx,dy,dz [default: stated by the file, or found along x, y or
-    /// z through the origin]
+    /// Axis: a point and the direction about which rotation is positive, x,y,z,dx,dy,dz [default: stated by the file, or found
+    /// from the cyclic faces, with the largest component of its direction positive]
     #[arg(long, value_parser = axis, allow_hyphen_values = true)]
     axis: Option<Axis>,
     /// Material of an element set, or of a material of the file: NAME=E,NU,DENSITY; without NAME= of all elements [default: those of the
@@ -77,6 +79,10 @@ pub(super) struct MeshOptions {
     /// Node of the smooth patch of the skin that is the tip, instead of a set: `--look` has its number
     #[arg(long, value_name = "NODE,…", value_delimiter = ',', conflicts_with_all = ["contact_set", "contact_between"])]
     contact_at: Vec<u64>,
+    /// Curve of the shroud, instead of a set: a file with r and z of a point per line (.csv, a line of names first is allowed), in the units of
+    /// the mesh; the tip that is nearest to it has the contact line
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["contact_set", "contact_between", "contact_at"])]
+    shroud: Option<PathBuf>,
     /// Largest number of contact nodes, evenly spaced [default: 10]
     #[arg(long)]
     contact_nodes: Option<usize>,
@@ -106,7 +112,7 @@ pub(super) fn import(args: MeshArgs) -> anyhow::Result<()> {
         return Ok(());
     };
     let sector = from_mesh::sector(&file, &settings).with_context(|| name.clone())?;
-    print!("{}", sector.found);
+    narrate(&sector.found.to_string())?;
     let package = sector.package().with_context(|| name)?;
     write(package, &out, matrices)
 }
@@ -130,8 +136,8 @@ pub(super) fn write(mut package: RawPackage, out: &Path, format: MatrixFormat) -
         .with_context(|| format!("cannot write {}", out.display()))?;
     let mut text = String::new();
     describe_findings(&mut text, &findings)?;
-    print!("{text}");
-    println!("Written: {}", out.display());
+    narrate(&text)?;
+    narrate(&format!("Written: {}", out.display()))?;
     Ok(())
 }
 
@@ -154,9 +160,11 @@ impl MeshOptions {
         if self.clamp_set.is_some() || !self.clamp_at.is_empty() {
             (settings.clamp_set, settings.clamp_at) = (self.clamp_set, self.clamp_at);
         }
-        if self.contact_set.is_some() || self.contact_between.is_some() || !self.contact_at.is_empty() {
+        let is_chosen = self.contact_set.is_some() || self.contact_between.is_some();
+        if is_chosen || !self.contact_at.is_empty() || self.shroud.is_some() {
             (settings.contact_set, settings.contact_between) = (self.contact_set, self.contact_between);
             settings.contact_at = self.contact_at;
+            settings.shroud = self.shroud.as_deref().map(shroud::read).transpose()?;
         }
         settings.contact_nodes = self.contact_nodes.unwrap_or(settings.contact_nodes);
         settings.units = self.units.unwrap_or(settings.units);

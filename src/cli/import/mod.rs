@@ -7,6 +7,7 @@ mod findings;
 mod looks;
 mod matrices;
 mod mesh;
+mod shroud;
 
 use clap::Subcommand;
 

@@ -17,6 +17,7 @@ use super::client::Client;
 use super::progress;
 use super::session::{Session, upload};
 use crate::analysis::run::{REVISION, vectors};
+use crate::cli::stdout::narrate;
 use crate::http::archive::manifest::{COMPARED_PACKAGE, PACKAGE, REQUEST};
 
 /// Results at most whose differences are shown.
@@ -40,15 +41,20 @@ pub(super) fn run(args: &RepeatArgs) -> anyhow::Result<ExitCode> {
     let archived = Archive::open(&args.archive)?;
     let wrong = archived.wrong()?;
     if !wrong.is_empty() {
-        println!("{} is not as it was written:", args.archive.display());
-        wrong.iter().take(SHOWN).for_each(|wrong| println!("  {wrong}"));
+        narrate(&format!("{} is not as it was written:", args.archive.display()))?;
+        wrong.iter().take(SHOWN).try_for_each(|wrong| narrate(&format!("  {wrong}")))?;
         if wrong.len() > SHOWN {
-            println!("  and {} more", wrong.len() - SHOWN);
+            narrate(&format!("  and {} more", wrong.len() - SHOWN))?;
         }
         return Ok(ExitCode::FAILURE);
     }
     let job = &archived.manifest.job;
-    println!("archive   {}: {} {}, as it was written", args.archive.display(), job.kind.name, job.id);
+    narrate(&format!(
+        "archive   {}: {} {}, as it was written",
+        args.archive.display(),
+        job.kind.name,
+        job.id
+    ))?;
 
     let folder = tempfile::tempdir().context("cannot make a temporary folder")?;
     let repeated = folder.path().join("repeated.zip");
@@ -57,7 +63,7 @@ pub(super) fn run(args: &RepeatArgs) -> anyhow::Result<ExitCode> {
     let code = session.run(args.workers, async |client| {
         repeat(&archived, client, folder.path(), &repeated).await?;
         let comparison = compare(&archived, &Archive::open(&repeated)?)?;
-        tell(&archived, &comparison);
+        tell(&archived, &comparison)?;
         found = Some(comparison.different.is_empty());
         Ok(())
     })?;
@@ -93,30 +99,30 @@ async fn repeat(archived: &Archive, client: &Client, folder: &Path, to: &Path) -
 }
 
 /// Prints the outcome of a comparison, and what may be behind a difference.
-fn tell(archived: &Archive, comparison: &Comparison) {
+fn tell(archived: &Archive, comparison: &Comparison) -> anyhow::Result<()> {
     let Comparison { same, different } = comparison;
     if different.is_empty() {
-        println!("\nidentical: all {same} results to the bit; times are not compared");
-        return;
+        return narrate(&format!("\nidentical: all {same} results to the bit; times are not compared"));
     }
-    println!("\ndifferent: {} of {} results", different.len(), same + different.len());
-    different.iter().take(SHOWN).for_each(|words| println!("  {words}"));
+    narrate(&format!("\ndifferent: {} of {} results", different.len(), same + different.len()))?;
+    different.iter().take(SHOWN).try_for_each(|words| narrate(&format!("  {words}")))?;
     if different.len() > SHOWN {
-        println!("  and {} more", different.len() - SHOWN);
+        narrate(&format!("  and {} more", different.len() - SHOWN))?;
     }
     let computed = &archived.manifest.computed;
     let (kind, here) = (computed.vectors.as_deref().unwrap_or("an unknown kind"), vectors());
     if computed.revision != REVISION {
-        println!(
+        narrate(&format!(
             "The archive is of revision {} of the numerics, this program of {REVISION}: other numbers are expected.",
             computed.revision
-        );
+        ))?;
     } else if kind != here {
-        println!(
+        narrate(&format!(
             "The archive was computed on a processor with vectors of {kind}, this one has {here}: another kind adds up in \
              another order, and last digits may differ, of chaotic responses all."
-        );
+        ))?;
     } else {
-        println!("Numerics and kind of vectors ({here}) are the same: this should not be.");
+        narrate(&format!("Numerics and kind of vectors ({here}) are the same: this should not be."))?;
     }
+    Ok(())
 }

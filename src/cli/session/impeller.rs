@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use anyhow::Context;
 use serde_json::{Value, json};
 
+use crate::cli::stdout::narrate;
 use crate::impeller::{ImpellerParameters, PaperCasing, generate};
 
 /// Makes the impeller and leaves its package in the out folder.
@@ -16,13 +17,13 @@ pub(in crate::cli) fn make_package(out: &Path) -> anyhow::Result<PathBuf> {
     let file = File::create(&path).with_context(|| format!("cannot create {}", path.display()))?;
     crate::package::write(&package, BufWriter::new(file))
         .with_context(|| format!("cannot write {}", path.display()))?;
-    println!(
+    narrate(&format!(
         "package   {}: {} sectors of {} DOF, {} contact nodes",
         path.display(),
         package.manifest.sectors,
         package.dofs.len(),
         package.manifest.contact.len()
-    );
+    ))?;
     Ok(path)
 }
 

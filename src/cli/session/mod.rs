@@ -12,6 +12,7 @@ use tokio_util::sync::CancellationToken;
 use super::client::{Answer, Client, Model, UploadLabels};
 use super::signals::stop_signal;
 use crate::app::App;
+use crate::cli::stdout::narrate;
 use crate::config::Config;
 
 /// Session: the folder to work in and its beginning.
@@ -52,7 +53,7 @@ impl Session {
         let config = Config { workers, ..Config::local(&self.out.join("data")) };
         let runtime = tokio::runtime::Builder::new_multi_thread().enable_all().build()?;
         match runtime.block_on(with_service(config, play))? {
-            Ending::Played => println!("\nDone in {:.0} s.", self.begin.elapsed().as_secs_f64()),
+            Ending::Played => narrate(&format!("\nDone in {:.0} s.", self.begin.elapsed().as_secs_f64()))?,
             Ending::Stopped => {
                 eprintln!("\nStopped; its jobs are cancelled. What it left is in {}.", self.out.display());
                 return Ok(ExitCode::from(130));
@@ -71,7 +72,7 @@ async fn with_service(
     let (data, workers) = (config.data.clone(), config.worker_threads());
     let app = App::build(config).await?;
     let client = Client::of_own_service(format!("http://{}", app.addr()))?;
-    println!("service   http://{}, {workers} workers, data in {}", app.addr(), data.display());
+    narrate(&format!("service   http://{}, {workers} workers, data in {}", app.addr(), data.display()))?;
     let stop = CancellationToken::new();
     let mut service = tokio::spawn(app.run_until_stopped(stop.clone()));
     let played = async {
@@ -98,7 +99,7 @@ async fn with_service(
 /// Uploads a package and prints the model's id.
 pub(super) async fn upload(client: &Client, package: &Path) -> anyhow::Result<Answer<Model>> {
     let (model, new) = client.upload(package, &UploadLabels::default()).await?;
-    println!("model     {}{}", model.id, if new { "" } else { " (known from an earlier run)" });
+    narrate(&format!("model     {}{}", model.id, if new { "" } else { " (known from an earlier run)" }))?;
     Ok(model)
 }
 

@@ -14,6 +14,7 @@ use super::session::{Session, impeller, save, upload};
 use super::{progress, request as bodies};
 use crate::analysis::result::Quantity;
 use crate::analysis::run::{Histories, WorkPrecision};
+use crate::cli::stdout::narrate;
 use crate::{export, plot};
 
 /// Model and request of a study, and where the results are left.
@@ -79,9 +80,9 @@ pub(super) async fn play(client: &Client, body: Value, model: &str, out: &Path) 
     }
 
     if let Some(first) = found.speeds.first() {
-        print!("\n{}\n{}", report::front(first), report::orders(first));
-        print!("\n{}\n", first.message);
-        print!("\n{}", report::places(out, &name(&found, 0)));
+        narrate(&format!("\n{}\n{}", report::front(first), report::orders(first)))?;
+        narrate(&format!("\n{}\n", first.message))?;
+        narrate(&format!("\n{}", report::places(out, &name(&found, 0))))?;
     }
     Ok(())
 }

@@ -15,7 +15,7 @@ from typing import Any
 from .gmsh_text import Mesh, write_mesh
 
 #: Endings of files that the service reads itself.
-_READ = (".inp", ".msh", ".bdf", ".nas", ".fem", ".dat", ".cdb", ".vtu")
+_READ = (".inp", ".msh", ".bdf", ".nas", ".fem", ".dat", ".cdb", ".vtu", ".gz")
 
 #: Endings of files that are no meshes, and what to do with them.
 _OTHERS = {

@@ -192,6 +192,16 @@ fn every_encoding_gives_the_same_mesh() {
 }
 
 #[test]
+fn all_may_stand_on_one_line() {
+    let file = cube().file(ASCII);
+    let text = String::from_utf8(file.clone()).unwrap();
+    let body = &text[text.find("<VTKFile").unwrap()..];
+    let line = format!("<?xml version=\"1.0\" encoding=\"utf-8\"?>{}", body.replace('\n', " "));
+    let none = |_: &str| Err(String::new());
+    assert_eq!(crate::read(line.as_bytes(), &none), read(&file));
+}
+
+#[test]
 fn cells_of_every_type() {
     use ElementKind::{C3D4, C3D5, C3D6, C3D8I, C3D10, C3D13, C3D15, C3D20};
     // Edges of VTK's quadratic cells are those of CalculiX, so that only the corners of wedges tell the orders apart.

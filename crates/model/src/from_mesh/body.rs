@@ -112,20 +112,53 @@ fn check_connected(mesh: &SectorMesh) -> Result<(), FromMeshError> {
             parent[other as usize] = first;
         }
     }
-    let mut sizes: HashMap<u32, (usize, u64)> = HashMap::new();
+    let mut sizes: HashMap<u32, (usize, u64, u32)> = HashMap::new();
     for element in &mesh.elements {
-        sizes.entry(root(&mut parent, element.nodes[0])).or_insert((0, element.id)).0 += 1;
+        let root = root(&mut parent, element.nodes[0]);
+        sizes.entry(root).or_insert((0, element.id, root)).0 += 1;
     }
     if sizes.len() < 2 {
         return Ok(());
     }
-    let mut bodies: Vec<(usize, u64)> = sizes.into_values().collect();
+    let mut bodies: Vec<(usize, u64, u32)> = sizes.into_values().collect();
     bodies.sort_unstable_by(|a, b| b.cmp(a));
+    let mut nodes = |of: u32| -> Vec<usize> {
+        (0..mesh.nodes.len()).filter(|&node| root(&mut parent, node as u32) == of).collect()
+    };
+    let (nearest, distance) = nearest(mesh, &nodes(bodies[1].2), nodes(bodies[0].2));
     Err(FromMeshError::Bodies {
         bodies: bodies.len(),
         sizes: [bodies[0].0, bodies[1].0],
         element: bodies[1].1,
+        nearest,
+        distance,
     })
+}
+
+/// Nearest two nodes of two groups, and their distance.
+fn nearest(mesh: &SectorMesh, some: &[usize], mut others: Vec<usize>) -> ([u64; 2], f64) {
+    let extent = |k: &usize| {
+        let along = mesh.nodes.iter().map(|at| at[*k]);
+        along.clone().fold(f64::NEG_INFINITY, f64::max) - along.fold(f64::INFINITY, f64::min)
+    };
+    let long = (0..3).max_by(|a, b| extent(a).total_cmp(&extent(b))).unwrap_or(0);
+    let along = |node: usize| mesh.nodes[node][long];
+    others.sort_by(|&a, &b| along(a).total_cmp(&along(b)));
+    let mut best = ([0; 2], f64::INFINITY);
+    for &node in some {
+        let (before, after) = others.split_at(others.partition_point(|&other| along(other) < along(node)));
+        let mut is_near = |other: usize| {
+            let near = (along(other) - along(node)).abs() < best.1;
+            let away = distance(mesh.nodes[node], mesh.nodes[other]);
+            if away < best.1 {
+                best = ([mesh.node_ids[node], mesh.node_ids[other]], away);
+            }
+            near
+        };
+        before.iter().rev().take_while(|&&other| is_near(other)).for_each(drop);
+        after.iter().take_while(|&&other| is_near(other)).for_each(drop);
+    }
+    best
 }
 
 fn root(parent: &mut [u32], node: u32) -> u32 {

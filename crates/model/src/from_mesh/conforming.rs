@@ -12,8 +12,12 @@ use super::surface::Face;
 /// Largest gap between faces that were meant to be one, in parts of a face's size.
 const GAP: f64 = 2e-3;
 
-/// Refuses elements that share the corners of a face but not the nodes on its edges, and faces that lie on each other with other nodes.
-pub(super) fn check(mesh: &SectorMesh, surface: &[Face]) -> Result<(), FromMeshError> {
+/// Largest gap between faces that look at each other for it to be told, in parts of a face's size.
+const NARROW: f64 = 0.1;
+
+/// Refuses elements that share the corners of a face but not the nodes on its edges, and faces that lie on each other with other nodes;
+/// tells of narrow gaps between faces.
+pub(super) fn check(mesh: &SectorMesh, surface: &[Face]) -> Result<Option<String>, FromMeshError> {
     let mut shared: HashMap<Vec<u32>, (u64, Vec<u32>)> = HashMap::new();
     for element in &mesh.elements {
         let topology = Topology::of(element.kind);
@@ -37,11 +41,25 @@ pub(super) fn check(mesh: &SectorMesh, surface: &[Face]) -> Result<(), FromMeshE
         }
     }
     let opposite = Opposite::new(mesh, surface.iter().collect());
+    let elements =
+        |one: &Face, other: &Face| [one, other].map(|face| mesh.elements[face.skin.element as usize].id);
+    let mut narrowest: Option<(f64, [u64; 2])> = None;
+    let mut count = 0;
     for face in surface {
         if let Some(other) = opposite.at(face.centre, face.normal, GAP) {
-            let ids = [face, other].map(|face| mesh.elements[face.skin.element as usize].id);
-            return Err(FromMeshError::FacesMeet { elements: ids });
+            return Err(FromMeshError::FacesMeet { elements: elements(face, other) });
+        }
+        if let Some((other, gap)) = opposite.before(face.centre, face.normal, NARROW) {
+            count += 1;
+            if narrowest.is_none_or(|(least, _)| gap < least) {
+                narrowest = Some((gap, elements(face, other)));
+            }
         }
     }
-    Ok(())
+    Ok(narrowest.map(|(gap, [one, other])| {
+        format!(
+            "parts nearly touch: {count} faces look at others less than a tenth of their size away, nearest those of elements {one} and {other}, \
+             {gap:.3e} apart; nothing joins them there. Merge their nodes with a larger tolerance if they are one part"
+        )
+    }))
 }

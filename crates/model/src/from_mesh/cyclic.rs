@@ -9,19 +9,14 @@ use rubmap_solid::frame::{AxisFrame, distance};
 use rubmap_solid::mesh::SectorMesh;
 use rubmap_solid::place::tolerance;
 
+use super::anywhere::{self, revolved};
 use super::body::grid;
 use super::error::{FromMeshError, NearMiss};
 use super::opposite::Opposite;
 use super::settings::MeshSettings;
 use super::surface::Face;
-use crate::package::by_place::NodeGrid;
+use super::turned::{MOST_SECTORS, OPPOSITE, matched};
 use crate::package::raw::Axis;
-
-/// Largest number of sectors that is looked for.
-const MOST_SECTORS: f64 = 400.0;
-
-/// Largest difference of unit normals that are still opposite: that of faces whose nodes have few digits.
-const OPPOSITE: f64 = 1e-3;
 
 /// Largest difference of unit normals of faces that almost fit each other.
 const ALMOST_OPPOSITE: f64 = 0.3;
@@ -44,6 +39,9 @@ const MUCH: f64 = 2.0;
 /// Factor on the tolerance within which faces that miss each other are reported.
 const NEAR: f64 = 300.0;
 
+/// Least score of another axis, in parts of the best one's, for both to be as good.
+const AS_GOOD: f64 = 0.9;
+
 /// Symmetry of a sector: axis, number of sectors, and pairs of nodes.
 #[derive(Debug, Clone)]
 pub(super) struct Symmetry {
@@ -55,6 +53,8 @@ pub(super) struct Symmetry {
     pub(super) faces: HashSet<usize>,
     /// Largest distance of a turned low node from its high node.
     pub(super) farthest: f64,
+    /// Whether the axis was found away from x, y and z through the origin.
+    pub(super) axis_found: bool,
 }
 
 /// Finds the symmetry, as far as neither settings nor file state it.
@@ -72,47 +72,183 @@ pub(super) fn symmetry(
     if stated == Some(1) {
         let axis = axes.into_iter().next().ok_or(FromMeshError::AxisWithoutDirection)?;
         frame(&axis)?;
-        return Ok(Symmetry { axis, sectors: 1, pairs: Vec::new(), faces: HashSet::new(), farthest: 0.0 });
+        return Ok(Symmetry {
+            axis,
+            sectors: 1,
+            pairs: Vec::new(),
+            faces: HashSet::new(),
+            farthest: 0.0,
+            axis_found: false,
+        });
     }
-    let within = tolerance(mesh.nodes.iter().copied());
-    let mut best: Option<(Fit, Symmetry)> = None;
-    // Refusal of the axis by which the faces fit best.
-    let mut unfit: Option<(Fit, FromMeshError)> = None;
-    for axis in &axes {
+    let search = Search { mesh, surface, sectors: stated, within: tolerance(mesh.nodes.iter().copied()) };
+    let tried = search.tried(&axes)?;
+    // About another axis some faces may fit by chance.
+    let known = match (tried.best, tried.unfit) {
+        (Some(best), unfit) if unfit.as_ref().is_none_or(|unfit| best.fit >= unfit.fit) => Ok(best),
+        (_, Some(unfit)) => Err((unfit.score, unfit.error)),
+        (_, None) => Err(search.near_miss(&axes)?),
+    };
+    if axes.len() == 1 {
+        return known.map(|found| found.symmetry).map_err(|(_, error)| error);
+    }
+    match known {
+        // Half a turn carries many a flat face onto itself.
+        Ok(found) if stated.is_some() || found.symmetry.sectors > 2 => Ok(found.symmetry),
+        Ok(found) => match search.elsewhere(found.score) {
+            Ok(Some(other)) if other.sectors > 2 => Ok(other),
+            _ => Ok(found.symmetry),
+        },
+        Err((score, error)) => search.elsewhere(score)?.ok_or(error),
+    }
+}
+
+/// Search for the cyclic faces of a mesh about axes.
+struct Search<'a> {
+    mesh: &'a SectorMesh,
+    surface: &'a [Face],
+    /// Number of sectors, if it is stated.
+    sectors: Option<usize>,
+    within: f64,
+}
+
+/// Symmetry by which faces fit, with the quality of the fit and its score: the area of the low faces and of those on surfaces of revolution.
+struct Fitting {
+    fit: Fit,
+    score: f64,
+    symmetry: Symmetry,
+}
+
+/// Fit that is none because of single nodes or faces.
+struct Unfit {
+    fit: Fit,
+    score: f64,
+    sectors: usize,
+    error: FromMeshError,
+}
+
+impl Fitting {
+    /// Point on the axis, its direction, and the number of sectors.
+    fn told(&self) -> ([f64; 3], [f64; 3], usize) {
+        let Symmetry { axis, sectors, .. } = &self.symmetry;
+        (axis.origin, axis.direction, *sectors)
+    }
+}
+
+impl Unfit {
+    /// Refusal with the axis that was found.
+    fn about(self, axis: Axis) -> FromMeshError {
+        let Axis { origin, direction } = axis;
+        let Self { sectors, error, .. } = self;
+        FromMeshError::With { error: Box::new(error), sectors, origin, direction, found: true }
+    }
+}
+
+/// Best fit, and the best of those that are none.
+#[derive(Default)]
+struct Tried {
+    best: Option<Fitting>,
+    unfit: Option<Unfit>,
+}
+
+impl Search<'_> {
+    /// Best fits about some axes.
+    fn tried(&self, axes: &[Axis]) -> Result<Tried, FromMeshError> {
+        let mut tried = Tried::default();
+        for axis in axes {
+            match self.about(axis, axes.len())? {
+                Some(Ok(found)) if tried.best.as_ref().is_none_or(|best| found.fit > best.fit) => {
+                    tried.best = Some(found);
+                }
+                Some(Err(found)) if tried.unfit.as_ref().is_none_or(|unfit| found.fit > unfit.fit) => {
+                    tried.unfit = Some(found);
+                }
+                _ => {}
+            }
+        }
+        Ok(tried)
+    }
+
+    /// Fit about one of a number of axes, or the refusal of one that almost fits.
+    fn about(&self, axis: &Axis, axes: usize) -> Result<Option<Result<Fitting, Unfit>>, FromMeshError> {
+        let Self { mesh, surface, sectors: stated, within } = *self;
         let about = frame(axis)?;
-        let Some(sectors) = stated.or_else(|| number(surface, &about, within, OPPOSITE)) else { continue };
+        let Some(sectors) = stated.or_else(|| number(surface, &about, within, OPPOSITE)) else {
+            return Ok(None);
+        };
         let (fits, area) = matched(surface, &about, sectors, within, OPPOSITE);
         if fits.is_empty() {
-            continue;
+            return Ok(None);
         }
         let fit = Fit { more_than_two: sectors > 2, area };
+        let score = area + revolved(surface.iter(), axis);
         // Much larger faces that miss each other by little are meant, and these fit by chance.
         let missed = almost(surface, &about, stated, within)
             .filter(|(near, of_near)| stated.is_none() && *of_near > MUCH * area && near.farthest > within);
         let pairs = match missed {
-            Some((near, _)) => Err(no_faces(stated, Some(near), within, axes.len())),
+            Some((near, _)) => Err(no_faces(stated, Some(near), within, axes)),
             None => facing(mesh, surface, &fits, &about, sectors, within)
                 .and_then(|()| paired(mesh, surface, &fits, &about, sectors, within)),
         };
-        match pairs {
+        Ok(Some(match pairs {
             Ok((pairs, farthest)) => {
                 let faces = fits.iter().flat_map(|&(low, high)| [low, high]).collect();
-                let found = Symmetry { axis: axis.clone(), sectors, pairs, faces, farthest };
-                if best.as_ref().is_none_or(|(other, _)| fit > *other) {
-                    best = Some((fit, found));
+                let axis = axis.clone();
+                let symmetry = Symmetry { axis, sectors, pairs, faces, farthest, axis_found: false };
+                Ok(Fitting { fit, score, symmetry })
+            }
+            Err(error) => Err(Unfit { fit, score, sectors, error }),
+        }))
+    }
+
+    /// Symmetry about an axis that nothing states, with a better score than `least`; the refusal of an axis that almost fits better.
+    fn elsewhere(&self, least: f64) -> Result<Option<Symmetry>, FromMeshError> {
+        let Self { mesh, surface, sectors, within } = *self;
+        let mut refusal: Option<(f64, FromMeshError)> = None;
+        for pass in anywhere::PASSES {
+            let mut found: Vec<Fitting> = Vec::new();
+            for axis in anywhere::axes(mesh, surface, sectors, within, pass) {
+                match self.about(&axis, 1)? {
+                    Some(Ok(fitting)) if fitting.score > least => found.push(fitting),
+                    Some(Err(unfit)) if unfit.score > refusal.as_ref().map_or(least, |(score, _)| *score) => {
+                        refusal = Some((unfit.score, unfit.about(axis)));
+                    }
+                    _ => {}
                 }
             }
-            Err(error) if unfit.as_ref().is_none_or(|(other, _)| fit > *other) => unfit = Some((fit, error)),
-            Err(_) => {}
+            let score = refusal.as_ref().map_or(least, |(score, _)| *score);
+            found.retain(|fitting| fitting.score >= score);
+            found.sort_by(|a, b| b.score.total_cmp(&a.score));
+            if let Some(best) = found.first() {
+                let line = &best.symmetry.axis;
+                let apart = |other: &&Fitting| !anywhere::same(mesh, line, &other.symmetry.axis, within);
+                let as_good = |other: &&Fitting| other.score > AS_GOOD * best.score;
+                if let Some(other) = found.iter().find(|other| as_good(other) && apart(other)) {
+                    return Err(FromMeshError::AxesAlike { axes: [best, other].map(Fitting::told) });
+                }
+                return Ok(found
+                    .into_iter()
+                    .next()
+                    .map(|best| Symmetry { axis_found: true, ..best.symmetry }));
+            }
         }
+        refusal.map_or(Ok(None), |(_, error)| Err(error))
     }
-    match (best, unfit) {
-        // About another axis some faces may fit by chance.
-        (Some((fit, symmetry)), unfit) if unfit.as_ref().is_none_or(|(other, _)| fit >= *other) => {
-            Ok(symmetry)
+
+    /// Refusal of a mesh whose faces do not fit: how near they come, with the score of the nearest.
+    fn near_miss(&self, axes: &[Axis]) -> Result<(f64, FromMeshError), FromMeshError> {
+        let Self { surface, sectors, within, .. } = *self;
+        let mut best: Option<(f64, NearMiss)> = None;
+        for axis in axes {
+            let found = almost(surface, &frame(axis)?, sectors, within);
+            if let Some((near, area)) =
+                found.filter(|(near, _)| near.faces > best.as_ref().map_or(0, |(_, best)| best.faces))
+            {
+                best = Some((area + revolved(surface.iter(), axis), near));
+            }
         }
-        (_, Some((_, error))) => Err(error),
-        (_, None) => Err(near_miss(surface, &axes, stated, within)?),
+        let (score, near) = best.map_or((0.0, None), |(score, near)| (score, Some(near)));
+        Ok((score, no_faces(sectors, near, within, axes.len())))
     }
 }
 
@@ -195,35 +331,6 @@ fn number(surface: &[Face], axis: &AxisFrame, within: f64, opposite: f64) -> Opt
     }
     let most = votes.values().copied().fold(0.0, f64::max);
     votes.into_iter().find(|(_, area)| *area >= SHARE * most).map(|(sectors, _)| sectors)
-}
-
-/// Pairs (low face, high face) for a number of sectors, and the area of the low ones.
-fn matched(
-    surface: &[Face],
-    axis: &AxisFrame,
-    sectors: usize,
-    within: f64,
-    opposite: f64,
-) -> (Vec<(usize, usize)>, f64) {
-    let centres = surface.iter().zip(0..).map(|(face, k)| (k, face.centre.into())).collect();
-    let centres = NodeGrid::new(centres, within);
-    let angle = TAU / sectors as f64;
-    let turned = axis.turned_global(angle);
-    let mut fits = Vec::new();
-    let mut area = 0.0;
-    for (low, face) in surface.iter().enumerate() {
-        let Some(high) = centres.near(axis.turn_point(face.centre.into(), angle)) else { continue };
-        let high = high as usize;
-        // Rows are the turned unit vectors, so that their combination is the turned normal.
-        let normal = turned.tr_mul(&face.normal);
-        // Of two sectors each face is turned onto the other: the low one looks against the rotation.
-        let is_low = sectors > 2 || face.cylindrical_normal(axis)[1] < 0.0;
-        if is_low && (normal + surface[high].normal).norm() <= opposite {
-            fits.push((low, high));
-            area += face.area;
-        }
-    }
-    (fits, area)
 }
 
 /// Refuses a face that the turn lays onto another that looks the opposite way, but whose nodes are elsewhere: the wheel goes on there, and its
@@ -309,23 +416,4 @@ fn paired(
         Some(&node) => Err(FromMeshError::BothFaces { node: mesh.node_ids[node as usize] }),
         None => Ok((pairs, farthest)),
     }
-}
-
-/// Refusal of a mesh whose faces do not fit: how near they come.
-fn near_miss(
-    surface: &[Face],
-    axes: &[Axis],
-    sectors: Option<usize>,
-    within: f64,
-) -> Result<FromMeshError, FromMeshError> {
-    let mut best: Option<NearMiss> = None;
-    for axis in axes {
-        let found = almost(surface, &frame(axis)?, sectors, within);
-        if let Some((near, _)) =
-            found.filter(|(near, _)| near.faces > best.as_ref().map_or(0, |best| best.faces))
-        {
-            best = Some(near);
-        }
-    }
-    Ok(no_faces(sectors, best, within, axes.len()))
 }

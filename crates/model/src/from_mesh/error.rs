@@ -77,9 +77,9 @@ pub enum FromMeshError {
     },
     /// Mesh of several bodies.
     #[error(
-        "the mesh is {bodies} bodies that share no node: one of {} elements, one of {}, to which element {element} belongs; a model is one \
-         body, so join them or leave the others out",
-        .sizes[0], .sizes[1]
+        "the mesh is {bodies} bodies that share no node: one of {} elements, one of {}, to which element {element} belongs. Their nearest nodes, \
+         {} and {}, are {distance:.3e} apart; a model is one body, so merge such nodes with a larger tolerance, or leave the others out",
+        .sizes[0], .sizes[1], .nearest[0], .nearest[1]
     )]
     Bodies {
         /// Number of bodies.
@@ -88,6 +88,10 @@ pub enum FromMeshError {
         sizes: [usize; 2],
         /// First element of the second.
         element: u64,
+        /// Nearest nodes of these two.
+        nearest: [u64; 2],
+        /// Distance between these nodes.
+        distance: f64,
     },
     /// Element without a material.
     #[error(
@@ -160,6 +164,16 @@ pub enum FromMeshError {
         tolerance: f64,
         /// Number of axes that were tried.
         axes: usize,
+    },
+    /// Several axes by which faces fit equally well.
+    #[error(
+        "the faces of the skin fit about several axes: through {:?} along {:?} with {} sectors, and through {:?} along {:?} with {}; give \
+         `axis`, and `sectors`",
+        .axes[0].0, .axes[0].1, .axes[0].2, .axes[1].0, .axes[1].1, .axes[1].2
+    )]
+    AxesAlike {
+        /// Point, direction and number of sectors of two of them.
+        axes: [([f64; 3], [f64; 3], usize); 2],
     },
     /// Node of a cyclic face without a partner.
     #[error(
@@ -333,6 +347,25 @@ pub enum FromMeshError {
         /// Number of patches.
         patches: usize,
     },
+    /// Shroud curve that is none, or that no face looks at.
+    #[error("the curve `shroud` {problem}")]
+    Shroud {
+        /// Problem of the curve.
+        problem: String,
+    },
+    /// Shroud curve far away from any tip.
+    #[error(
+        "the tip that is nearest to the curve `shroud` is {distance:.4} away from it and {length:.4} long; at most {part} of its \
+         length is taken for a clearance. Points of the curve are r and z from the axis, in the units of the mesh"
+    )]
+    ShroudFar {
+        /// Mean distance of the tip.
+        distance: f64,
+        /// Length of the tip.
+        length: f64,
+        /// Largest distance, in lengths of the tip.
+        part: f64,
+    },
     /// Row of a node that the mesh does not have.
     #[error("the matrices have a row of node {node}, component {component}, which the mesh does not have")]
     RowWithoutNode {
@@ -382,7 +415,7 @@ fn no_faces(sectors: Option<usize>, near: Option<&NearMiss>, tolerance: f64, axe
         None => "no turn by 2π/N carries faces of the skin onto others".to_owned(),
     };
     let axis = if axes > 1 {
-        " about x, y or z through the origin; give `axis` if it is another, and `sectors`"
+        " about x, y or z through the origin, nor about another axis for which congruent faces speak; give `axis` and `sectors`"
     } else {
         " about this axis; check `axis` and `sectors`"
     };

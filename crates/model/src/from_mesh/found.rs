@@ -14,6 +14,10 @@ use super::settings::MeshSettings;
 use super::tip::{Tip, TipSource};
 use crate::package::calculix::ContactPoint;
 
+/// Note about an axis that was found away from x, y and z through the origin.
+const AXIS_FOUND: &str = "the axis was found from the cyclic faces; its direction is the one whose largest component is positive, and rotation \
+                          is positive about it: give `axis` the other way round for a wheel that turns against it";
+
 /// Findings about a mesh: what was read, what was found, and what the user should know.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Found {
@@ -65,6 +69,9 @@ impl Found {
         let elements = kinds(mesh);
         let mut notes = file.notes.clone();
         notes.extend(locking(mesh));
+        if symmetry.axis_found {
+            notes.push(AXIS_FOUND.to_owned());
+        }
         notes.extend(tip.notes);
         Self {
             format: file.format.name(),
@@ -202,6 +209,11 @@ pub(super) fn contact_line(source: &TipSource, count: usize, used: usize, spacin
         TipSource::Area(name) => format!("{count} nodes in the middle of the set {name}"),
         TipSource::Edge([a, b]) => format!("{count} nodes along the edge from node {a} to node {b}"),
         TipSource::Patch(nodes) => format!("{count} nodes in the middle of the patch at {}", named(nodes)),
+        TipSource::Shroud([least, most]) => format!(
+            "{count} nodes in the middle of the tip along the shroud curve, {} to {} away from it",
+            digits(*least),
+            digits(*most)
+        ),
         TipSource::Found(tips) => {
             format!("{count} nodes in the middle of the longest of {tips} blade tips found")
         }

@@ -137,9 +137,10 @@ pub fn look(file: &MeshFile, settings: &MeshSettings) -> Result<MeshLook, FromMe
     told.found.extend(materials);
     let surface = surface::surface(&mesh);
     let sound = body::check(file, &mesh).and_then(|()| conforming::check(&mesh, &surface));
-    let symmetry = told
-        .kept(LookStep::Mesh, sound)
-        .and_then(|()| told.kept(LookStep::Sectors, cyclic::symmetry(file, settings, &mesh, &surface)));
+    let symmetry = told.kept(LookStep::Mesh, sound).and_then(|gaps| {
+        told.found.extend(gaps.map(|note| format!("note: {note}")));
+        told.kept(LookStep::Sectors, cyclic::symmetry(file, settings, &mesh, &surface))
+    });
     let mut roles = Roles::default();
     if let Some(symmetry) = &symmetry {
         let axis = cyclic::frame(&symmetry.axis)?;

@@ -18,11 +18,14 @@ const MIDDLE: f64 = 0.15;
 /// Largest distance of a node from the straight line between the corners of an end on which it lies, in lengths of that line.
 const ON_END: f64 = 0.15;
 
+/// Least cosine of the angle by which a row of nodes turns at a node.
+const STRAIGHT: f64 = 0.5;
+
 /// Largest number of nodes of an end from which rows are tried.
 const MOST_ENDS: usize = 12;
 
 /// Largest distance between the corners of a short end, in widths of the strip.
-const END: f64 = 2.5;
+const END: f64 = 3.0;
 
 /// Middle line of a strip, and both of its long edges at the same parts of their lengths.
 #[derive(Debug)]
@@ -181,7 +184,12 @@ pub(super) fn along(mesh: &SectorMesh, surface: &[Face], strip: &[usize]) -> (Li
             None => nearest(edge, at).map(|(_, away)| away),
         };
         let [one, other] = midline.edges.each_ref().map(|edge| away(edge).unwrap_or_default());
-        placed.insert(node, Placed { along, off: (one - other) / (one + other).max(f64::MIN_POSITIVE) });
+        // The corner of a skew end may lie beside a place farther along.
+        let reached = end.unwrap_or(along);
+        placed.insert(
+            node,
+            Placed { along, reached, off: (one - other) / (one + other).max(f64::MIN_POSITIVE) },
+        );
     }
     let line = |nodes: Vec<u32>| {
         nodes.into_iter().map(|node| (mesh.node_ids[node as usize], mesh.nodes[node as usize])).collect()
@@ -201,9 +209,11 @@ pub(super) fn along(mesh: &SectorMesh, surface: &[Face], strip: &[usize]) -> (Li
     (line(row(mesh, surface, strip, &placed)), false)
 }
 
-/// Place of a node in a strip: along the middle line, and off it from −1 on one edge to 1 on the other.
+/// Place of a node in a strip: along the middle line, as far as it reaches there with nodes on a short end at that end, and off it from −1 on
+/// one edge to 1 on the other.
 struct Placed {
     along: usize,
+    reached: usize,
     off: f64,
 }
 
@@ -217,7 +227,7 @@ fn row(mesh: &SectorMesh, surface: &[Face], strip: &[usize], placed: &BTreeMap<u
         }
     }
     let length: f64 = placed.len() as f64 * strip.iter().map(|&face| surface[face].area).sum::<f64>().sqrt();
-    let place = |node: u32| placed.get(&node).map_or((0, 1.0), |place| (place.along, place.off));
+    let place = |node: u32| placed.get(&node).map_or((0, 1.0), |place| (place.reached, place.off));
     // Ways off the middle are longer, and ways from row to row longer than any along one.
     let cost = |a: u32, b: u32| {
         let (off_a, off_b) = (place(a).1, place(b).1);
@@ -241,7 +251,26 @@ fn row(mesh: &SectorMesh, surface: &[Face], strip: &[usize], placed: &BTreeMap<u
             best = Some((total, way));
         }
     }
-    best.map(|(_, way)| way).unwrap_or_default()
+    let mut way = best.map(|(_, way)| way).unwrap_or_default();
+    // Where ends are skew the middle line ends before the row does.
+    let at = |node: u32| Vector3::from(mesh.nodes[node as usize]);
+    for _ in 0..2 {
+        way.reverse();
+        while let [.., before, last] = way[..] {
+            let on = (at(last) - at(before)).normalize();
+            let goes_on = |node: &u32| {
+                let step = at(*node) - at(last);
+                !way.contains(node)
+                    && step.dot(&on) > STRAIGHT * step.norm()
+                    && (place(*node).1 - place(last).1).abs() <= MIDDLE
+            };
+            let Some(&next) = graph.get(&last).and_then(|next| next.iter().find(|node| goes_on(node))) else {
+                break;
+            };
+            way.push(next);
+        }
+    }
+    way
 }
 
 /// Nearest point of a line, as its place in the line, and its distance.

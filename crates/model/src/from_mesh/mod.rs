@@ -4,6 +4,7 @@
 //! MeshFile, MeshSettings ──▶ materials ─▶ body ─▶ surface ─▶ cyclic ─▶ clamp ─▶ tip ──▶ MeshedSector ─▶ assembly ─▶ RawPackage
 //! ```
 
+mod anywhere;
 mod body;
 mod chains;
 mod clamp;
@@ -23,8 +24,10 @@ mod patches;
 mod sector;
 mod sets;
 mod settings;
+mod shroud;
 mod surface;
 mod tip;
+mod turned;
 mod upload;
 mod way;
 

@@ -36,18 +36,40 @@ impl<'a> Opposite<'a> {
 
     /// Face around the place `at` whose normal is opposite to `normal` and whose plane is within `flat` of its size.
     pub(super) fn at(&self, at: Vector3<f64>, normal: Vector3<f64>, flat: f64) -> Option<&'a Face> {
+        let found = self.around(at, normal, flat).next();
+        found.map(|(face, _)| face)
+    }
+
+    /// Nearest such face that the place `at` lies in front of, and its distance.
+    pub(super) fn before(
+        &self,
+        at: Vector3<f64>,
+        normal: Vector3<f64>,
+        flat: f64,
+    ) -> Option<(&'a Face, f64)> {
+        let before = self.around(at, normal, flat).filter(|(_, off)| *off > 0.0);
+        before.min_by(|a, b| a.1.total_cmp(&b.1))
+    }
+
+    /// Faces around a place with opposite normals, and the distance of the place from their planes.
+    fn around(
+        &self,
+        at: Vector3<f64>,
+        normal: Vector3<f64>,
+        flat: f64,
+    ) -> impl Iterator<Item = (&'a Face, f64)> {
         let [i, j, k] = cell(at, self.width);
-        let around =
-            (-1..=1).flat_map(|a| (-1..=1).flat_map(move |b| (-1..=1).map(move |c| [i + a, j + b, k + c])));
-        let meets = |&other: &usize| {
+        let around = (-1..=1)
+            .flat_map(move |a| (-1..=1).flat_map(move |b| (-1..=1).map(move |c| [i + a, j + b, k + c])));
+        let near = around.filter_map(|cell| self.cells.get(&cell)).flatten();
+        near.filter_map(move |&other| {
             let (face, reach) = (self.faces[other], self.reaches[other]);
             let off = at - face.centre;
-            normal.dot(&face.normal) < -OPPOSED
-                && off.dot(&face.normal).abs() < flat * reach
-                && off.norm() < reach
-        };
-        let found = around.filter_map(|cell| self.cells.get(&cell)).flatten().copied().find(meets)?;
-        Some(self.faces[found])
+            let away = off.dot(&face.normal);
+            let meets =
+                normal.dot(&face.normal) < -OPPOSED && away.abs() < flat * reach && off.norm() < reach;
+            meets.then_some((face, away))
+        })
     }
 }
 

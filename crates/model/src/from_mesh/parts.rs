@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use super::cyclic::Symmetry;
 use super::patches::patches;
-use super::surface::{Face, sides};
+use super::surface::{Face, SMOOTH, sides};
 
 /// Role of a patch in the model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -71,7 +71,7 @@ impl Parts<'_> {
         };
         let of_role = |wanted: Option<MeshRole>| {
             let chosen = || (0..self.surface.len()).filter(|&face| role(face) == wanted);
-            patches(self.surface, &sides(self.surface, chosen()), chosen())
+            patches(self.surface, &sides(self.surface, chosen()), chosen(), SMOOTH)
         };
         let mut free = of_role(None);
         free.sort_by(|a, b| self.area(b).total_cmp(&self.area(a)).then(a.first().cmp(&b.first())));

@@ -11,7 +11,7 @@ use super::surface::{Face, SMOOTH, sides};
 /// Smooth patches of the faces on no cut, as places in the surface.
 pub(super) fn free_patches(surface: &[Face], symmetry: &Symmetry) -> Vec<BTreeSet<usize>> {
     let free = || (0..surface.len()).filter(|k| !symmetry.faces.contains(k));
-    patches(surface, &sides(surface, free()), free())
+    patches(surface, &sides(surface, free()), free(), SMOOTH)
 }
 
 /// Free patches that nodes name: those with a named node that no other free patch has, or with a face whose corners are all named.
@@ -70,11 +70,12 @@ pub(super) fn one_patch_at(
     }
 }
 
-/// Smooth patches of some faces.
+/// Patches of some faces, in which normals of neighbours have more than this cosine between them.
 pub(super) fn patches(
     surface: &[Face],
     sides: &HashMap<[u32; 2], Vec<usize>>,
     free: impl Iterator<Item = usize>,
+    least_cosine: f64,
 ) -> Vec<BTreeSet<usize>> {
     let mut seen = HashSet::new();
     let mut patches = Vec::new();
@@ -87,7 +88,7 @@ pub(super) fn patches(
         while let Some(face) = open.pop() {
             for [a, b] in surface[face].edges() {
                 for &other in sides.get(&[a.min(b), a.max(b)]).into_iter().flatten() {
-                    if surface[face].normal.dot(&surface[other].normal) > SMOOTH && seen.insert(other) {
+                    if surface[face].normal.dot(&surface[other].normal) > least_cosine && seen.insert(other) {
                         patch.insert(other);
                         open.push(other);
                     }

@@ -8,7 +8,7 @@ use super::cyclic;
 use super::error::FromMeshError;
 use super::found::Found;
 use super::settings::MeshSettings;
-use super::{body, clamp, conforming, contact_points, materials, surface, tip};
+use super::{body, clamp, conforming, contact_points, materials, shroud, surface, tip};
 use crate::assembly::{MeshedSector, PackageFacts, assembly_bytes, to_package, without_matrices};
 use crate::package::raw::{Frame, RawPackage};
 use crate::package::units;
@@ -32,7 +32,7 @@ pub fn sector(file: &MeshFile, settings: &MeshSettings) -> Result<Sector, FromMe
     let mut mesh = body::body(file, sets, &set_of);
     body::check(file, &mesh)?;
     let surface = surface::surface(&mesh);
-    conforming::check(&mesh, &surface)?;
+    let gaps = conforming::check(&mesh, &surface)?;
     let symmetry = cyclic::symmetry(file, settings, &mesh, &surface)?;
     let axis = cyclic::frame(&symmetry.axis)?;
     mesh.axis = (symmetry.axis.origin, axis.direction().into());
@@ -52,7 +52,8 @@ pub fn sector(file: &MeshFile, settings: &MeshSettings) -> Result<Sector, FromMe
     })?;
     mesh.sectors = symmetry.sectors;
     mesh.cyclic.clone_from(&symmetry.pairs);
-    let found = Found::of(file, settings, &mesh, &symmetry, (clamp, &clamped), tip, &contact);
+    let mut found = Found::of(file, settings, &mesh, &symmetry, (clamp, &clamped), tip, &contact);
+    found.notes.extend(gaps);
     let facts = PackageFacts {
         name: settings.name.clone().unwrap_or_else(|| file.format.name().to_owned()),
         units: settings.units.clone(),
@@ -80,9 +81,11 @@ pub(super) fn check_choices(settings: &MeshSettings) -> Result<(), FromMeshError
         ("contact_set", settings.contact_set.is_some()),
         ("contact_between", settings.contact_between.is_some()),
         ("contact_at", !settings.contact_at.is_empty()),
+        ("shroud", settings.shroud.is_some()),
     ];
     one_at_most(&clamps, "clamp")?;
     one_at_most(&contacts, "contact line")?;
+    settings.shroud.as_deref().map_or(Ok(()), shroud::check)?;
     if settings.contact_nodes < contact_points::LEAST {
         return Err(FromMeshError::ContactNodes(settings.contact_nodes));
     }

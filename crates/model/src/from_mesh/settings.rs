@@ -32,7 +32,7 @@ pub struct MeshSettings {
     /// Number of sectors N; found from the cyclic faces if left out. A single blade on a rigid disk has 1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sectors: Option<usize>,
-    /// Axis of rotation; stated by the file or found from the cyclic faces (along x, y or z through the origin) if left out.
+    /// Axis of rotation; stated by the file or found from the cyclic faces if left out, with the largest component of its direction positive.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schema(value_type = Object))]
     pub axis: Option<Axis>,
@@ -60,6 +60,10 @@ pub struct MeshSettings {
     /// contact line runs in the middle of its thickness.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub contact_at: Vec<u64>,
+    /// Curve of the shroud as points [r, z] from the axis, in the units of the mesh: the tip that is nearest to it has the contact line, instead
+    /// of a set.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shroud: Option<Vec<[f64; 2]>>,
     /// Largest number of contact nodes, evenly spaced.
     #[serde(default = "default_contact_nodes")]
     pub contact_nodes: usize,
@@ -100,6 +104,7 @@ impl MeshSettings {
             contact_set: None,
             contact_between: None,
             contact_at: Vec::new(),
+            shroud: None,
             contact_nodes: CONTACT_NODES,
             mass: MassRule::default(),
             gyroscopic: true,

@@ -1,4 +1,4 @@
-//! Contact nodes: from a node set, or from the longest blade tip that is found on the skin.
+//! Contact nodes: from a node set, from the tip along a shroud curve, or from the longest blade tip that is found on the skin.
 //!
 //! A tip is a smooth patch of the skin between flanks: it looks in the meridional plane, its edges are convex, and the faces beyond them
 //! look around the wheel. Contact nodes are those nearest to the middle of its thickness.
@@ -16,7 +16,8 @@ use super::error::FromMeshError;
 use super::midline::{along, midline};
 use super::patches::{one_patch_at, patches};
 use super::settings::MeshSettings;
-use super::surface::{Face, sides};
+use super::shroud;
+use super::surface::{Face, SMOOTH, sides};
 use super::way::Line;
 use crate::package::calculix::nearest_neighbours;
 
@@ -49,6 +50,8 @@ pub enum TipSource {
     Edge([u64; 2]),
     /// Middle of the patch that these nodes name.
     Patch(Vec<u64>),
+    /// Middle of the tip along a shroud curve, and the least and largest distance of its nodes from the curve.
+    Shroud([f64; 2]),
     /// Middle of the longest of the tips that were found, and their number.
     Found(usize),
 }
@@ -82,6 +85,17 @@ pub(super) fn tip(
     if !settings.contact_at.is_empty() {
         let faces = one_patch_at(mesh, surface, symmetry, &settings.contact_at)?;
         return Ok(of_strip(mesh, surface, axis, faces, TipSource::Patch(settings.contact_at.clone())));
+    }
+    if let Some(curve) = &settings.shroud {
+        let (faces, others) = shroud::strip(mesh, surface, symmetry, axis, curve)?;
+        let mut found = of_strip(mesh, surface, axis, faces, TipSource::Shroud([0.0; 2]));
+        found.source = TipSource::Shroud(shroud::distances(&found.line, axis, curve));
+        if others > 0 {
+            found.notes.push(format!(
+                "{others} other tips lie as near to the shroud curve and are no longer; only the longest has contact nodes"
+            ));
+        }
+        return Ok(found);
     }
     let Some(name) = &settings.contact_set else {
         let mut tips = tips(mesh, surface, symmetry, axis);
@@ -178,7 +192,7 @@ fn tips(
         let [outline, convex, flanked] = outline(mesh, surface, &sides, patch, &around);
         turned <= MERIDIONAL * area && convex >= CONVEX * outline && flanked >= BETWEEN_FLANKS * outline
     };
-    let patches = patches(surface, &sides, free());
+    let patches = patches(surface, &sides, free(), SMOOTH);
     let faces = patches.into_iter().filter(is_tip).map(|patch| patch.into_iter().collect::<Vec<_>>());
     faces.map(|faces| (midline(mesh, surface, &faces).length(), faces)).collect()
 }

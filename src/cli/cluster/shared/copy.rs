@@ -6,6 +6,7 @@ use anyhow::Context;
 use clap::Args;
 
 use crate::cli::keeping::runtime;
+use crate::cli::stdout::narrate;
 use crate::cli::terminal::Terminal;
 use crate::config::cluster::DatabaseUrl;
 use crate::store::cluster::address::Address;
@@ -47,9 +48,9 @@ pub(super) fn run(CopyArgs { data, database, objects }: CopyArgs) -> anyhow::Res
     let copied = runtime()?
         .block_on(copy::copy(&data, database.expose(), &objects, progress))
         .with_context(|| format!("could not copy {}", data.display()))?;
-    println!(
+    narrate(&format!(
         "{} models and {} jobs are there: {} of {} rows and {} of {} files were copied, the others were there",
         copied.models, copied.jobs, copied.new_rows, copied.rows, copied.new_files, copied.files
-    );
+    ))?;
     Ok(())
 }

@@ -4,6 +4,7 @@ use anyhow::Context;
 use clap::Args;
 
 use crate::cli::keeping::runtime;
+use crate::cli::stdout::narrate;
 use crate::config::cluster::DatabaseUrl;
 use crate::store;
 
@@ -22,9 +23,13 @@ pub(super) fn run(MigrateArgs { database }: MigrateArgs) -> anyhow::Result<()> {
         .context("could not bring the tables up to date")?;
     for store::Upgrade { part, steps, version } in upgrades {
         match steps {
-            0 => println!("the tables of {part} were up to date: version {version}"),
-            1 => println!("the tables of {part} were brought up to date in 1 step: version {version}"),
-            _ => println!("the tables of {part} were brought up to date in {steps} steps: version {version}"),
+            0 => narrate(&format!("the tables of {part} were up to date: version {version}"))?,
+            1 => narrate(&format!(
+                "the tables of {part} were brought up to date in 1 step: version {version}"
+            ))?,
+            _ => narrate(&format!(
+                "the tables of {part} were brought up to date in {steps} steps: version {version}"
+            ))?,
         }
     }
     Ok(())
