@@ -1,6 +1,7 @@
 //! Finite-element generator against closed forms, another code and invariants.
 
 mod annulus;
+mod at_speed;
 mod beam;
 mod calculix;
 #[path = "../properties/campaign.rs"]
@@ -19,6 +20,7 @@ mod fixed;
 mod gyroscopic;
 mod impeller_a;
 mod impeller_mesh;
+mod mesh_closed_forms;
 mod mesh_kinds;
 #[path = "../solid/meshes.rs"]
 mod meshes;

@@ -42,12 +42,12 @@ fn impeller(sectors: usize) -> ImpellerParameters {
     }
 }
 
-fn sector_mesh(parameters: &ImpellerParameters) -> SectorMesh {
+pub(crate) fn sector_mesh(parameters: &ImpellerParameters) -> SectorMesh {
     impeller_sector(parameters).unwrap().made_of(&parameters.material).mesh
 }
 
 /// Deck of a mesh with its material and nothing else.
-fn deck(mesh: &SectorMesh) -> String {
+pub(crate) fn deck(mesh: &SectorMesh) -> String {
     let mut deck = "*NODE\n".to_owned();
     for (id, [x, y, z]) in mesh.node_ids.iter().zip(&mesh.nodes) {
         writeln!(deck, "{id}, {x:?}, {y:?}, {z:?}").unwrap();
@@ -285,7 +285,7 @@ fn joined(numbers: &[u32], by: &str) -> String {
     numbers.iter().map(u32::to_string).collect::<Vec<_>>().join(by)
 }
 
-fn gmsh(mesh: &SectorMesh) -> String {
+pub(crate) fn gmsh(mesh: &SectorMesh) -> String {
     const EDGES: [[usize; 2]; 12] =
         [[0, 1], [0, 3], [0, 4], [1, 2], [1, 5], [2, 3], [2, 6], [3, 7], [4, 5], [4, 7], [5, 6], [6, 7]];
     let mut text = format!("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{}\n", mesh.nodes.len());
@@ -322,7 +322,7 @@ fn vtu(mesh: &SectorMesh) -> String {
     )
 }
 
-fn ansys(mesh: &SectorMesh) -> String {
+pub(crate) fn ansys(mesh: &SectorMesh) -> String {
     let mut text =
         "/COM,ANSYS RELEASE 20.2\n/PREP7\nET,1,186\nKEYOP,1,2,1\nNBLOCK,6,SOLID\n(3i9,6e22.14e3)\n"
             .to_owned();
@@ -346,7 +346,7 @@ fn ansys(mesh: &SectorMesh) -> String {
     text + "       -1\n"
 }
 
-fn nastran(mesh: &SectorMesh) -> String {
+pub(crate) fn nastran(mesh: &SectorMesh) -> String {
     const EDGES: [[usize; 2]; 12] =
         [[0, 1], [1, 2], [2, 3], [3, 0], [0, 4], [1, 5], [2, 6], [3, 7], [4, 5], [5, 6], [6, 7], [7, 4]];
     let mut text = "BEGIN BULK\n".to_owned();
@@ -496,7 +496,7 @@ fn settings_that_do_not_fit_are_refused() {
 }
 
 /// Package in Cartesian components: the generator's are cylindrical.
-fn cartesian(mut package: RawPackage) -> RawPackage {
+pub(crate) fn cartesian(mut package: RawPackage) -> RawPackage {
     let axis = AxisFrame::new([0.0; 3], [0.0, 0.0, 1.0]).unwrap();
     let at: BTreeMap<u64, [f64; 3]> = package.nodes.iter().map(|node| (node.id, node.position)).collect();
     turned(&mut package, |node| axis.cylindrical(axis.coordinates(at[&node])[1]).transpose());
@@ -513,7 +513,7 @@ fn labelled(package: &RawPackage, matrix: &RawMatrix) -> String {
 }
 
 /// Matrix as Ansys exports it in Matrix Market form, and its mapping.
-fn market(package: &RawPackage, matrix: &RawMatrix) -> (String, String) {
+pub(crate) fn market(package: &RawPackage, matrix: &RawMatrix) -> (String, String) {
     let mut text = format!(
         "%%MatrixMarket matrix coordinate real symmetric\n{} {} {}\n",
         matrix.size,

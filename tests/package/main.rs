@@ -10,6 +10,7 @@ mod findings;
 #[path = "../properties/fixed.rs"]
 mod fixed;
 mod from_mesh;
+mod from_pages;
 mod gyroscopic;
 mod joints;
 mod mesh;
