@@ -23,7 +23,7 @@ use crate::findings::turned;
 const TOP_SPEED: f64 = 3000.0;
 
 /// Coarse impeller of 20-node elements with splitter blades.
-fn impeller(sectors: usize) -> ImpellerParameters {
+pub(crate) fn impeller(sectors: usize) -> ImpellerParameters {
     ImpellerParameters {
         sectors,
         contact_nodes: 5,
@@ -64,12 +64,12 @@ pub(crate) fn deck(mesh: &SectorMesh) -> String {
     deck
 }
 
-fn read_mesh(text: &str) -> MeshFile {
+pub(crate) fn read_mesh(text: &str) -> MeshFile {
     mesh::read(text.as_bytes(), &|_| Err("there is none".to_owned())).unwrap()
 }
 
 /// Settings with a top speed, five contact nodes, and titanium where the file has no material.
-fn settings() -> MeshSettings {
+pub(crate) fn settings() -> MeshSettings {
     let titanium = Material::default().to_solid();
     MeshSettings {
         contact_nodes: 5,
@@ -78,7 +78,7 @@ fn settings() -> MeshSettings {
     }
 }
 
-fn made(text: &str) -> Result<Sector, FromMeshError> {
+pub(crate) fn made(text: &str) -> Result<Sector, FromMeshError> {
     from_mesh::sector(&read_mesh(text), &settings())
 }
 
@@ -299,7 +299,7 @@ pub(crate) fn gmsh(mesh: &SectorMesh) -> String {
     text + "$EndElements\n"
 }
 
-fn vtu(mesh: &SectorMesh) -> String {
+pub(crate) fn vtu(mesh: &SectorMesh) -> String {
     let points: String = mesh.nodes.iter().map(|[x, y, z]| format!("{x:?} {y:?} {z:?}\n")).collect();
     let (mut connectivity, mut offsets, mut types) = (String::new(), String::new(), String::new());
     for (k, element) in mesh.elements.iter().enumerate() {
@@ -416,7 +416,7 @@ fn nodes_on_the_axis_must_be_clamped() {
 }
 
 /// Refusal of a mesh that is changed.
-fn refused(change: impl FnOnce(&mut SectorMesh)) -> String {
+pub(crate) fn refused(change: impl FnOnce(&mut SectorMesh)) -> String {
     let mut mesh = sector_mesh(&impeller(7));
     change(&mut mesh);
     made(&deck(&mesh)).map(|_| ()).unwrap_err().to_string()

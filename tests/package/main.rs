@@ -2,6 +2,7 @@
 
 mod agreement;
 mod bad;
+mod bad_meshes;
 mod calculix;
 mod calculix_deck;
 mod damaged;
