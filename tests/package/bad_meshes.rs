@@ -5,6 +5,7 @@ use std::fmt::Write;
 use nalgebra::{Rotation3, Unit, Vector3};
 use rubmap::from_mesh::{self, MeshSettings};
 use rubmap::mesh;
+use rubmap::package::raw::Axis;
 use rubmap::package::to_sector;
 use rubmap::solid::mesh::SectorMesh;
 
@@ -134,6 +135,25 @@ fn a_clamp_of_corner_nodes_only() {
     let settings = MeshSettings { clamp_set: Some("BORE".into()), ..settings() };
     let message = from_mesh::sector(&read_mesh(&text), &settings).unwrap_err().to_string();
     assert!(message.starts_with(expected) && message.contains("with 7 sectors about the axis"), "{message}");
+}
+
+/// Nothing that holds the wheel: a set of nodes without elements, a bore that is none, one node of a single blade.
+#[test]
+fn no_clamp() {
+    let mesh = good();
+    let text = deck(&mesh);
+    let far = "*NODE\n90001, 1000, 0, 0\n*NSET, NSET=FAR\n90001\n";
+    let of_set = MeshSettings { clamp_set: Some("FAR".into()), ..settings() };
+    let message = refusal_with(&format!("{text}{far}"), &of_set);
+    assert!(message.starts_with("no node of the clamp belongs to an element"), "{message}");
+
+    let axis = Some(Axis { origin: mesh.nodes[0], direction: [0.0, 0.0, 1.0] });
+    let alone = MeshSettings { sectors: Some(1), axis, ..settings() };
+    let message = refusal_with(&text, &alone);
+    assert!(message.starts_with("nothing says where the wheel is held"), "{message}");
+
+    let message = refusal_with(&format!("{text}*BOUNDARY\n1, 1, 3\n"), &alone);
+    assert!(message.ends_with("is anything clamped?"), "{message}");
 }
 
 /// Units that do not belong together: constants that no solid has are refused, a wheel of another size is warned of.
