@@ -7,7 +7,7 @@ use rubmap::impeller::{CantileverParameters, Material, cantilever, cantilever_me
 use crate::eigen::{dense_eigenvalues, lowest_real};
 
 /// Frequencies ω* of flap modes 1 and 2 at η (Wright et al. 1982, recomputed by Legendre–Ritz).
-const TABLE: [(f64, [f64; 2]); 4] = [
+pub(crate) const TABLE: [(f64, [f64; 2]); 4] = [
     (0.0, [3.51602, 22.03449]),
     (2.0, [4.13732, 22.61492]),
     (4.0, [5.58500, 24.27335]),

@@ -1,6 +1,7 @@
 //! Finite-element generator against closed forms, another code and invariants.
 
 mod annulus;
+mod at_speed;
 mod axis;
 mod axis_found;
 mod beam;
@@ -22,6 +23,7 @@ mod gaps;
 mod gyroscopic;
 mod impeller_a;
 mod impeller_mesh;
+mod mesh_closed_forms;
 mod mesh_kinds;
 #[path = "../solid/meshes.rs"]
 mod meshes;

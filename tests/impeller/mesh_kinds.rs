@@ -15,16 +15,16 @@ use rubmap::solid::rule::MassRule;
 use crate::eigen::{dense_eigenvalues, harmonic, hertz, lowest};
 use crate::meshes::block;
 
-const SECTORS: usize = 5;
+pub(crate) const SECTORS: usize = 5;
 const CELLS: [usize; 3] = [2, 4, 2];
 const MODES: usize = 3;
 
 /// Speed of the centrifugal load, rad/s.
-const SPEED: f64 = 30_000.0;
+pub(crate) const SPEED: f64 = 30_000.0;
 
 /// Sector of a disk with skewed cuts as a deck, cells along r, θ and z, held at its `held`th cylinder of corners; contact nodes along z on the
 /// middle one.
-fn deck(kind: ElementKind, sectors: usize, held: f64) -> String {
+pub(crate) fn deck(kind: ElementKind, sectors: usize, held: f64) -> String {
     let turn = TAU / if sectors > 1 { sectors } else { SECTORS } as f64;
     let place = |[r, j, z]: [f64; 3]| {
         let theta = turn * j / CELLS[1] as f64 + 0.1 * r + 0.05 * z;
@@ -64,7 +64,7 @@ fn deck(kind: ElementKind, sectors: usize, held: f64) -> String {
 }
 
 /// Model of the deck.
-fn model(deck: &str, sectors: usize, rule: MassRule) -> RawPackage {
+pub(crate) fn model(deck: &str, sectors: usize, rule: MassRule) -> RawPackage {
     let file = mesh::read(deck.as_bytes(), &|_| Err("no file".to_owned())).unwrap();
     let settings = MeshSettings {
         sectors: Some(sectors),
@@ -75,8 +75,8 @@ fn model(deck: &str, sectors: usize, rule: MassRule) -> RawPackage {
     from_mesh::sector(&file, &settings).unwrap().package().unwrap()
 }
 
-/// Results that CalculiX prints of a deck with these steps; `None`, with a printed reason, without it.
-fn calculix(deck: &str, steps: &str) -> Option<String> {
+/// Folder in which CalculiX ran a deck with these steps; `None`, with a printed reason, without it.
+pub(crate) fn run(deck: &str, steps: &str) -> Option<tempfile::TempDir> {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("sector.inp"), format!("{deck}{steps}")).unwrap();
     let run = Command::new("ccx").args(["-i", "sector"]).current_dir(folder.path()).output();
@@ -88,6 +88,12 @@ fn calculix(deck: &str, steps: &str) -> Option<String> {
         }
     };
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stdout));
+    Some(folder)
+}
+
+/// Results that CalculiX prints of a deck with these steps; `None`, with a printed reason, without it.
+fn calculix(deck: &str, steps: &str) -> Option<String> {
+    let folder = run(deck, steps)?;
     Some(std::fs::read_to_string(folder.path().join("sector.dat")).unwrap())
 }
 
@@ -125,7 +131,7 @@ fn difference(package: &RawPackage, theirs: &[Vec<f64>]) -> f64 {
 }
 
 /// Kinds that CalculiX has.
-fn kinds() -> impl Iterator<Item = ElementKind> {
+pub(crate) fn kinds() -> impl Iterator<Item = ElementKind> {
     let other =
         |kind: &ElementKind| matches!(kind, ElementKind::QM6 | ElementKind::C3D5 | ElementKind::C3D13);
     ElementKind::ALL.into_iter().filter(move |kind| !other(kind))

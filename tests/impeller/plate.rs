@@ -6,7 +6,7 @@ use rubmap::impeller::{AnnulusParameters, Material, annulus};
 use crate::eigen::{harmonic, lowest};
 
 /// Zeros λ² = ωa²√(ρh/D) per b/a and nodal diameter, without and with one nodal circle; ν = 0.3.
-const TABLE: [(f64, [[f64; 2]; 5]); 2] = [
+pub(crate) const TABLE: [(f64, [[f64; 2]; 5]); 2] = [
     (0.1, [[4.2374, 25.2618], [3.4781, 27.6728], [5.6227, 36.9409], [12.4505, 53.2026], [21.8356, 73.5565]]),
     (0.3, [[6.6604, 42.6142], [6.5523, 44.6311], [7.9565, 50.9473], [13.2757, 62.0528], [22.0738, 78.1195]]),
 ];

@@ -78,7 +78,7 @@ pub(crate) fn settings() -> MeshSettings {
     }
 }
 
-fn made(text: &str) -> Result<Sector, FromMeshError> {
+pub(crate) fn made(text: &str) -> Result<Sector, FromMeshError> {
     from_mesh::sector(&read_mesh(text), &settings())
 }
 
@@ -283,7 +283,7 @@ fn joined(numbers: &[u32], by: &str) -> String {
     numbers.iter().map(u32::to_string).collect::<Vec<_>>().join(by)
 }
 
-fn gmsh(mesh: &SectorMesh) -> String {
+pub(crate) fn gmsh(mesh: &SectorMesh) -> String {
     const EDGES: [[usize; 2]; 12] =
         [[0, 1], [0, 3], [0, 4], [1, 2], [1, 5], [2, 3], [2, 6], [3, 7], [4, 5], [4, 7], [5, 6], [6, 7]];
     let mut text = format!("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{}\n", mesh.nodes.len());
@@ -297,7 +297,7 @@ fn gmsh(mesh: &SectorMesh) -> String {
     text + "$EndElements\n"
 }
 
-fn vtu(mesh: &SectorMesh) -> String {
+pub(crate) fn vtu(mesh: &SectorMesh) -> String {
     let points: String = mesh.nodes.iter().map(|[x, y, z]| format!("{x:?} {y:?} {z:?}\n")).collect();
     let (mut connectivity, mut offsets, mut types) = (String::new(), String::new(), String::new());
     for (k, element) in mesh.elements.iter().enumerate() {
@@ -320,7 +320,7 @@ fn vtu(mesh: &SectorMesh) -> String {
     )
 }
 
-fn ansys(mesh: &SectorMesh) -> String {
+pub(crate) fn ansys(mesh: &SectorMesh) -> String {
     let mut text =
         "/COM,ANSYS RELEASE 20.2\n/PREP7\nET,1,186\nKEYOP,1,2,1\nNBLOCK,6,SOLID\n(3i9,6e22.14e3)\n"
             .to_owned();
@@ -344,7 +344,7 @@ fn ansys(mesh: &SectorMesh) -> String {
     text + "       -1\n"
 }
 
-fn nastran(mesh: &SectorMesh) -> String {
+pub(crate) fn nastran(mesh: &SectorMesh) -> String {
     const EDGES: [[usize; 2]; 12] =
         [[0, 1], [1, 2], [2, 3], [3, 0], [0, 4], [1, 5], [2, 6], [3, 7], [4, 5], [5, 6], [6, 7], [7, 4]];
     let mut text = "BEGIN BULK\n".to_owned();
@@ -418,7 +418,7 @@ fn nodes_on_the_axis_are_in_no_pair() {
 }
 
 /// Refusal of a mesh that is changed.
-fn refused(change: impl FnOnce(&mut SectorMesh)) -> String {
+pub(crate) fn refused(change: impl FnOnce(&mut SectorMesh)) -> String {
     let mut mesh = sector_mesh(&impeller(7));
     change(&mut mesh);
     made(&deck(&mesh)).map(|_| ()).unwrap_err().to_string()
@@ -498,7 +498,7 @@ fn settings_that_do_not_fit_are_refused() {
 }
 
 /// Package in Cartesian components: the generator's are cylindrical.
-fn cartesian(mut package: RawPackage) -> RawPackage {
+pub(crate) fn cartesian(mut package: RawPackage) -> RawPackage {
     let axis = AxisFrame::new([0.0; 3], [0.0, 0.0, 1.0]).unwrap();
     let at: BTreeMap<u64, [f64; 3]> = package.nodes.iter().map(|node| (node.id, node.position)).collect();
     turned(&mut package, |node| axis.cylindrical(axis.coordinates(at[&node])[1]).transpose());
@@ -515,7 +515,7 @@ fn labelled(package: &RawPackage, matrix: &RawMatrix) -> String {
 }
 
 /// Matrix as Ansys exports it in Matrix Market form, and its mapping.
-fn market(package: &RawPackage, matrix: &RawMatrix) -> (String, String) {
+pub(crate) fn market(package: &RawPackage, matrix: &RawMatrix) -> (String, String) {
     let mut text = format!(
         "%%MatrixMarket matrix coordinate real symmetric\n{} {} {}\n",
         matrix.size,

@@ -2,6 +2,7 @@
 
 mod agreement;
 mod bad;
+mod bad_meshes;
 mod calculix;
 mod calculix_deck;
 mod damaged;
@@ -10,6 +11,7 @@ mod findings;
 #[path = "../properties/fixed.rs"]
 mod fixed;
 mod from_mesh;
+mod from_pages;
 mod gyroscopic;
 mod joints;
 mod looks;

@@ -38,9 +38,10 @@ pub(super) fn body(file: &MeshFile, sets: Vec<ElementSet>, set_of: &HashMap<u64,
     }
 }
 
-/// Refuses elements that are not whole, two nodes at one place, and several bodies.
+/// Refuses elements that are not whole or repeated, two nodes at one place, and several bodies.
 pub(super) fn check(file: &MeshFile, mesh: &SectorMesh) -> Result<(), FromMeshError> {
     check_elements(file, mesh)?;
+    check_repeated(file, mesh)?;
     check_twins(mesh)?;
     check_connected(mesh)
 }
@@ -70,6 +71,22 @@ fn check_elements(file: &MeshFile, mesh: &SectorMesh) -> Result<(), FromMeshErro
             }
         };
         return Err(FromMeshError::Element { element: element.id, kind: element.kind.name(), line, problem });
+    }
+    Ok(())
+}
+
+/// Refuses two elements of the same nodes, which would count twice.
+fn check_repeated(file: &MeshFile, mesh: &SectorMesh) -> Result<(), FromMeshError> {
+    let mut known: HashMap<Vec<u32>, u64> = HashMap::with_capacity(mesh.elements.len());
+    for element in &mesh.elements {
+        let mut nodes = element.nodes.clone();
+        nodes.sort_unstable();
+        if let Some(other) = known.insert(nodes, element.id) {
+            let line = file.elements.get(&element.id).map_or(0, |element| element.line);
+            let problem = format!("it has the nodes of element {other}; leave one of them out");
+            let kind = element.kind.name();
+            return Err(FromMeshError::Element { element: element.id, kind, line, problem });
+        }
     }
     Ok(())
 }

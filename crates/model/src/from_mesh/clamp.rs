@@ -55,6 +55,9 @@ pub(super) fn clamped(
     if !clamped.contains(&true) {
         return Err(FromMeshError::NothingClamped);
     }
+    if let Some(element) = held_by_corners(mesh, surface, &clamped) {
+        return Err(FromMeshError::ClampOfCorners { element });
+    }
     // A support on one face holds the same node of the next sector.
     for &(low, high) in &symmetry.pairs {
         let either = clamped[low as usize] || clamped[high as usize];
@@ -72,6 +75,16 @@ fn of_faces(mesh: &SectorMesh, surface: &[Face], faces: impl Iterator<Item = usi
     let mut marked = vec![false; mesh.nodes.len()];
     faces.flat_map(|face| &surface[face].skin.nodes).for_each(|&node| marked[node as usize] = true);
     marked
+}
+
+/// Number of an element with a face whose corners are clamped and whose other nodes are all free, as in sets of corner nodes.
+fn held_by_corners(mesh: &SectorMesh, surface: &[Face], clamped: &[bool]) -> Option<u64> {
+    let held = |node: &u32| clamped[*node as usize];
+    let by_corners = |face: &&Face| {
+        let (corners, others) = face.skin.nodes.split_at(face.skin.corners);
+        !others.is_empty() && corners.iter().all(held) && !others.iter().any(held)
+    };
+    surface.iter().find(by_corners).map(|face| mesh.elements[face.skin.element as usize].id)
 }
 
 /// Nodes of the faces at the smallest radius.

@@ -227,6 +227,15 @@ pub enum FromMeshError {
     /// Clamp without a node.
     #[error("no node of the clamp belongs to an element")]
     NothingClamped,
+    /// Clamp that leaves the nodes on the edges of its faces free.
+    #[error(
+        "the clamp holds the corners of a face of element {element} and none of the nodes on its edges, as a set of corner nodes does; hold all nodes of \
+         the face"
+    )]
+    ClampOfCorners {
+        /// Number of the element.
+        element: u64,
+    },
     /// Wheel without a bore, and without a stated clamp.
     #[error(
         "nothing says where the wheel is held: the file holds no nodes and there is no bore; name a node set with `clamp_set`, or a node of the clamped face with `clamp_at`"
