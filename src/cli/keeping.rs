@@ -50,7 +50,7 @@ pub(super) fn check(CheckArgs { data }: CheckArgs) -> anyhow::Result<ExitCode> {
         found.models, found.jobs, found.speeds
     ))?;
     for wrong in &found.wrong {
-        narrate(&wrong)?;
+        narrate(wrong)?;
     }
     Ok(if found.wrong.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }

@@ -1321,6 +1321,7 @@ class MeshSettings(TypedDict, closed=True):
     mesh_file: NotRequired[str]
     name: NotRequired[str]
     sectors: NotRequired[int]
+    shroud: NotRequired[list[list[float]] | None]
     temperatures: NotRequired[dict[str, float]]
     top_speed_rad_s: float
     units: NotRequired[Units]
