@@ -172,6 +172,9 @@ fn few_digits_are_enough() {
     let (deck, motion) = seven(5, |_, _| {});
     let found = made(&deck, &MeshSettings::new(SPEED)).unwrap().found;
     assert_eq!(found.sectors, 7);
+    let file = mesh::read(deck.as_bytes(), &|_| Err("no file".to_owned())).unwrap();
+    let look = from_mesh::look(&file, &MeshSettings::new(SPEED)).unwrap();
+    assert!(look.found.iter().any(|line| line.starts_with("note: the axis was found")), "{:?}", look.found);
     let direction = Vector3::from(found.axis[1]);
     assert!(direction.cross(&(motion.rotation * Vector3::z())).norm() < 1e-5, "{direction}");
 }

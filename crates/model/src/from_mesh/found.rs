@@ -15,7 +15,7 @@ use super::tip::{Tip, TipSource};
 use crate::package::calculix::ContactPoint;
 
 /// Note about an axis that was found away from x, y and z through the origin.
-const AXIS_FOUND: &str = "the axis was found from the cyclic faces; its direction is the one whose largest component is positive, and rotation \
+pub(super) const AXIS_FOUND: &str = "the axis was found from the cyclic faces; its direction is the one whose largest component is positive, and rotation \
                           is positive about it: give `axis` the other way round for a wheel that turns against it";
 
 /// Findings about a mesh: what was read, what was found, and what the user should know.

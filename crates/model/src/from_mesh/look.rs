@@ -157,8 +157,10 @@ pub fn look(file: &MeshFile, settings: &MeshSettings) -> Result<MeshLook, FromMe
         ));
         roles = find_roles(&mut told, file, settings, &mesh, &surface, symmetry, &axis);
     }
-    told.found
-        .extend(file.notes.iter().cloned().chain(found::locking(&mesh)).map(|note| format!("note: {note}")));
+    let axis_found = symmetry.as_ref().is_some_and(|symmetry| symmetry.axis_found);
+    let of_axis = axis_found.then(|| found::AXIS_FOUND.to_owned());
+    let notes = file.notes.iter().cloned().chain(found::locking(&mesh)).chain(of_axis);
+    told.found.extend(notes.map(|note| format!("note: {note}")));
     Ok(drawn(told, settings, mesh, &surface, symmetry, roles))
 }
 
