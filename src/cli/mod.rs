@@ -145,11 +145,11 @@ impl Cli {
     /// The reason why the command could not be done.
     pub fn run(self) -> anyhow::Result<ExitCode> {
         // A reader who stops early has what was wanted, as in `| head`.
-        let done = self.done();
-        done.or_else(|error| if error.is::<stdout::Closed>() { Ok(ExitCode::SUCCESS) } else { Err(error) })
+        self.dispatch()
+            .or_else(|error| if error.is::<stdout::Closed>() { Ok(ExitCode::SUCCESS) } else { Err(error) })
     }
 
-    fn done(self) -> anyhow::Result<ExitCode> {
+    fn dispatch(self) -> anyhow::Result<ExitCode> {
         match self.command {
             Command::Upload(args) => return verb::run(&args),
             Command::Plan(args) => return verb::run(&args),

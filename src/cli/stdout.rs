@@ -1,4 +1,4 @@
-//! Output stream: results, and what commands say of their work.
+//! Output stream: results, and reports of commands on their work.
 
 use std::io::{ErrorKind, Write};
 
@@ -21,7 +21,7 @@ pub(super) fn print(line: &str) -> anyhow::Result<()> {
     }
 }
 
-/// Writes a text beside the work of a command, with a new line at its end. The work goes on where nobody reads it.
+/// Writes the report of a command on its work, which ends with a new line; the work goes on where nobody reads it.
 ///
 /// # Errors
 /// An output that cannot be written.

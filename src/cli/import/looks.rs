@@ -49,7 +49,7 @@ pub(super) fn described(look: &MeshLook) -> String {
         ]));
     }
     lines.push(format!("\n{}", priced(&look.price)));
-    lines.join("\n") + "\n"
+    lines.join("\n")
 }
 
 fn role(role: MeshRole) -> String {

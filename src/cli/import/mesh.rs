@@ -10,10 +10,9 @@ use clap::Args;
 
 use super::arguments::{axis, units};
 use super::findings::describe_findings;
-use super::looks;
-use super::shroud;
+use super::{looks, shroud};
 use crate::cli::speed::speed;
-use crate::cli::stdout::narrate;
+use crate::cli::stdout::{narrate, print};
 use crate::dynamics::sector::Units;
 use crate::from_mesh::{self, MeshSettings};
 use crate::mesh::MeshFile;
@@ -108,8 +107,7 @@ pub(super) fn import(args: MeshArgs) -> anyhow::Result<()> {
     }
     let Some(out) = out.filter(|_| !look) else {
         let seen = from_mesh::look(&file, &settings).with_context(|| name)?;
-        print!("{}", looks::described(&seen));
-        return Ok(());
+        return print(&looks::described(&seen));
     };
     let sector = from_mesh::sector(&file, &settings).with_context(|| name.clone())?;
     narrate(&sector.found.to_string())?;
