@@ -197,7 +197,7 @@ fn what_fits_about_no_axis_is_refused() {
     let (deck, _) = seven(14, |_, _| {});
     let message = refused(&deck, MeshSettings { sectors: Some(9), ..MeshSettings::new(SPEED) });
     assert!(
-        message.contains("nor about another axis for which congruent faces speak; give `axis` and `sectors`"),
+        message.contains("nor about any axis that congruent faces suggest; give `axis` and `sectors`"),
         "{message}"
     );
     // A box fits about the middle of each of its sides, by half a turn.

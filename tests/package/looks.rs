@@ -146,7 +146,10 @@ fn patches_are_named_by_nodes() {
     let both = [bore.at.clone(), outer.at.clone()].concat();
     let two = refusal(&MeshSettings { contact_at: both, ..without_material() }, LookStep::Contact);
     // Corners of both are those of the faces between, too.
-    assert!(two.starts_with("the nodes of `contact_at` name 4 patches of the skin; a tip is one"), "{two}");
+    assert!(
+        two.starts_with("the nodes of `contact_at` name 4 patches of the skin; a tip is one patch"),
+        "{two}"
+    );
 }
 
 /// Roles of the generator's impeller are those of the import, and a click on what was found by itself changes nothing.

@@ -11,7 +11,7 @@ use rubmap_solid::place::tolerance;
 
 use super::anywhere::{self, revolved};
 use super::body::grid;
-use super::error::{FromMeshError, NearMiss};
+use super::error::{FittingAxis, FromMeshError, NearMiss};
 use super::opposite::Opposite;
 use super::settings::MeshSettings;
 use super::surface::Face;
@@ -119,7 +119,7 @@ struct Fitting {
     symmetry: Symmetry,
 }
 
-/// Fit that is none because of single nodes or faces.
+/// Fit that single nodes or faces spoil, with its refusal.
 struct Unfit {
     fit: Fit,
     score: f64,
@@ -128,10 +128,10 @@ struct Unfit {
 }
 
 impl Fitting {
-    /// Point on the axis, its direction, and the number of sectors.
-    fn told(&self) -> ([f64; 3], [f64; 3], usize) {
+    /// Axis of the fit, for a refusal.
+    fn axis(&self) -> FittingAxis {
         let Symmetry { axis, sectors, .. } = &self.symmetry;
-        (axis.origin, axis.direction, *sectors)
+        FittingAxis { origin: axis.origin, direction: axis.direction, sectors: *sectors }
     }
 }
 
@@ -144,7 +144,7 @@ impl Unfit {
     }
 }
 
-/// Best fit, and the best of those that are none.
+/// Best fit, and the best of the spoilt ones.
 #[derive(Default)]
 struct Tried {
     best: Option<Fitting>,
@@ -152,7 +152,7 @@ struct Tried {
 }
 
 impl Search<'_> {
-    /// Best fits about some axes.
+    /// Best fits about these axes.
     fn tried(&self, axes: &[Axis]) -> Result<Tried, FromMeshError> {
         let mut tried = Tried::default();
         for axis in axes {
@@ -224,7 +224,7 @@ impl Search<'_> {
                 let apart = |other: &&Fitting| !anywhere::same(mesh, line, &other.symmetry.axis, within);
                 let as_good = |other: &&Fitting| other.score > AS_GOOD * best.score;
                 if let Some(other) = found.iter().find(|other| as_good(other) && apart(other)) {
-                    return Err(FromMeshError::AxesAlike { axes: [best, other].map(Fitting::told) });
+                    return Err(FromMeshError::AxesAlike { axes: [best, other].map(Fitting::axis) });
                 }
                 return Ok(found
                     .into_iter()

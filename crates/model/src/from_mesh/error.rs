@@ -1,5 +1,7 @@
 //! Refusals of a mesh that makes no model, each with what to do.
 
+use std::fmt;
+
 use crate::assembly::CanMove;
 
 /// Largest number of names that an error lists.
@@ -167,13 +169,12 @@ pub enum FromMeshError {
     },
     /// Several axes by which faces fit equally well.
     #[error(
-        "the faces of the skin fit about several axes: through {:?} along {:?} with {} sectors, and through {:?} along {:?} with {}; give \
-         `axis`, and `sectors`",
-        .axes[0].0, .axes[0].1, .axes[0].2, .axes[1].0, .axes[1].1, .axes[1].2
+        "the faces of the skin fit about several axes: {}, and {}; give `axis` and `sectors`",
+        .axes[0], .axes[1]
     )]
     AxesAlike {
-        /// Point, direction and number of sectors of two of them.
-        axes: [([f64; 3], [f64; 3], usize); 2],
+        /// Two of them.
+        axes: [FittingAxis; 2],
     },
     /// Node of a cyclic face without a partner.
     #[error(
@@ -351,12 +352,14 @@ pub enum FromMeshError {
         patches: usize,
     },
     /// Nodes of the tip on several patches.
-    #[error("the nodes of `contact_at` name {patches} patches of the skin; a tip is one")]
+    #[error(
+        "the nodes of `contact_at` name {patches} patches of the skin; a tip is one patch: name a single node inside of it"
+    )]
     TwoTips {
         /// Number of patches.
         patches: usize,
     },
-    /// Shroud curve that is none, or that no face looks at.
+    /// Invalid shroud curve, or one that no face looks at.
     #[error("the curve `shroud` {problem}")]
     Shroud {
         /// Problem of the curve.
@@ -399,6 +402,24 @@ pub struct Twin {
     pub count: usize,
 }
 
+/// Axis about which faces fit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FittingAxis {
+    /// Point on the axis.
+    pub origin: [f64; 3],
+    /// Direction of the axis.
+    pub direction: [f64; 3],
+    /// Number of sectors by which faces fit.
+    pub sectors: usize,
+}
+
+impl fmt::Display for FittingAxis {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { origin, direction, sectors } = self;
+        write!(f, "through {origin:?} along {direction:?} with {sectors} sectors")
+    }
+}
+
 /// Faces that almost fit each other.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NearMiss {
@@ -424,7 +445,7 @@ fn no_faces(sectors: Option<usize>, near: Option<&NearMiss>, tolerance: f64, axe
         None => "no turn by 2π/N carries faces of the skin onto others".to_owned(),
     };
     let axis = if axes > 1 {
-        " about x, y or z through the origin, nor about another axis for which congruent faces speak; give `axis` and `sectors`"
+        " about x, y or z through the origin, nor about any axis that congruent faces suggest; give `axis` and `sectors`"
     } else {
         " about this axis; check `axis` and `sectors`"
     };

@@ -11,10 +11,10 @@ use super::patches::patches;
 use super::surface::{Face, sides};
 use super::way::Line;
 
-/// Largest circumferential part of the normal of a face on a tip, round ones included.
+/// Largest circumferential part of the normal of a face on a tip, round ones included: the flanks of a blade look more around the wheel than by 45°.
 const AROUND: f64 = 0.7;
 
-/// Least cosine of the angle between the normal of a face and the way to the curve.
+/// Least cosine of the angle between the normal of a face and the way to the curve: 60°.
 const TOWARDS: f64 = 0.5;
 
 /// Cosine of any angle between neighbours: coarse round tips have ridges.
@@ -23,7 +23,7 @@ const ANY: f64 = -2.0;
 /// Least distance of another strip of faces for it to be another surface, in mean distances of the nearest.
 const OTHER: f64 = 2.0;
 
-/// Distance that a strip may be farther than that, in lengths of the longest strip.
+/// Distance by which a strip may lie farther away than [`OTHER`] allows, in lengths of the longest strip: where the curve lies on the tip itself.
 const AS_NEAR: f64 = 0.02;
 
 /// Largest distance of a tip from the curve, in lengths of the tip.
@@ -40,7 +40,7 @@ struct Strip {
     away: f64,
 }
 
-/// Refuses a curve that is none.
+/// Refuses a curve of too few or too many points, of points that are no places, or of one place.
 pub(super) fn check(curve: &[[f64; 2]]) -> Result<(), FromMeshError> {
     let wrong = |problem: String| Err(FromMeshError::Shroud { problem });
     if !(2..=MOST_POINTS).contains(&curve.len()) {
@@ -50,11 +50,11 @@ pub(super) fn check(curve: &[[f64; 2]]) -> Result<(), FromMeshError> {
         (1..).zip(curve).find(|(_, [r, z])| !(*r >= 0.0 && r.is_finite() && z.is_finite()))
     {
         return wrong(format!(
-            "has r = {r}, z = {z} at point {k}; a radius is not negative, and both are numbers"
+            "has r = {r}, z = {z} at point {k}; give r as a number of at least 0, z as any number"
         ));
     }
     if curve.iter().all(|point| point == &curve[0]) {
-        return wrong("is a single point".to_owned());
+        return wrong("is a single point; give at least two places".to_owned());
     }
     Ok(())
 }
@@ -75,7 +75,7 @@ pub(super) fn strip(
         let normal = surface[*k].cylindrical_normal(axis);
         let meridional = Vector2::new(normal[0], normal[2]);
         let way = way(&surface[*k]);
-        // A curve on the tip itself is nowhere from it.
+        // For a curve on the tip itself the way is zero.
         normal[1].abs() <= AROUND && meridional.dot(&way) >= TOWARDS * way.norm() * meridional.norm()
     };
     let chosen: Vec<usize> =
@@ -96,7 +96,8 @@ pub(super) fn strip(
     strips.sort_by(|a, b| b.length.total_cmp(&a.length));
     let count = strips.len();
     let Some(tip) = strips.into_iter().next() else {
-        let problem = "is looked at by no face of the skin; it has points (r, z) from the axis, in the units of the mesh";
+        let problem =
+            "faces no part of the skin; give its points as [r, z] from the axis, in the units of the mesh";
         return Err(FromMeshError::Shroud { problem: problem.to_owned() });
     };
     if tip.away.is_nan() || tip.away > FARTHEST * tip.length {

@@ -263,7 +263,9 @@ pub enum ManifestProblem {
         components: Components,
     },
     /// Contact node on the axis of several sectors.
-    #[error("node {node} lies on the axis, a point that all sectors share, and cannot touch the casing")]
+    #[error(
+        "node {node} lies on the axis, a point that all sectors share, and cannot touch the casing; leave it out"
+    )]
     ContactOnAxis {
         /// Id of the node.
         node: u64,
