@@ -35,10 +35,10 @@ pub enum MeshProblem {
         /// Advice on the way to go.
         advice: &'static str,
     },
-    /// File packed by gzip that cannot be had.
+    /// File packed by gzip that is damaged or too large.
     #[error("the packed file {problem}")]
     Packed {
-        /// Problem of the file.
+        /// Problem with the file, and what to do.
         problem: String,
     },
     /// Text that is not of the kind expected.

@@ -52,7 +52,7 @@ pub fn recognised(bytes: &[u8]) -> Result<MeshFormat, MeshFileError> {
     if lines.first().is_some_and(|line| line.starts_with("$MESHFORMAT")) {
         return Ok(MeshFormat::Gmsh);
     }
-    // All may stand on the line of the XML declaration.
+    // The whole file may stand on the line of the XML declaration.
     if any(&|line| line.starts_with("<VTKFILE") || line.starts_with("<?XML") && line.contains("<VTKFILE")) {
         return Ok(MeshFormat::Vtu);
     }

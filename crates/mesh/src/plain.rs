@@ -10,13 +10,13 @@ use crate::error::{MeshFileError, MeshProblem};
 /// First bytes of gzip.
 const GZIP: &[u8] = &[0x1f, 0x8b];
 
-/// Bytes that a file of any size may have once it is unpacked.
+/// Number of bytes that a packed file of any size may have once it is unpacked.
 const FREE: u64 = 64 << 20;
 
 /// Largest number of bytes for each packed one beyond [`FREE`]; text of meshes packs to a fifth or a tenth.
 const EXPANSION: u64 = 100;
 
-/// Largest number of bytes of a file that was packed.
+/// Largest number of bytes of a file that was packed: meshes of millions of nodes stay below, and it fits into memory.
 const MOST: u64 = 1 << 30;
 
 /// Content of a file, unpacked and in UTF-8 where it was packed or in UTF-16.
@@ -38,7 +38,7 @@ pub(crate) fn plain(bytes: &[u8]) -> Result<Cow<'_, [u8]>, MeshFileError> {
     Ok(Cow::Owned(utf8(&found).into_owned()))
 }
 
-/// Text in UTF-8, of text in UTF-16 that begins with a mark of the byte order; other bytes as they are.
+/// Text in UTF-8 for text in UTF-16 that begins with a mark of the byte order; other bytes unchanged.
 fn utf8(bytes: &[u8]) -> Cow<'_, [u8]> {
     let unit: fn([u8; 2]) -> u16 = match bytes {
         [0xff, 0xfe, ..] => u16::from_le_bytes,
