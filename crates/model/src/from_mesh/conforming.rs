@@ -12,11 +12,11 @@ use super::surface::Face;
 /// Largest gap between faces that were meant to be one, in parts of a face's size.
 const GAP: f64 = 2e-3;
 
-/// Largest gap between faces that look at each other for it to be told, in parts of a face's size.
+/// Largest gap between faces that look at each other for it to be reported, in parts of a face's size.
 const NARROW: f64 = 0.1;
 
 /// Refuses elements that share the corners of a face but not the nodes on its edges, and faces that lie on each other with other nodes;
-/// tells of narrow gaps between faces.
+/// returns a note on narrow gaps between faces, if there are any.
 pub(super) fn check(mesh: &SectorMesh, surface: &[Face]) -> Result<Option<String>, FromMeshError> {
     let mut shared: HashMap<Vec<u32>, (u64, Vec<u32>)> = HashMap::new();
     for element in &mesh.elements {

@@ -96,16 +96,17 @@ pub struct LookRefusal {
 
 /// Findings, and reasons of those that failed.
 #[derive(Default)]
-struct Told {
+struct Findings {
     found: Vec<String>,
     refusals: Vec<LookRefusal>,
 }
 
-impl Told {
-    /// Result of a step; none after a failure, whose reason is kept.
-    fn kept<T>(&mut self, step: LookStep, result: Result<T, FromMeshError>) -> Option<T> {
-        let keep = |error: FromMeshError| self.refusals.push(LookRefusal { step, detail: error.to_string() });
-        result.map_err(keep).ok()
+impl Findings {
+    /// Result of a step; none after a failure, whose reason is added to the refusals.
+    fn checked<T>(&mut self, step: LookStep, result: Result<T, FromMeshError>) -> Option<T> {
+        let refuse =
+            |error: FromMeshError| self.refusals.push(LookRefusal { step, detail: error.to_string() });
+        result.map_err(refuse).ok()
     }
 }
 
@@ -121,25 +122,25 @@ struct Roles {
     contact: Vec<u64>,
 }
 
-/// Looks at a mesh: a search that fails does not end it. Neither material nor top speed are needed.
+/// Looks at a mesh without ending at a search that fails; needs neither material nor top speed.
 ///
 /// # Errors
 /// Settings that contradict each other.
 pub fn look(file: &MeshFile, settings: &MeshSettings) -> Result<MeshLook, FromMeshError> {
     check_choices(settings)?;
-    let mut told = Told::default();
+    let mut findings = Findings::default();
     let (sets, set_of) =
-        told.kept(LookStep::Materials, materials::assigned(file, settings)).unwrap_or_default();
+        findings.checked(LookStep::Materials, materials::assigned(file, settings)).unwrap_or_default();
     let mut mesh = body::body(file, sets, &set_of);
-    told.found.push(found::body_line(file.format.name(), mesh.nodes.len(), &found::kinds(&mesh)));
-    told.found.extend(file.left_out.iter().map(|(kind, count)| found::left_out_line(kind, *count)));
+    findings.found.push(found::body_line(file.format.name(), mesh.nodes.len(), &found::kinds(&mesh)));
+    findings.found.extend(file.left_out.iter().map(|(kind, count)| found::left_out_line(kind, *count)));
     let materials = mesh.sets.iter().map(|set| found::material_line(&set.name, found::constants(set)));
-    told.found.extend(materials);
+    findings.found.extend(materials);
     let surface = surface::surface(&mesh);
     let sound = body::check(file, &mesh).and_then(|()| conforming::check(&mesh, &surface));
-    let symmetry = told.kept(LookStep::Mesh, sound).and_then(|gaps| {
-        told.found.extend(gaps.map(|note| format!("note: {note}")));
-        told.kept(LookStep::Sectors, cyclic::symmetry(file, settings, &mesh, &surface))
+    let symmetry = findings.checked(LookStep::Mesh, sound).and_then(|gaps| {
+        findings.found.extend(gaps.map(|note| format!("note: {note}")));
+        findings.checked(LookStep::Sectors, cyclic::symmetry(file, settings, &mesh, &surface))
     });
     let mut roles = Roles::default();
     if let Some(symmetry) = &symmetry {
@@ -148,25 +149,25 @@ pub fn look(file: &MeshFile, settings: &MeshSettings) -> Result<MeshLook, FromMe
         mesh.sectors = symmetry.sectors;
         mesh.cyclic.clone_from(&symmetry.pairs);
         let stated = settings.sectors.is_some() || file.symmetry.is_some();
-        told.found.push(found::axis_line([mesh.axis.0, mesh.axis.1]));
-        told.found.push(found::sectors_line(
+        findings.found.push(found::axis_line([mesh.axis.0, mesh.axis.1]));
+        findings.found.push(found::sectors_line(
             symmetry.sectors,
             !stated,
             symmetry.pairs.len(),
             symmetry.farthest,
         ));
-        roles = find_roles(&mut told, file, settings, &mesh, &surface, symmetry, &axis);
+        roles = find_roles(&mut findings, file, settings, &mesh, &surface, symmetry, &axis);
     }
     let axis_found = symmetry.as_ref().is_some_and(|symmetry| symmetry.axis_found);
     let of_axis = axis_found.then(|| found::AXIS_FOUND.to_owned());
     let notes = file.notes.iter().cloned().chain(found::locking(&mesh)).chain(of_axis);
-    told.found.extend(notes.map(|note| format!("note: {note}")));
-    Ok(drawn(told, settings, mesh, &surface, symmetry, roles))
+    findings.found.extend(notes.map(|note| format!("note: {note}")));
+    Ok(look_of(findings, settings, mesh, &surface, symmetry, roles))
 }
 
 /// Finds clamp and contact line.
 fn find_roles(
-    told: &mut Told,
+    findings: &mut Findings,
     file: &MeshFile,
     settings: &MeshSettings,
     mesh: &SectorMesh,
@@ -176,33 +177,33 @@ fn find_roles(
 ) -> Roles {
     let mut roles = Roles::default();
     let clamp = clamp::clamped(file, settings, mesh, surface, symmetry, axis);
-    if let Some((clamped, source)) = told.kept(LookStep::Clamp, clamp) {
+    if let Some((clamped, source)) = findings.checked(LookStep::Clamp, clamp) {
         let held = clamped.iter().filter(|&&held| held).count();
-        told.found.push(found::clamp_line(&source, held));
-        told.found.extend(found::on_axis_line(found::on_axis(mesh, &clamped)));
+        findings.found.push(found::clamp_line(&source, held));
+        findings.found.extend(found::on_axis_line(found::on_axis(mesh, &clamped)));
         roles.clamped = Some(clamped);
     }
     let tip = tip::tip(file, settings, mesh, surface, symmetry, axis);
-    if let Some(tip) = told.kept(LookStep::Contact, tip) {
+    if let Some(tip) = findings.checked(LookStep::Contact, tip) {
         let free = vec![false; mesh.nodes.len()];
         let clamped = roles.clamped.as_ref().unwrap_or(&free);
         let contact = contact_line(settings, mesh, surface, symmetry, axis, clamped, &tip);
-        if let Some(contact) = told.kept(LookStep::Contact, contact) {
+        if let Some(contact) = findings.checked(LookStep::Contact, contact) {
             let line =
                 found::contact_line(&tip.source, contact.of_line, contact.points.len(), contact.spacing);
-            told.found.push(line);
+            findings.found.push(line);
             roles.contact = contact.points.iter().map(|point| point.node).collect();
         }
-        told.found.extend(tip.notes.iter().map(|note| format!("note: {note}")));
+        findings.found.extend(tip.notes.iter().map(|note| format!("note: {note}")));
         roles.line = tip.line.iter().map(|(node, _)| *node).collect();
         roles.tip = tip.faces;
     }
     roles
 }
 
-/// Parts of the skin by their roles.
-fn drawn(
-    told: Told,
+/// Look at the skin with its parts, their roles and the price.
+fn look_of(
+    findings: Findings,
     settings: &MeshSettings,
     mesh: SectorMesh,
     surface: &[Face],
@@ -251,8 +252,8 @@ fn drawn(
         clamped: skin.iter().filter(|node| held(node)).map(|node| place[node]).collect(),
         contact_line: places(&roles.line),
         contact: places(&roles.contact),
-        found: told.found,
-        refusals: told.refusals,
+        found: findings.found,
+        refusals: findings.refusals,
         price: AssemblyPrice::default(),
     };
     let free = || vec![false; mesh.nodes.len()];

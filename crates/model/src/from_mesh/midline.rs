@@ -18,7 +18,7 @@ const MIDDLE: f64 = 0.15;
 /// Largest distance of a node from the straight line between the corners of an end on which it lies, in lengths of that line.
 const ON_END: f64 = 0.15;
 
-/// Least cosine of the angle by which a row of nodes turns at a node.
+/// Least cosine of the angle by which a row of nodes turns at a node: 60°.
 const STRAIGHT: f64 = 0.5;
 
 /// Largest number of nodes of an end from which rows are tried.
@@ -209,11 +209,13 @@ pub(super) fn along(mesh: &SectorMesh, surface: &[Face], strip: &[usize]) -> (Li
     (line(row(mesh, surface, strip, &placed)), false)
 }
 
-/// Place of a node in a strip: along the middle line, as far as it reaches there with nodes on a short end at that end, and off it from −1 on
-/// one edge to 1 on the other.
+/// Place of a node in a strip.
 struct Placed {
+    /// Nearest place on the middle line.
     along: usize,
+    /// Nearest place on the middle line; for nodes of a short end, that end of the line.
     reached: usize,
+    /// Distance off the middle line, from −1 on one edge to 1 on the other.
     off: f64,
 }
 

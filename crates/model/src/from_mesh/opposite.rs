@@ -40,7 +40,7 @@ impl<'a> Opposite<'a> {
         found.map(|(face, _)| face)
     }
 
-    /// Nearest such face that the place `at` lies in front of, and its distance.
+    /// Nearest face around the place `at` that looks at it against `normal` from within `flat` of its size, and its distance.
     pub(super) fn before(
         &self,
         at: Vector3<f64>,

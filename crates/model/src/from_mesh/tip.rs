@@ -68,7 +68,7 @@ pub(super) struct Tip {
     pub(super) notes: Vec<String>,
 }
 
-/// Contact line: between two nodes, along a named patch, of a set, or along the longest tip.
+/// Contact line: between two nodes, along a named patch or a shroud curve, of a set, or along the longest tip.
 pub(super) fn tip(
     file: &MeshFile,
     settings: &MeshSettings,
