@@ -8,7 +8,7 @@ use crate::mesh::SectorMesh;
 /// Distance, in parts of the diagonal of a mesh's bounding box, within which two places are one: coordinates are printed with six digits.
 const TOLERANCE: f64 = 1e-5;
 
-/// Tolerance for a mesh of these positions.
+/// Distance within which two places of a mesh with nodes at these positions are one.
 pub fn tolerance(positions: impl Iterator<Item = [f64; 3]>) -> f64 {
     let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
     for position in positions {

@@ -35,8 +35,8 @@ impl SectorDofs {
         dofs
     }
 
-    /// Rows for nodal diameter 0, where the high face moves as the low one and nodes on the axis along it only; none where held. Beside them
-    /// the node of each row.
+    /// Rows of each node's components for nodal diameter 0, and the node of each row: the high face moves as the low one, and nodes on the axis
+    /// along it only.
     pub(super) fn tied_rows(&self, sector: &MeshedSector) -> (Vec<[Option<usize>; 3]>, Vec<usize>) {
         let mesh = &sector.mesh;
         let on_axis = mesh.on_axis();

@@ -34,8 +34,9 @@ pub struct NodalStress {
     cyclic: Vec<(u32, u32)>,
     /// Nodes at which there is stress, as indices in the mesh's nodes.
     places: Vec<u32>,
-    /// Indices of the places on the axis, where the elements of all sectors meet, and number of sectors.
-    on_axis: (Vec<usize>, usize),
+    /// Indices of the places on the axis, where the elements of all sectors meet.
+    on_axis: Vec<usize>,
+    sectors: usize,
     /// Rows of each place, those of its high node, and one over the number of elements around both.
     parts: Vec<(Range<usize>, Range<usize>, f64)>,
     rows: Vec<Row>,
@@ -83,8 +84,8 @@ impl NodalStress {
         }
         let axis = mesh.on_axis();
         let on_axis = (0..places.len()).filter(|&place| axis[places[place] as usize]).collect();
-        let (cyclic, on_axis) = (mesh.cyclic.clone(), (on_axis, mesh.sectors));
-        Self { nodes, frames, cyclic, places, on_axis, parts, rows, columns, weights, bubbles }
+        let (cyclic, sectors) = (mesh.cyclic.clone(), mesh.sectors);
+        Self { nodes, frames, cyclic, places, on_axis, sectors, parts, rows, columns, weights, bubbles }
     }
 
     /// Nodes at which there is stress: those of elements, but for the high face. Places in [`SectorMesh::nodes`].
@@ -121,10 +122,10 @@ impl NodalStress {
                 }
             }
         }
-        for &place in &self.on_axis.0 {
+        for &place in &self.on_axis {
             for column in 0..u.ncols() {
                 let own = std::array::from_fn(|component| stress[(6 * place + component, column)]);
-                let mean = around_axis(own, phase, self.on_axis.1);
+                let mean = around_axis(own, phase, self.sectors);
                 mean.iter().enumerate().for_each(|(k, mean)| stress[(6 * place + k, column)] = *mean);
             }
         }
@@ -203,8 +204,8 @@ impl NodalStress {
     }
 }
 
-/// Mean at the axis of the stress of all sectors, in the components of one: that of sector s is the one's turned by sα about z, times
-/// `phase` to the power of s.
+/// Mean at the axis of the stress of all sectors, in the components of the first one, whose stress is `own`: that of sector s is the same turned
+/// by sα about z, times `phase` to the power of s.
 fn around_axis(own: [c64; 6], phase: c64, sectors: usize) -> [c64; 6] {
     let [rr, tt, zz, rt, tz, zr] = own;
     // Half the difference and the shear turn by twice the angle.

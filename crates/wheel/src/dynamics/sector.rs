@@ -61,6 +61,13 @@ pub struct AxisNode {
     pub lateral: [Option<usize>; 2],
 }
 
+impl AxisNode {
+    /// Rows of the free displacements: along the axis, then across it.
+    pub(crate) fn rows(&self) -> [Option<usize>; 3] {
+        [self.axial, self.lateral[0], self.lateral[1]]
+    }
+}
+
 /// Parts of a sector: matrices over the own DOF (internal, low face and contact), in (r, θ, z) components.
 #[derive(Debug, Clone)]
 pub struct SectorParts {
@@ -176,8 +183,8 @@ impl SectorModel {
                 return Err(UnsoundSector::ContactDof { id: node.id, dof, dofs });
             }
         }
-        let on_axis = parts.axis.iter().flat_map(|node| [node.axial, node.lateral[0], node.lateral[1]]);
-        if let Some(dof) = on_axis.flatten().find(|&dof| dof >= dofs) {
+        let mut on_axis = parts.axis.iter().flat_map(AxisNode::rows).flatten();
+        if let Some(dof) = on_axis.find(|&dof| dof >= dofs) {
             return Err(UnsoundSector::AxisDof { dof, dofs });
         }
         Ok(Self(parts))

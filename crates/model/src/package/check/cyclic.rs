@@ -124,7 +124,7 @@ fn check_all_paired(
     }
 }
 
-/// Free nodes on the axis. Those clamped in part must be held alike by all sectors.
+/// Finds the free nodes on the axis, and refuses those whose free components the turn by one sector does not map onto each other.
 fn check_axis(
     package: &RawPackage,
     frame: &AxisFrame,

@@ -235,7 +235,7 @@ impl Pencil<'_> {
     /// round-off even where M is nearly singular.
     fn dense(&self, tie: &Tie, rows: usize, count: usize, tolerance: f64) -> Result<Modes, ModeError> {
         let harmonic = tie.harmonic;
-        // Stiff and without mass is what does not move.
+        // Rows without motion have stiffness and no mass, which makes their eigenvalues the last.
         let [m, k] = [(self.mass, 0.0), (self.stiffness, 1.0)]
             .map(|(matrix, held)| self.untied.tied_dense(matrix, tie, rows, held));
         let pairs = Dense::generalised_eigenpairs(m.as_ref(), k.as_ref())

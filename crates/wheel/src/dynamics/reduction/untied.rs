@@ -9,7 +9,7 @@
 //! ```
 //!
 //! Nodes on the axis stand among the low face, without a copy on the high one. Their displacement u in the components of one sector is
-//! that of the next one, R(α)ᵀu = e^{jiα}u: u = q e_z for i = 0, u = q (e_1 + j e_2)/√2 for i = 1, and u = 0 for others, where T holds their rows.
+//! that of the next one, R(α)ᵀu = e^{jiα}u: u = q e_z for i = 0, u = q (e_1 + j e_2)/√2 for i = 1, and u = 0 for others, where T leaves their rows no motion.
 
 use std::f64::consts::{FRAC_1_SQRT_2, TAU};
 
@@ -83,7 +83,7 @@ impl UntiedSector {
                 *on_low |= !matrix.next.row_idx_of_col_raw(column).is_empty();
             }
         }
-        for dof in sector.axis.iter().flat_map(of_axis).flatten() {
+        for dof in sector.axis.iter().flat_map(AxisNode::rows).flatten() {
             on_low[dof] = true;
         }
         let mut inside: Vec<bool> = on_low.iter().map(|low| !low).collect();
@@ -180,7 +180,7 @@ impl UntiedSector {
         let shared = self.shared.iter().map(|&row| (self.face + row, tie.phase));
         let mut rows: Vec<(usize, c64)> = low.chain(high).chain(contact).chain(shared).collect();
         for node in &self.axis {
-            for row in of_axis(node).into_iter().flatten() {
+            for row in node.rows().into_iter().flatten() {
                 rows[row].1 = c64::ZERO;
                 rows[self.face + row].1 = c64::ZERO;
             }
@@ -196,7 +196,7 @@ impl UntiedSector {
         let mut held = Vec::new();
         for node in &self.axis {
             let moved: Vec<usize> = tie.on_axis(node).map(|(_, (row, _))| row).collect();
-            held.extend(of_axis(node).into_iter().flatten().filter(|row| !moved.contains(row)));
+            held.extend(node.rows().into_iter().flatten().filter(|row| !moved.contains(row)));
         }
         held.iter_mut().for_each(|row| *row += self.interior);
         held
@@ -222,7 +222,7 @@ impl UntiedSector {
 
     /// Tied row and factor of a row of the low face, both counted from its first.
     fn face_row(&self, tie: &Tie, row: usize) -> (usize, c64) {
-        let is_of = |node: &&AxisNode| of_axis(node).contains(&Some(row));
+        let is_of = |node: &&AxisNode| node.rows().contains(&Some(row));
         let Some(node) = self.axis.iter().find(is_of) else { return (row, c64::ONE) };
         tie.on_axis(node).find(|&(moved, _)| moved == row).map_or((row, c64::ZERO), |(_, image)| image)
     }
@@ -339,11 +339,6 @@ impl UntiedSector {
         self.held(tie).into_iter().for_each(|row| dense[(row, row)] = c64::new(held, 0.0));
         dense
     }
-}
-
-/// Rows of a node on the axis: along it, then across it.
-fn of_axis(node: &AxisNode) -> [Option<usize>; 3] {
-    [node.axial, node.lateral[0], node.lateral[1]]
 }
 
 impl Tie {
