@@ -14,21 +14,24 @@ use super::surface::Face;
 use super::turned::{MOST_SECTORS, OPPOSITE, matched};
 use crate::package::raw::Axis;
 
-/// Distances of turned nodes from others that are tried one after the other, in parts of the largest one, and the width of cells in which
-/// axes are one: directions as unit vectors, places in sizes of the mesh.
+/// Passes of the search, one after the other: distance of a turned node from its partner in parts of the tolerance, and width of the cells in
+/// which axes count as one, for directions as unit vectors and places in sizes of the mesh. Meshes with many digits need the first alone.
 pub(super) const PASSES: [(f64, f64); 3] = [(1e-3, 1e-3), (1e-1, 1e-2), (1.0, 5e-2)];
 
-/// Number of faces whose turns vote.
+/// Largest number of faces whose turns vote, which bounds the time of the search.
 const VOTERS: usize = 512;
 
-/// Largest number of congruent faces onto which one face is turned.
+/// Largest number of congruent faces onto which one face is turned, which bounds the time on regular meshes.
 const MOST_PARTNERS: usize = 512;
 
 /// Number of congruent faces above which a face is as common as any.
 const COMMON: usize = 32;
 
-/// Largest numbers of faces of about one perimeter that are compared with a face: to learn how rare it is, and with one that votes.
-const MOST_COMPARED: [usize; 2] = [512, 4096];
+/// Largest number of faces of about one perimeter that are compared with each face, to learn how rare it is.
+const MOST_COMPARED: usize = 512;
+
+/// Largest number of faces of about one perimeter that are compared with a face that votes.
+const MOST_COMPARED_VOTER: usize = 4096;
 
 /// Factor on the tolerance of nodes for lengths and angles that follow from them.
 const SLACK: f64 = 8.0;
@@ -48,10 +51,10 @@ const SAMPLED: usize = 1000;
 /// Factor on the tolerance within which faces are matched at first.
 const NEARLY: f64 = 10.0;
 
-/// Decimal places of an axis, in sizes of the mesh.
+/// Decimal places to which an axis is rounded, in sizes of the mesh: two less than a double has, which round-off of the fit changes.
 const DIGITS: i32 = 13;
 
-/// Steps of a fit.
+/// Gauss–Newton steps of a fit: errors of 5 % are squared each time, and reach round-off with the fourth.
 const STEPS: usize = 4;
 
 /// Turn of a face onto a congruent one, corner by corner.
@@ -83,7 +86,7 @@ struct Line {
 }
 
 impl Line {
-    /// The line with the largest component of its direction positive, and whether it was reversed.
+    /// Line in the sense in which the largest component of its direction is positive, and whether that reversed it.
     fn with_sense(self) -> (Self, bool) {
         let largest = self.direction.amax();
         // Of components that are alike the first counts, whatever the last digits are.
@@ -119,7 +122,7 @@ pub(super) fn axes(
     let size = surface.iter().map(|face| (face.centre - centre).norm()).fold(f64::MIN_POSITIVE, f64::max);
     let mut votes: BTreeMap<(usize, [i64; 6]), Votes> = BTreeMap::new();
     for voter in shapes.voters(near) {
-        for (other, offset) in shapes.partners(voter, near, MOST_PARTNERS, MOST_COMPARED[1]) {
+        for (other, offset) in shapes.partners(voter, near, MOST_PARTNERS, MOST_COMPARED_VOTER) {
             let Some((line, number)) = shapes.turn(voter, other, offset, near, sectors) else { continue };
             let (line, backwards) = line.with_sense();
             let foot = line.origin - line.direction * line.direction.dot(&(line.origin - centre));
@@ -193,9 +196,9 @@ impl<'a> Shapes<'a> {
         (self.corner(face, 0) - self.surface[face].centre).norm()
     }
 
-    /// Faces that the fewest others are congruent to, evenly chosen among those that are equally rare.
+    /// Faces to which the fewest others are congruent, evenly chosen among those that are equally rare.
     fn voters(&self, near: f64) -> Vec<usize> {
-        let partners = |face: usize| self.partners(face, near, COMMON, MOST_COMPARED[0]).len();
+        let partners = |face: usize| self.partners(face, near, COMMON, MOST_COMPARED).len();
         let mut rare: Vec<(usize, usize)> =
             (0..self.surface.len()).map(|face| (partners(face), face)).collect();
         rare.retain(|&(partners, _)| partners > 0);
@@ -278,7 +281,7 @@ impl<'a> Shapes<'a> {
             })
         };
         let places: Vec<[Vector3<f64>; 2]> = votes.turns.iter().flat_map(corners).collect();
-        let mut line = fitted(votes.line, angle, &places)?;
+        let mut line = least_squares(votes.line, angle, &places)?;
         for tolerance in [NEARLY * within, within] {
             line = line.with_sense().0;
             let about = AxisFrame::new(line.origin.into(), line.direction.into())?;
@@ -295,7 +298,7 @@ impl<'a> Shapes<'a> {
             };
             let places: Vec<[Vector3<f64>; 2]> = fits.into_iter().flat_map(nearest).collect();
             if !places.is_empty() {
-                line = fitted(line, angle, &places)?;
+                line = least_squares(line, angle, &places)?;
             }
         }
         Some(line.axis(size))
@@ -322,7 +325,7 @@ fn axis_and_angle(rotation: &Matrix3<f64>) -> Option<(Vector3<f64>, f64)> {
 }
 
 /// Axis about which a turn by an angle carries the first of each two places onto the second, in least squares (Gauss–Newton).
-fn fitted(line: Line, angle: f64, places: &[[Vector3<f64>; 2]]) -> Option<Line> {
+fn least_squares(line: Line, angle: f64, places: &[[Vector3<f64>; 2]]) -> Option<Line> {
     let (sin, cos) = angle.sin_cos();
     let mean = places.iter().map(|[from, _]| from).sum::<Vector3<f64>>() / places.len() as f64;
     let mut line = line;
