@@ -55,7 +55,7 @@ def settings_of(
 
 
 def nodes_of(nodes: int | Sequence[int] | None) -> list[int] | None:
-    """Numbers of nodes as a list, of which one may stand alone."""
+    """Numbers of nodes as a list, from a list or a single number."""
     return nodes if nodes is None else [int(node) for node in ([nodes] if isinstance(nodes, int) else nodes)]
 
 
