@@ -1,4 +1,4 @@
-// What lies under a place of the picture: the nearest face, or an edge beside the place.
+// Nearest face under a place of the picture, and edge beside the place.
 
 /** Distance in pixels within which an edge is taken. */
 const BESIDE = 7;

@@ -1,4 +1,4 @@
-// What the service sees in a mesh before a model is made of it: a picture and tables in which clamp and contact line are chosen.
+// Look at a mesh before a model is made of it: a picture and tables in which clamp and contact line are chosen.
 
 import { api, Away, Refusal } from '../../lib/api.js';
 import { debounced, h, newId, replace } from '../../lib/dom.js';
@@ -43,7 +43,7 @@ export function meshLook(fields, signal) {
   return {
     element,
     price,
-    /** Another file. */
+    /** Looks at another file, whose choices begin anew. */
     take(other) {
       file = other;
       past.length = 0;
@@ -133,8 +133,8 @@ export function meshLook(fields, signal) {
     else if (mode === 'clamp') replace(status, 'A clamp is a patch: click beside the edge.');
   }
 
-  function takePatch(mode, number) {
-    const { at } = shown.patches[number];
+  function takePatch(mode, k) {
+    const { at } = shown.patches[k];
     if (at.length === 0) {
       replace(status, 'This patch is a cyclic face, where the next sector begins: it can be neither clamp nor tip.');
     } else if (mode === 'contact') {
@@ -148,8 +148,8 @@ export function meshLook(fields, signal) {
     }
   }
 
-  function takeChain(number) {
-    const [from, to] = ends(shown.chains[number]);
+  function takeChain(k) {
+    const [from, to] = ends(shown.chains[k]);
     if (from === to) replace(status, 'This chain is closed and has no ends: click the patch of the tip, or name two of its nodes.');
     else choose({ contact: '', contactAt: '', between: `${from}, ${to}` });
   }
@@ -168,7 +168,7 @@ export function meshLook(fields, signal) {
     look(false);
   }
 
-  /** A button that takes a part; the part is lit while it has the focus. */
+  /** Button that takes a part, which is lit while the button has the focus or the pointer. */
   function taking(words, label, key, part, act) {
     const light = (on) => () => view?.light(on ? part : null);
     return h('button', {
@@ -207,7 +207,7 @@ export function meshLook(fields, signal) {
   }
 }
 
-/** How many rows a table leaves out. */
+/** Note on the rows that a table leaves out, if it does. */
 function left(rows) {
   return rows.length > LISTED ? h('p', { class: 'quiet small' }, `The largest ${LISTED} of ${rows.length}.`) : null;
 }
@@ -230,7 +230,7 @@ function legend() {
     [['low', 'low cyclic face'], ['high', 'high cyclic face'], ['clamp', 'clamp'], ['contact', 'tip'], ['line', 'contact line and contact nodes'], ['lit', 'under the pointer']].map(entry));
 }
 
-/** What was found, and what was not. */
+/** Lists of refusals and of findings. */
 function findings({ found, refusals }, words) {
   return [
     refusals.length > 0 ? h('div', { class: 'note warning' }, h('ul', {}, refusals.map(({ detail }) => h('li', {}, words(detail))))) : null,
