@@ -15,7 +15,7 @@ use crate::from_mesh::{MeshLook, MeshSettings};
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 pub(super) struct LookQuery {
-    /// Settings of the model: a JSON object of the schema `MeshSettings`, all of which may be left out here.
+    /// Settings of the model: a JSON object of the schema `MeshSettings`, each field of which may be left out here.
     settings: Option<String>,
 }
 

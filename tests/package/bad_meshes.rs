@@ -137,7 +137,7 @@ fn a_clamp_of_corner_nodes_only() {
     assert!(message.starts_with(expected) && message.contains("with 7 sectors about the axis"), "{message}");
 }
 
-/// Nothing that holds the wheel: a set of nodes without elements, a bore that is none, one node of a single blade.
+/// Nothing that holds the wheel: a set of nodes without elements, no bore, one node of a single blade.
 #[test]
 fn no_clamp() {
     let mesh = good();

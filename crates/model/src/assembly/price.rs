@@ -7,16 +7,16 @@ use super::memory::assembly_bytes;
 use super::pattern::Pattern;
 use super::sector::MeshedSector;
 
-/// Bytes in a package (compressed arrays) for each pair of coupled displacements and stiffness matrix.
+/// Bytes of each stiffness matrix in a package (compressed arrays) for each pair of coupled displacements.
 const STIFFNESS_BYTES: f64 = 8.25;
 
-/// Bytes for each such pair in the mass matrix.
+/// Bytes of the mass matrix in a package for each pair of coupled displacements.
 const MASS_BYTES: f64 = 4.7;
 
-/// Bytes for each such pair in the gyroscopic matrix.
+/// Bytes of the gyroscopic matrix in a package for each pair of coupled displacements.
 const GYROSCOPIC_BYTES: f64 = 3.6;
 
-/// Seconds from mesh to package for each such pair, on two cores.
+/// Seconds from mesh to package for each pair of coupled displacements, on two cores.
 const SECONDS: f64 = 2.0e-6;
 
 /// Number of stiffness matrices of a package.

@@ -25,7 +25,7 @@ use crate::assembly::{AssemblyPrice, MeshedSector, assembly_price};
 pub struct MeshLook {
     /// Numbers of the nodes of the skin.
     pub node_ids: Vec<u64>,
-    /// Coordinates x, y, z of these nodes one after the other, in single precision.
+    /// Coordinates x, y, z of the nodes in `node_ids`, one node after the other, in single precision.
     pub positions: Vec<f32>,
     /// Triangles of the skin as three places in `node_ids` each, patch after patch.
     pub triangles: Vec<u32>,
@@ -43,7 +43,7 @@ pub struct MeshLook {
     pub clamped: Vec<u32>,
     /// Nodes of the contact line in order, as places in `node_ids`.
     pub contact_line: Vec<u32>,
-    /// Contact nodes among them.
+    /// Contact nodes, as places in `node_ids`.
     pub contact: Vec<u32>,
     /// Findings, in sentences.
     pub found: Vec<String>,
