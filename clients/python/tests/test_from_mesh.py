@@ -126,6 +126,12 @@ def test_patches_that_a_look_lists_are_chosen_by_their_nodes(
     ends = (look["node_ids"][edge[0]], look["node_ids"][edge[-1]])
     between = client.look_at_mesh(path, contact_between=ends, material=TITANIUM)
     assert any(f"along the edge from node {ends[0]} to node {ends[1]}" in line for line in between["found"])
+    # The contact line itself as the shroud.
+    x, y, z = np.array(look["positions"]).reshape(-1, 3)[look["contact_line"]].T
+    shroud = np.column_stack((np.hypot(x, y), z)).tolist()
+    along = client.model_from_mesh(path, top_speed_rad_s=4000.0, material=TITANIUM, shroud=shroud)
+    assert "along the shroud curve" in "".join(along.found)
+    assert along.facts["contact_nodes"] == from_deck.facts["contact_nodes"]
     with pytest.raises(rubmap.Refusal, match="`clamp_set` and `clamp_at` both say"):
         client.look_at_mesh(path, clamp_set="BORE", clamp_at=1)
 

@@ -100,6 +100,7 @@ class Client:
         contact_set: str | None = None,
         contact_at: int | Sequence[int] | None = None,
         contact_between: tuple[int, int] | None = None,
+        shroud: Sequence[Sequence[float]] | None = None,
         contact_nodes: int | None = None,
         gyroscopic: bool | None = None,
         mass: MassRule | None = None,
@@ -127,6 +128,7 @@ class Client:
             contact_set: node set along the blade's tip; by default the longest tip that is found.
             contact_at: instead of a set: the node of the smooth patch of the skin that is the tip.
             contact_between: instead of a set: two nodes between which the contact line runs along sharp edges.
+            shroud: instead of a set: curve of the shroud as points r, z from the axis, to which the tip is nearest.
             contact_nodes: how many nodes along it may touch, at most.
             gyroscopic: whether Coriolis forces can be considered; by default they can.
             mass: rule by which mass is integrated.
@@ -153,6 +155,7 @@ class Client:
             contact_set=contact_set,
             contact_at=nodes_of(contact_at),
             contact_between=nodes_of(contact_between),
+            shroud=shroud,
             contact_nodes=contact_nodes,
             gyroscopic=gyroscopic,
             mass=mass,
@@ -176,6 +179,7 @@ class Client:
         contact_set: str | None = None,
         contact_at: int | Sequence[int] | None = None,
         contact_between: tuple[int, int] | None = None,
+        shroud: Sequence[Sequence[float]] | None = None,
         contact_nodes: int | None = None,
         **others: Any,
     ) -> MeshLook:
@@ -193,6 +197,7 @@ class Client:
             contact_set: node set along the blade's tip.
             contact_at: the node of the patch that is the tip.
             contact_between: two nodes between which the contact line runs.
+            shroud: curve of the shroud, to which the tip is nearest.
             contact_nodes: how many nodes along it may touch, at most.
             others: other arguments of :meth:`model_from_mesh`, such as ``material``.
 
@@ -209,6 +214,7 @@ class Client:
             contact_set=contact_set,
             contact_at=nodes_of(contact_at),
             contact_between=nodes_of(contact_between),
+            shroud=shroud,
             contact_nodes=contact_nodes,
             **given,
         )
