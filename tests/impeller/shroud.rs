@@ -45,7 +45,7 @@ fn a_round_tip_is_found_by_the_shroud() {
     assert!(found.to_string().contains("along the shroud curve, 0.34"), "{found}");
     for (curve, begins) in [
         (&[[90.0, -10.0], [90.0, 40.0]][..], "the tip that is nearest to the curve `shroud` is 1"),
-        (&[[0.0715, -0.01], [0.0717, 0.04]], "the "),
+        (&[[0.0715, -0.01], [0.0717, 0.04]], "the tip that is nearest to the curve `shroud` is "),
         (&[[71.5, 0.0]], "the curve `shroud` has 1 points; 2 to 2000 are needed"),
         (&[[71.5, 0.0], [-71.5, 1.0]], "the curve `shroud` has r = -71.5, z = 1 at point 2"),
         (&[[71.5, 0.0], [71.5, 0.0]], "the curve `shroud` is a single point"),
