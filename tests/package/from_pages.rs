@@ -6,11 +6,11 @@ use std::path::Path;
 use std::process::Command;
 
 use rubmap::impeller::mesh::ElementOrder;
-use rubmap::impeller::{ImpellerParameters, MeshDensities, generate};
+use rubmap::impeller::{ImpellerParameters, generate};
 use rubmap::package::raw::{RawMatrix, RawPackage};
 use rubmap::solid::mesh::SectorMesh;
 
-use crate::from_mesh::{ansys, cartesian, deck, gmsh, market, nastran, sector_mesh};
+use crate::from_mesh::{ansys, cartesian, deck, gmsh, impeller, market, nastran, sector_mesh};
 
 /// Largest number of lines of commands from what a user has to a map.
 const MOST_LINES: usize = 10;
@@ -21,13 +21,7 @@ fn parameters() -> ImpellerParameters {
         sectors: 3,
         contact_nodes: 5,
         element_order: ElementOrder::Quadratic,
-        mesh: MeshDensities {
-            between_contact_nodes: 1,
-            blade_height: 2,
-            blade_thickness: 1,
-            half_passage: 1,
-            disk: 2,
-        },
+        mesh: impeller(3).mesh,
         ..ImpellerParameters::default()
     }
 }
@@ -99,7 +93,7 @@ fn from_gmsh_to_a_map() {
     run("from-gmsh.md", &[("sector.msh", gmsh(&mesh()))]);
 }
 
-/// Rows of a matrix between global directions, in both forms that a file of node labels needs.
+/// Calls `line` with the nodes, components and value of each entry of a matrix.
 fn each(package: &RawPackage, matrix: &RawMatrix, mut line: impl FnMut([u64; 2], [u8; 2], f64)) {
     for &(row, column, value) in &matrix.entries {
         let [row, column] = [row, column].map(|at| package.dofs[at as usize]);
@@ -139,7 +133,7 @@ fn from_abaqus_to_a_map() {
     );
 }
 
-/// Material of the sector with these names of its constants.
+/// Young's modulus, Poisson's ratio and density of the sector.
 fn constants() -> [f64; 3] {
     let material = parameters().material;
     [material.youngs_modulus, material.poissons_ratio, material.density]
