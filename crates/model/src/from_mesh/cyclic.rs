@@ -99,6 +99,7 @@ pub(super) fn symmetry(
             Ok(Some(other)) if other.sectors > 2 => Ok(other),
             _ => Ok(found.symmetry),
         },
+        Err((_, error)) if stated == Some(2) => Err(error),
         Err((score, error)) => search.elsewhere(score)?.ok_or(error),
     }
 }
