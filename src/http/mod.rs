@@ -58,6 +58,7 @@ mod stream;
 mod stress;
 mod studies;
 mod transport;
+mod verdict;
 mod version;
 mod web;
 mod wheel;

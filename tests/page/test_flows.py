@@ -86,6 +86,11 @@ def test_a_sweep_is_planned_asked_for_and_followed(service, model, swept, new_pa
     assert service.finish(job)["status"] == "successful"
     page.locator(".figure .main-svg").first.wait_for()
     assert service.call("GET", f"/v1/jobs/{job}")["request"]["speeds"]["count"] == 9
+    # The verdict comes first; without a limit it is undecided, and no speed is missing any more.
+    said = page.locator("[data-verdict=undecided]")
+    page.wait_for_function("() => !document.querySelector('[data-verdict]').innerText.includes('without a result')")
+    assert said.inner_text() == service.call("GET", f"/v1/jobs/{job}/verdict")["sentence"]
+    assert said.bounding_box()["y"] < page.get_by_text("done", exact=True).bounding_box()["y"]
 
 
 def test_a_click_on_the_map_opens_that_speed(service, swept, new_page):

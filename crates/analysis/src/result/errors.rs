@@ -113,11 +113,6 @@ impl ErrorEstimate {
     pub fn of(&self, index: u32) -> Option<f64> {
         self.points.iter().find(|point| point.index == index).map(|point| point.estimated_error)
     }
-
-    /// Estimated error of the largest von Mises stress at speed `index`, if there is one.
-    pub fn of_stress(&self, index: u32) -> Option<f64> {
-        self.points.iter().find(|point| point.index == index)?.estimated_stress_error
-    }
 }
 
 /// A speed that was simulated again at a finer setting.

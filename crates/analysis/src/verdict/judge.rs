@@ -1,6 +1,7 @@
 //! Verdict on a sweep from its finished speeds.
 
 use super::limit::Asked;
+use super::points::Finished;
 use super::range::Span;
 use super::rule::{self, Judged};
 use super::sentence;
@@ -26,9 +27,10 @@ pub fn judge(
 ) -> SweepVerdict {
     let asked = Asked::of(request, errors);
     let peaks = wheel_peaks(request, points, errors);
+    let finished = Finished::of(points);
     let (ranges_given, spans) = spans(request);
     let judged: Vec<Judged> =
-        spans.iter().map(|span| rule::judge(request, span, points, &peaks, &asked)).collect();
+        spans.iter().map(|span| rule::judge(request, span, &finished, &peaks, &asked)).collect();
     let named: &[Span] = if ranges_given { &spans } else { &[] };
     let speed = |point: &Point| judged_speed(point, named, &peaks, &asked);
     let of_index = |index: u32| points.iter().find(|point| point.index == index);

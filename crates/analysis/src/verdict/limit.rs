@@ -1,7 +1,11 @@
 //! Values of a speed against the limits of the request, with their errors.
 
+use std::collections::BTreeMap;
+
 use crate::resolved::ResolvedSweep;
-use crate::result::{ErrorEstimate, JudgedValue, LimitKind, OpenKind, OpenQuestion, Point, Standing};
+use crate::result::{
+    ErrorEstimate, JudgedValue, LimitKind, OpenKind, OpenQuestion, Point, PointError, Standing,
+};
 
 /// Share of a limit from which on it counts as reached.
 pub(super) const REACHED: f64 = 0.8;
@@ -25,15 +29,16 @@ pub(super) fn standing(value: f64, allowed: f64, error: Option<f64>) -> Standing
 
 /// Limits of a request with the errors of its speeds.
 #[derive(Debug)]
-pub(super) struct Asked<'a> {
+pub(super) struct Asked {
     /// Quantities that are limited, and their limits.
     pub(super) limits: Vec<(LimitKind, f64)>,
     has_contact: bool,
-    errors: Option<&'a ErrorEstimate>,
+    /// Errors by the index of their speed; none before there are any.
+    errors: Option<BTreeMap<u32, PointError>>,
 }
 
-impl<'a> Asked<'a> {
-    pub(super) fn of(request: &ResolvedSweep, errors: Option<&'a ErrorEstimate>) -> Self {
+impl Asked {
+    pub(super) fn of(request: &ResolvedSweep, errors: Option<&ErrorEstimate>) -> Self {
         let asked = request.limits.unwrap_or_default();
         let all = [
             (LimitKind::ClearanceConsumption, asked.clearance_consumption),
@@ -42,6 +47,7 @@ impl<'a> Asked<'a> {
             (LimitKind::NodeForce, asked.node_force),
         ];
         let limits = all.into_iter().filter_map(|(kind, limit)| Some((kind, limit?))).collect();
+        let errors = errors.map(|errors| errors.points.iter().map(|point| (point.index, *point)).collect());
         Self { limits, has_contact: request.scene.contact.is_some(), errors }
     }
 
@@ -93,9 +99,10 @@ impl<'a> Asked<'a> {
 
     /// Relative error of a value. No estimate is made of the force on a single node.
     fn error(&self, index: u32, limit: LimitKind) -> Option<f64> {
+        let known = self.errors.as_ref()?.get(&index)?;
         let error = match limit {
-            LimitKind::ClearanceConsumption | LimitKind::TipMotion => self.errors?.of(index),
-            LimitKind::Utilisation => self.errors?.of_stress(index),
+            LimitKind::ClearanceConsumption | LimitKind::TipMotion => Some(known.estimated_error),
+            LimitKind::Utilisation => known.estimated_stress_error,
             LimitKind::NodeForce => None,
         };
         error.filter(|error| *error >= 0.0)

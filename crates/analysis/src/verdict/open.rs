@@ -1,7 +1,7 @@
 //! Questions that are open in a range: what could hide a limit that is passed.
 
 use super::limit::Asked;
-use super::points::{indices, is_completed};
+use super::points::{Finished, indices};
 use super::range::Span;
 use super::sentence::{rpm, speeds as of_speeds};
 use crate::request::{AutoOr, SweepDirection};
@@ -21,12 +21,11 @@ pub(super) struct Ground<'a> {
     pub(super) request: &'a ResolvedSweep,
     pub(super) span: &'a Span,
     pub(super) range: &'a RangeVerdict,
-    /// All finished speeds.
-    pub(super) points: &'a [Point],
+    pub(super) finished: &'a Finished<'a>,
     /// Speeds inside the range or its separation that were completed.
     pub(super) completed: &'a [&'a Point],
     pub(super) peaks: &'a [WheelCriticalSpeed],
-    pub(super) asked: &'a Asked<'a>,
+    pub(super) asked: &'a Asked,
 }
 
 /// Questions that are open in a range.
@@ -145,9 +144,9 @@ impl Ground<'_> {
 
     /// Question about peaks whose top may lie in the range and is not resolved.
     fn of_peaks(&self) -> Option<OpenQuestion> {
-        let mut all: Vec<&Point> = self.points.iter().filter(|point| is_completed(point)).collect();
-        all.sort_by(|a, b| a.speed_rad_s.total_cmp(&b.speed_rad_s));
-        let hides = |peak: &&WheelCriticalSpeed| !peak.resolved && self.may_hide(peak, &all);
+        let ascending = self.request.speeds.ascending();
+        let ends = [ascending.first().copied(), ascending.last().copied()];
+        let hides = |peak: &&WheelCriticalSpeed| !peak.resolved && self.may_hide(peak, ends);
         let mut speeds: Vec<u32> = self.peaks.iter().filter(hides).map(|peak| peak.index).collect();
         speeds.sort_unstable();
         let remedy = if self.request.refine {
@@ -160,13 +159,11 @@ impl Ground<'_> {
 
     /// Whether the top of an unresolved peak may lie in the range: between the completed speeds beside it. At an end of the sweep the response
     /// must fall at once for a top to hide beside it.
-    fn may_hide(&self, peak: &WheelCriticalSpeed, ascending: &[&Point]) -> bool {
-        let below = ascending.iter().rev().find(|point| point.speed_rad_s < peak.speed_rad_s);
-        let above = ascending.iter().find(|point| point.speed_rad_s > peak.speed_rad_s);
-        let is_high = |point: &&&Point| point.tip.is_some_and(|tip| tip.rms >= RESOLVED_SHARE * peak.tip.rms);
-        let of_request = self.request.speeds.ascending();
-        let is_end = [of_request.first(), of_request.last()].contains(&Some(&peak.speed_rad_s));
-        if is_end && below.xor(above).is_some_and(|beside| is_high(&beside)) {
+    fn may_hide(&self, peak: &WheelCriticalSpeed, ends: [Option<f64>; 2]) -> bool {
+        let [below, above] = self.finished.beside(peak.speed_rad_s);
+        let is_high = |point: &Point| point.tip.is_some_and(|tip| tip.rms >= RESOLVED_SHARE * peak.tip.rms);
+        let is_end = ends.contains(&Some(peak.speed_rad_s));
+        if is_end && below.xor(above).is_some_and(is_high) {
             return false;
         }
         let from = below.map_or(peak.speed_rad_s, |point| point.speed_rad_s);

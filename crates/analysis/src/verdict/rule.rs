@@ -2,7 +2,7 @@
 
 use super::limit::Asked;
 use super::open::{Ground, questions};
-use super::points::{indices, is_completed};
+use super::points::{Finished, indices, is_completed};
 use super::range::Span;
 use crate::resolved::ResolvedSweep;
 use crate::result::{
@@ -22,18 +22,17 @@ pub(super) struct Judged {
 pub(super) fn judge(
     request: &ResolvedSweep,
     span: &Span,
-    points: &[Point],
+    finished: &Finished,
     peaks: &[WheelCriticalSpeed],
     asked: &Asked,
 ) -> Judged {
     let speeds = request.speeds.rad_s();
-    let near: Vec<&Point> = points.iter().filter(|point| span.reaches(point.speed_rad_s)).collect();
+    let near: Vec<&Point> = finished.points.iter().filter(|point| span.reaches(point.speed_rad_s)).collect();
     let completed: Vec<&Point> = near.iter().copied().filter(|point| is_completed(point)).collect();
     let ended = |status: PointStatus| indices(near.iter().copied().filter(|point| point.status == status));
-    let unfinished = |index: &u32| points.iter().all(|point| point.index != *index);
     let missing: Vec<u32> = (0..request.speeds.count())
         .filter(|&index| span.reaches(speeds[index as usize]))
-        .filter(unfinished)
+        .filter(|index| !finished.indices.contains(index))
         .collect();
     let at = |wanted: Position| {
         peaks.iter().filter(|peak| span.position(peak.speed_rad_s) == wanted).count() as u32
@@ -56,7 +55,7 @@ pub(super) fn judge(
         critical_inside: at(Position::Inside),
         critical_within_separation: at(Position::WithinSeparation),
     };
-    let ground = Ground { request, span, range: &range, points, completed: &completed, peaks, asked };
+    let ground = Ground { request, span, range: &range, finished, completed: &completed, peaks, asked };
     let open = questions(&ground);
     range.verdict = word(&range, &completed, asked, !open.is_empty());
     Judged { range, open }
