@@ -96,7 +96,6 @@ async fn impossible_ranges_and_limits_are_refused_at_their_field() {
     for (limits, pointers) in [
         (json!({"tip_motion": 0.0, "node_force": -1.0}), &["/limits/tip_motion", "/limits/node_force"][..]),
         (json!({"utilisation": 0.9}), &["/limits/utilisation"]),
-        (json!({"noise": 0.9}), &["/limits/noise"]),
     ] {
         let mut request = sweep_of(&model);
         request["limits"] = limits;
