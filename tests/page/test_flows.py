@@ -97,6 +97,9 @@ def test_a_click_on_the_map_opens_that_speed(service, swept, new_page):
     page = new_page(f"{service.url}/#/jobs/{swept}")
     drag = page.locator(".figure .nsewdrag.drag").first
     drag.wait_for()
+    # Below the verdict, the middle of the map may be out of sight.
+    page.mouse.wheel(0, 500)
+    page.wait_for_function("() => window.scrollY > 0")
     box = drag.bounding_box()
     # The fifth of ten speeds.
     page.mouse.click(box["x"] + box["width"] * 0.45, box["y"] + box["height"] * 0.5)

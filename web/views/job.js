@@ -86,14 +86,15 @@ export async function show(main, { id, query }, signal) {
     address: (changes) => placeWith(`jobs/${id}`, query, changes),
     onChange: (f) => listeners.push(f),
   };
-  if (job.kind === 'sweep') verdict(first, context, signal);
   if (!ended(job)) {
     follow(id, tell, signal).catch((error) => {
       if (!signal.aborted) state.append(problem(error));
     });
   }
   try {
-    await (await part(tab[2])).show(place, context, signal);
+    // The verdict is there before the view below it, which then stays where it is.
+    const [view] = await Promise.all([part(tab[2]), job.kind === 'sweep' ? verdict(first, context, signal) : null]);
+    await view.show(place, context, signal);
   } catch (error) {
     if (signal.aborted) return;
     replace(place, unread(error, signal));

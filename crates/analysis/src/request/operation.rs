@@ -20,7 +20,7 @@ pub struct Operation {
 #[serde(deny_unknown_fields)]
 pub struct OperatingRange {
     /// Name of the range, unlike that of any other.
-    #[cfg_attr(feature = "schema", schema(min_length = 1, max_length = 100))]
+    #[cfg_attr(feature = "schema", schema(max_length = 100))]
     pub name: String,
     /// Lowest speed of the range.
     pub from: f64,

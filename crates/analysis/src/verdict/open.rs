@@ -154,7 +154,7 @@ impl Ground<'_> {
         } else {
             "`refine` of true, or finer speeds around these peaks, and beyond an end of the sweep"
         };
-        self.about(OpenKind::PeakUnresolved, &speeds, "at peaks that are not resolved", remedy)
+        self.about(OpenKind::PeakUnresolved, &speeds, "whose peak is not resolved", remedy)
     }
 
     /// Whether the top of an unresolved peak may lie in the range: between the completed speeds beside it. At an end of the sweep the response

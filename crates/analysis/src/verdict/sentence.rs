@@ -44,9 +44,9 @@ fn act(range: &RangeVerdict, all: &SweepVerdict, request: &ResolvedSweep) -> Str
         return format!("Act: {place}the motion at {speed} grows beyond all bounds.");
     }
     let Some(worst) = largest(range) else { return String::new() };
-    let value = value(&worst.judged, &all.units);
+    let (value, limit) = (value(&worst.judged, &all.units), allowed(&worst.judged, &all.units));
     let above = percent(worst.judged.above_percent);
-    format!("Act: {place}at {}, {value}, passes its limit by {above}.", rpm(worst.speed_rad_s))
+    format!("Act: {place}at {} {value} passes its limit of {limit} by {above}.", rpm(worst.speed_rad_s))
 }
 
 fn undecided(range: &RangeVerdict, all: &SweepVerdict) -> String {
@@ -59,8 +59,9 @@ fn undecided(range: &RangeVerdict, all: &SweepVerdict) -> String {
     }
     let known = match largest(range) {
         Some(worst) => {
-            let value = value(&worst.judged, &all.units);
-            format!("no limit is passed for certain (closest: {value}, at {})", rpm(worst.speed_rad_s))
+            let (value, limit) = (value(&worst.judged, &all.units), allowed(&worst.judged, &all.units));
+            let speed = rpm(worst.speed_rad_s);
+            format!("no limit is passed for certain (closest: {value} at {speed}, limit {limit})")
         }
         None if open.iter().any(|open| open.what == OpenKind::NoLimit) => {
             "whether the motion is allowed cannot be said".to_owned()
@@ -99,9 +100,9 @@ fn clear(all: &SweepVerdict) -> String {
 /// Value that is closest to its limit.
 fn closest(range: &RangeVerdict, all: &SweepVerdict) -> String {
     largest(range).map_or_else(String::new, |worst| {
-        let value = value(&worst.judged, &all.units);
+        let (value, limit) = (value(&worst.judged, &all.units), allowed(&worst.judged, &all.units));
         let below = percent(-worst.judged.above_percent);
-        format!("closest to a limit is {value}, {below} below it, at {}", rpm(worst.speed_rad_s))
+        format!("closest is {value} at {}, {below} below its limit of {limit}", rpm(worst.speed_rad_s))
     })
 }
 
@@ -127,15 +128,17 @@ fn largest_share(range: &RangeVerdict) -> f64 {
     largest(range).map_or(0.0, |worst| worst.judged.value / worst.judged.allowed)
 }
 
-/// Value with its error, its limit and their unit.
+/// Value with its name, its error and their unit.
 fn value(judged: &JudgedValue, units: &Units) -> String {
-    let unit = match judged.limit.unit(units) {
-        "" => String::new(),
-        unit => format!(" {unit}"),
-    };
     let error = judged.error.map_or_else(String::new, |error| format!(" ± {}", digits(error)));
-    let (words, value, allowed) = (judged.limit.words(), digits(judged.value), digits(judged.allowed));
-    format!("{words} of {value}{error}{unit} against a limit of {allowed}{unit}")
+    let text =
+        format!("{} of {}{error} {}", judged.limit.words(), digits(judged.value), judged.limit.unit(units));
+    text.trim_end().to_owned()
+}
+
+/// Limit of a value with its unit.
+fn allowed(judged: &JudgedValue, units: &Units) -> String {
+    format!("{} {}", digits(judged.allowed), judged.limit.unit(units)).trim_end().to_owned()
 }
 
 /// Critical speeds of a range in words, with the most severe of them.
@@ -171,7 +174,12 @@ fn rpm_number(speed_rad_s: f64) -> String {
     if rpm < 100.0 {
         return digits(rpm);
     }
-    let whole = format!("{rpm:.0}");
+    grouped(rpm)
+}
+
+/// Whole number in groups of three digits.
+fn grouped(value: f64) -> String {
+    let whole = format!("{value:.0}");
     let mut text = String::new();
     for (place, digit) in whole.chars().enumerate() {
         if place > 0 && (whole.len() - place).is_multiple_of(3) {
@@ -193,5 +201,5 @@ fn digits(value: f64) -> String {
 
 /// Share in per cent, with a decimal where it is small.
 fn percent(value: f64) -> String {
-    if value.abs() < 10.0 { format!("{value:.1} %") } else { format!("{value:.0} %") }
+    if value.abs() < 10.0 { format!("{value:.1} %") } else { format!("{} %", grouped(value)) }
 }
