@@ -64,9 +64,9 @@ impl fmt::Display for ShownVerdict {
     /// Sentence, table of the worst speeds, and what would decide an open verdict.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}", self.sentence)?;
-        let lines: Vec<[String; 4]> = self.worst.iter().flat_map(|speed| self.lines(speed)).collect();
+        let mut lines: Vec<[String; 4]> = self.worst.iter().flat_map(|speed| self.lines(speed)).collect();
         if !lines.is_empty() {
-            write!(f, "\n{:>12}  {:<28}  {:<44}  {}", "worst (rpm)", "where", "value", "against its limit")?;
+            lines.insert(0, ["worst (rpm)", "where", "value", "against its limit"].map(str::to_owned));
         }
         for [speed, place, value, limit] in lines {
             write!(f, "\n{}", format!("{speed:>12}  {place:<28}  {value:<44}  {limit}").trim_end())?;
