@@ -153,6 +153,8 @@ impl Scene {
             refine: false,
             reproducible: false,
             fields: None,
+            operation: None,
+            limits: None,
             record: request::Record::default(),
         };
         ResolvedSweep::stored(settings, 0).expect("the settings are sound")

@@ -4,11 +4,22 @@ use std::process::ExitCode;
 
 use super::client::{ClientError, JobError};
 use super::stdout::{Closed, print_json};
+use crate::analysis::result::VerdictWord;
 
 /// Error of a command that a signal ended.
 #[derive(Debug, thiserror::Error)]
 #[error("interrupted{0}")]
 pub(super) struct Interrupted(pub(super) String);
+
+/// Error of a sweep whose verdict is as bad as `--fail-on` names, or worse.
+#[derive(Debug, thiserror::Error)]
+#[error("the verdict on job {id} is {verdict}, and --fail-on asks to fail then")]
+pub(super) struct Gated {
+    /// Id of the job.
+    pub(super) id: String,
+    /// Verdict on the sweep.
+    pub(super) verdict: VerdictWord,
+}
 
 /// Exit codes and their meaning, for the help of every command that leaves them.
 pub(super) const CODES: &str = "\
@@ -16,7 +27,7 @@ Exit codes:
   0    done; with --wait, and of watch: every job is successful
   1    something here: a file that cannot be read or written, a request that is no JSON or YAML
   2    the command line is wrong
-  3    the service refuses: what is wrong is said field by field
+  3    the service refuses: what is wrong is said field by field; with --fail-on: the verdict on a sweep is that bad
   4    a job has failed
   5    a job was cancelled
   6    the service cannot be reached, or does not work
@@ -24,7 +35,7 @@ Exit codes:
 
 /// Exit code of errors on this side: files, requests.
 const HERE: u8 = 1;
-/// Exit code if the service refuses.
+/// Exit code if the service refuses, and if a verdict is as bad as `--fail-on` names: either way the design does not pass.
 const REFUSED: u8 = 3;
 /// Exit code if a job has failed.
 const FAILED: u8 = 4;
@@ -56,6 +67,7 @@ fn code(error: &anyhow::Error) -> u8 {
     match error.downcast_ref() {
         Some(JobError::Failed { .. }) => FAILED,
         Some(JobError::Cancelled(_)) => CANCELLED,
+        None if error.is::<Gated>() => REFUSED,
         None if error.is::<Interrupted>() => INTERRUPTED,
         None => HERE,
     }

@@ -30,6 +30,7 @@ mod study;
 mod terminal;
 mod token;
 mod verb;
+mod verdict;
 
 use std::process::ExitCode;
 

@@ -18,6 +18,7 @@ mod speed_histories;
 mod stress;
 mod studies;
 mod unit;
+mod verdict;
 pub mod wear;
 mod wheel;
 

@@ -339,7 +339,7 @@ fn forms_of(path: &str) -> &'static [Form] {
         Some("fields") => &Form::FIELDS,
         Some("modes") => &Form::LIST_AND_FIELDS,
         Some("mesh") => &Form::MESH,
-        Some("wheel") => &Form::NUMBERS,
+        Some("wheel" | "verdict") => &Form::NUMBERS,
         _ => &Form::ALL,
     }
 }

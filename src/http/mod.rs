@@ -59,6 +59,7 @@ mod stream;
 mod stress;
 mod studies;
 mod transport;
+mod verdict;
 mod version;
 mod web;
 mod wheel;

@@ -21,8 +21,8 @@ use super::state::AppState;
 use super::{
     access, archive, body, branches, campaigns, casings, contract, cross_site, events, extract, fields,
     forces, health, histories, host, jobs, kinds, looks, maps, mesh, metrics, models, modes, openapi,
-    principal, problem, report, results, run_ups, section, spectra, stream, stress, studies, version, web,
-    wheel,
+    principal, problem, report, results, run_ups, section, spectra, stream, stress, studies, verdict,
+    version, web, wheel,
 };
 
 /// Routes with their descriptions.
@@ -48,6 +48,7 @@ pub(super) fn routes() -> OpenApiRouter<AppState> {
         .routes(routes!(spectra::get_wear))
         .routes(routes!(results::get_critical_speeds))
         .routes(routes!(wheel::get_wheel_critical_speeds))
+        .routes(routes!(verdict::get_verdict))
         .routes(routes!(studies::get_work_precision))
         .routes(routes!(histories::get_histories, histories::create_histories))
         .routes(routes!(branches::get_branches))

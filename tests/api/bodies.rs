@@ -47,8 +47,8 @@ async fn all_structural_errors_come_at_once_in_words() {
         (
             "/colour",
             "this field does not exist here; those here are accuracy, budget, control_speeds, fields, integration, \
-          max_engine_order, model, modes_per_speed, name, notes, peak_prominence, record, refine, reproducible, \
-          scene, sensors, speeds, sweep, tags",
+          limits, max_engine_order, model, modes_per_speed, name, notes, operation, peak_prominence, record, refine, \
+          reproducible, scene, sensors, speeds, sweep, tags",
         ),
         ("/refine", "expected true or false, not the text \"yes\""),
         ("/max_engine_order", "expected a whole number from 1 to 1000, not 5000000000"),

@@ -45,5 +45,6 @@ mod stress;
 mod studies;
 mod sweeps;
 mod transport;
+mod verdict;
 mod vtk;
 mod web;

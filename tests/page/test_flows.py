@@ -86,12 +86,20 @@ def test_a_sweep_is_planned_asked_for_and_followed(service, model, swept, new_pa
     assert service.finish(job)["status"] == "successful"
     page.locator(".figure .main-svg").first.wait_for()
     assert service.call("GET", f"/v1/jobs/{job}")["request"]["speeds"]["count"] == 9
+    # The verdict comes first; without a limit it is undecided, and no speed is missing any more.
+    said = page.locator("[data-verdict=undecided]")
+    page.wait_for_function("() => !document.querySelector('[data-verdict]').innerText.includes('without a result')")
+    assert said.inner_text() == service.call("GET", f"/v1/jobs/{job}/verdict")["sentence"]
+    assert said.bounding_box()["y"] < page.get_by_text("done", exact=True).bounding_box()["y"]
 
 
 def test_a_click_on_the_map_opens_that_speed(service, swept, new_page):
     page = new_page(f"{service.url}/#/jobs/{swept}")
     drag = page.locator(".figure .nsewdrag.drag").first
     drag.wait_for()
+    # Below the verdict, the middle of the map may be out of sight.
+    page.mouse.wheel(0, 500)
+    page.wait_for_function("() => window.scrollY > 0")
     box = drag.bounding_box()
     # The fifth of ten speeds.
     page.mouse.click(box["x"] + box["width"] * 0.45, box["y"] + box["height"] * 0.5)

@@ -22,3 +22,4 @@ mod shell;
 mod small_disk;
 mod stub;
 mod terminal;
+mod verdicts;

@@ -8,6 +8,7 @@ import { labelsButton } from '../lib/labels.js';
 import { again, placeWith } from '../lib/place.js';
 import { problem, unread } from '../lib/problem.js';
 import { actions } from './job/actions.js';
+import { verdict } from './job/verdict.js';
 
 export const STATUSES = {
   accepted: 'waiting',
@@ -55,11 +56,13 @@ export async function show(main, { id, query }, signal) {
   const job = await readJob(id, signal);
   const tabs = [...(TABS[job.kind] ?? []), ...FOR_ALL];
   const tab = tabs.find(([name]) => name === query.get('view')) ?? tabs[0];
+  const first = h('div');
   const state = h('div');
   const place = h('section', { 'aria-label': tab[1] });
   const listeners = [];
   replace(main,
     h('h1', {}, nameOf(job)),
+    first,
     state,
     h('nav', { class: 'tabs', 'aria-label': 'Results' }, tabs.map(([name, words]) => h('a', {
       href: placeWith(`jobs/${id}`, query, { view: name }),
@@ -89,7 +92,9 @@ export async function show(main, { id, query }, signal) {
     });
   }
   try {
-    await (await part(tab[2])).show(place, context, signal);
+    // The verdict is there before the view below it, which then stays where it is.
+    const [view] = await Promise.all([part(tab[2]), job.kind === 'sweep' ? verdict(first, context, signal) : null]);
+    await view.show(place, context, signal);
   } catch (error) {
     if (signal.aborted) return;
     replace(place, unread(error, signal));

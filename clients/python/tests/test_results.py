@@ -72,6 +72,24 @@ def test_tables_are_those_of_the_json(swept: rubmap.Sweep) -> None:
         plot.level(points, quantity="peak")
 
 
+def test_a_verdict_prints_as_a_table(client: rubmap.Client, model: rubmap.Model) -> None:
+    operation = {"ranges": [{"name": "cruise", "from": 18000, "to": 24000, "unit": "rpm"}]}
+    request = sweep_of(model.id, record={}, operation=operation, limits={"tip_motion": 1e-6})
+    found = client.sweep(request).submit().wait(progress=False).verdict()
+    assert found.word == "act" and found.sentence.startswith('Act: in range "cruise" (18,000 to 24,000 rpm) at ')
+    lines = str(found).splitlines()
+    assert lines[0] == found.sentence
+    assert " ".join(lines[1].split()) == "worst (rpm) where value against its limit"
+    assert len(lines) == 2 + len(found.worst) and " of 1e-06 mm " in lines[2] and "in cruise, -" in lines[2]
+    assert found.settings["operation"] == operation and found.ranges[0]["name"] == "cruise"
+
+
+def test_a_sweep_without_limits_is_undecided(swept: rubmap.Sweep) -> None:
+    found = swept.verdict()
+    assert found.word == "undecided" and found.would_decide[0]["what"] == "no_limit"
+    assert "no limit" in str(found) and "to decide: give `limits`" in str(found)
+
+
 def test_spectra_histories_forces_and_stress_have_their_dimensions(swept: rubmap.Sweep) -> None:
     spectrum = swept.spectrum(2)
     assert spectrum["of_nodal_diameter"].dims == ("sensor", "nodal_diameter", "engine_order")

@@ -4,6 +4,7 @@
 //! - [`run::check`], [`run::run_speed`] and [`run::modal_analysis`] compute on the reduced sector;
 //! - [`run::refine`] adds the speeds that a sweep lacks around its peaks;
 //! - [`run::interaction_map`] and [`run::critical_speeds`] assemble the finished speeds of a sweep, [`run::refine`] asks for more;
+//! - [`run::judge`] says whether the wheel may run in the operating ranges of the request;
 //! - [`run::speed_histories`] simulates a speed once more and records what happens, [`run::force_map`] gathers contact over all speeds;
 //! - [`kinds`] has what each kind of job is asked, plans, computes and answers: branches and run-ups leg by leg, campaigns design by design;
 //! - [`run::run_ups`] and [`run::campaign`] put their results together;
@@ -55,4 +56,5 @@ pub mod tip_growth;
 mod tip_thickness;
 mod tips;
 mod validity;
+mod verdict;
 mod wheel;

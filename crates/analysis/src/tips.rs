@@ -49,6 +49,27 @@ pub fn wheel_critical_speeds(
     tables: &[CriticalSpeeds],
 ) -> Option<WheelCriticalSpeeds> {
     let first = tables.first()?;
+    let view = |table: &CriticalSpeeds| SensorView {
+        sensor: Sensor::clone(&table.sensor),
+        critical_speeds: table.critical_speeds.clone(),
+    };
+    Some(WheelCriticalSpeeds {
+        critical_speeds: wheel_peaks(request, points, errors),
+        sensors: tables.iter().map(view).collect(),
+        missing: first.missing.clone(),
+        refinement: first.refinement.clone(),
+        units: first.units.clone(),
+        settings: first.settings.clone(),
+        version: first.version.clone(),
+    })
+}
+
+/// Critical speeds of the wheel from the finished points of a sweep, the most severe first.
+pub(super) fn wheel_peaks(
+    request: &ResolvedSweep,
+    points: &[Point],
+    errors: Option<&ErrorEstimate>,
+) -> Vec<WheelCriticalSpeed> {
     let curve = ResponseCurve::of(request.speeds.rad_s(), points);
     let level: Vec<Option<f64>> = curve.points.iter().map(|point| Some(point.as_ref()?.tip?.rms)).collect();
     let tips = || curve.points.iter().flatten().filter_map(|point| point.tip);
@@ -88,17 +109,5 @@ pub fn wheel_critical_speeds(
     let mut critical_speeds: Vec<_> =
         peaks(&level, request.peak_prominence).into_iter().filter_map(critical).collect();
     critical_speeds.sort_by(|a, b| b.severity.total_cmp(&a.severity));
-    let view = |table: &CriticalSpeeds| SensorView {
-        sensor: Sensor::clone(&table.sensor),
-        critical_speeds: table.critical_speeds.clone(),
-    };
-    Some(WheelCriticalSpeeds {
-        critical_speeds,
-        sensors: tables.iter().map(view).collect(),
-        missing: first.missing.clone(),
-        refinement: first.refinement.clone(),
-        units: first.units.clone(),
-        settings: first.settings.clone(),
-        version: first.version.clone(),
-    })
+    critical_speeds
 }

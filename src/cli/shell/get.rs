@@ -2,13 +2,15 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::Context;
+use anyhow::{Context, bail};
 use clap::Args;
 
 use super::find;
 use crate::cli::client::{Client, ClientError, ServerArgs, Target};
 use crate::cli::size::size;
+use crate::cli::stdout::print;
 use crate::cli::verb::Verb;
+use crate::cli::verdict;
 
 /// Results of models; all others are of jobs.
 const OF_MODELS: [&str; 3] = ["mesh", "modes", "section"];
@@ -22,14 +24,14 @@ pub(in crate::cli) struct GetArgs {
     /// Job, or model for its mesh, modes and section: an id, the beginning of it, or a name
     #[arg(value_name = "JOB")]
     whose: String,
-    /// Result, as its path ends: interaction-map, critical-speeds, critical-speeds/wheel, spectra/20, campbell, forces, stress, histories,
+    /// Result, as its path ends: verdict, interaction-map, critical-speeds, critical-speeds/wheel, spectra/20, campbell, forces, stress, histories,
     /// fields, wear/0, work-precision, report, archive; of a model mesh, modes, section
     #[arg(value_parser = result)]
     result: String,
     /// Parameters of the result, such as sensor=1 or units=rpm; all are in openapi.yaml
     #[arg(value_name = "NAME=VALUE", value_parser = parameter)]
     parameters: Vec<(String, String)>,
-    /// Form of the result: json, csv, npz, svg, png … [default: the end of the file's name, or else the first form that the result has]
+    /// Form of the result: json, csv, npz, svg, png …; of a verdict also text, a table to read [default: the end of the file's name, or else the first form that the result has]
     #[arg(long, short)]
     format: Option<String>,
     /// File to write, which is there when it is whole and not before [default: the output]
@@ -52,6 +54,9 @@ impl Verb for GetArgs {
         let mut query = self.parameters.clone();
         query.extend(self.form(&target).map(|form| ("format".to_owned(), form)));
         let of_model = OF_MODELS.contains(&self.result.as_str());
+        if self.result == "verdict" && self.format.as_deref() == Some("text") {
+            return self.verdict(client, &target).await;
+        }
         let path = if of_model {
             format!("/v1/models/{}", find::model(client, &self.whose).await?)
         } else {
@@ -80,6 +85,15 @@ impl GetArgs {
         };
         let named = || ending.filter(|ending| FORMS.contains(ending)).map(ToOwned::to_owned);
         self.format.clone().or_else(named)
+    }
+
+    /// Prints a verdict as text.
+    async fn verdict(&self, client: &Client, target: &Target) -> anyhow::Result<()> {
+        if let Target::File(file) = target {
+            bail!("a verdict as text is printed: leave -o away, or send the output to {}", file.display());
+        }
+        let id = find::job(client, &self.whose).await?;
+        print(&verdict::read(client, &id).await?.to_string())
     }
 
     /// List of the results that a job or model has, for the message about one that does not exist.

@@ -2,6 +2,7 @@
 
 mod cancel;
 mod find;
+mod gate;
 mod get;
 mod kind;
 mod ls;

@@ -6,12 +6,13 @@ use clap::Args;
 use serde_json::{Value, json};
 
 use super::kind::kind;
-use super::{find, watch};
+use super::{find, gate, watch};
 use crate::analysis::kinds::sweep::SWEEP;
 use crate::cli::client::{Client, ServerArgs, UploadLabels};
 use crate::cli::request::{Setting, read};
 use crate::cli::stdout::{print, print_json};
 use crate::cli::verb::Verb;
+use crate::cli::verdict::FailOn;
 use crate::kinds::JobKind;
 
 /// Request for a job, its model and its changes.
@@ -56,9 +57,12 @@ impl RequestArgs {
 pub(in crate::cli) struct SweepArgs {
     #[command(flatten)]
     request: RequestArgs,
-    /// Follow the job to its end
+    /// Follow the job to its end; of a sweep also show the verdict and the three worst speeds
     #[arg(long)]
     wait: bool,
+    /// End with exit code 3 if the verdict on the sweep is this bad or worse
+    #[arg(long, value_enum, value_name = "VERDICT", requires = "wait")]
+    fail_on: Option<FailOn>,
     /// Print all that the service says of the job, as JSON [default: its id]
     #[arg(long)]
     json: bool,
@@ -119,6 +123,7 @@ impl SweepArgs {
         }
         if self.wait {
             job.check()?;
+            gate::verdict(client, &job, self.fail_on).await?;
         }
         Ok(())
     }

@@ -4,13 +4,14 @@ use clap::Args;
 use futures::future::try_join_all;
 use serde_json::{Value, json};
 
-use super::find;
+use super::{find, gate};
 use crate::cli::client::{Answer, Client, Job, ServerArgs};
 use crate::cli::ending::Interrupted;
 use crate::cli::progress::follow_any;
 use crate::cli::signals::stop_signal;
 use crate::cli::stdout::{print, print_json};
 use crate::cli::verb::Verb;
+use crate::cli::verdict::FailOn;
 
 /// Jobs to follow.
 #[derive(Debug, Args)]
@@ -21,6 +22,9 @@ pub(in crate::cli) struct WatchArgs {
     /// Print how they ended as JSON, {"jobs": [...]}
     #[arg(long)]
     json: bool,
+    /// Show the verdicts on sweeps, and end with exit code 3 if one is this bad or worse
+    #[arg(long, value_enum, value_name = "VERDICT")]
+    fail_on: Option<FailOn>,
     #[command(flatten)]
     server: ServerArgs,
 }
@@ -43,7 +47,15 @@ impl Verb for WatchArgs {
         } else {
             jobs.iter().try_for_each(|job| print(&format!("{}  {}", job.id, job.status.as_str())))?;
         }
-        worst(&jobs)
+        worst(&jobs)?;
+        let mut gated = Ok(());
+        if self.fail_on.is_some() {
+            // All verdicts are shown, whichever fails.
+            for job in &jobs {
+                gated = gated.and(gate::verdict(client, job, self.fail_on).await);
+            }
+        }
+        gated
     }
 }
 

@@ -14,7 +14,7 @@ import { beginning } from './sensible.js';
 
 /** In which order requests are asked for: what every one needs, and then what has defaults. */
 const GROUPS = [
-  { title: null, names: ['speeds', 'speed', 'along', 'scene', 'parameters', 'design', 'severity', 'limit', 'threshold', 'compared_model', 'lobes', 'superharmonics', 'grid'] },
+  { title: null, names: ['speeds', 'speed', 'along', 'scene', 'operation', 'limits', 'parameters', 'design', 'severity', 'limit', 'threshold', 'compared_model', 'lobes', 'superharmonics', 'grid'] },
   { title: 'Recording', names: ['sensors', 'record', 'stress', 'fields'] },
   { title: 'Name, tags, notes', names: ['name', 'tags', 'notes'] },
   { title: 'Settings', names: ['budget', 'modes_per_speed', 'integration', 'sweep', 'refine', 'reproducible', 'control_speeds', 'max_engine_order', 'peak_prominence', 'doubled', 'most_points', 'frame_revolutions', 'angle_tolerance_rad'] },

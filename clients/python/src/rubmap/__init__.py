@@ -16,6 +16,7 @@ from .models import Model
 from .package import write_package
 from .results import Branches, Campaign, CaseStudy, ModalAnalysis, RunUps, Study, Sweep
 from .step import mesh_step
+from .verdict import Verdict
 
 __all__ = [
     "Branches",
@@ -34,6 +35,7 @@ __all__ = [
     "Study",
     "Sweep",
     "Unreachable",
+    "Verdict",
     "contract",
     "local",
     "mesh_step",

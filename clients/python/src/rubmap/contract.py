@@ -398,6 +398,18 @@ class LeadingPlace(TypedDict):
     von_mises: float
 
 
+LimitKind: TypeAlias = Literal[
+    "clearance_consumption", "tip_motion", "utilisation", "node_force"
+]
+
+
+class Limits(TypedDict, closed=True):
+    clearance_consumption: NotRequired[float | None]
+    node_force: NotRequired[float | None]
+    tip_motion: NotRequired[float | None]
+    utilisation: NotRequired[float | None]
+
+
 class LimitsMet(TypedDict):
     both: int
     neither: int
@@ -494,6 +506,29 @@ Superharmonic: TypeAlias = int
 NodeKind: TypeAlias = Literal["internal", "low", "high", "contact", "clamped"]
 
 
+OpenKind: TypeAlias = Literal[
+    "no_limit",
+    "range_not_covered",
+    "speeds_missing",
+    "speeds_failed",
+    "not_settled",
+    "unsound_stiffness",
+    "beyond_linear_theory",
+    "error_across_limit",
+    "error_unknown",
+    "value_unknown",
+    "peak_unresolved",
+]
+
+
+class OpenQuestion(TypedDict):
+    finding: str
+    range: NotRequired[str]
+    remedy: str
+    speeds: NotRequired[list[int]]
+    what: OpenKind
+
+
 class Orbit(TypedDict, closed=True):
     phase_rad: NotRequired[float]
     radius: float
@@ -578,6 +613,9 @@ class PointError(TypedDict):
 PointStatus: TypeAlias = Literal["completed", "diverged", "failed"]
 
 
+Position: TypeAlias = Literal["inside", "within_separation", "outside"]
+
+
 Preset: TypeAlias = Literal["small", "medium", "paper"]
 
 
@@ -598,6 +636,12 @@ class ProblemItem(TypedDict):
 Quantity: TypeAlias = Literal[
     "history", "amplitude", "engine_orders", "impulse", "stress"
 ]
+
+
+class RangePosition(TypedDict):
+    distance_percent: float
+    position: Position
+    range: str
 
 
 class Readiness(Health):
@@ -756,6 +800,9 @@ class Splitter(TypedDict, closed=True):
 Stability: TypeAlias = Literal[
     "stable", "narrow", "flip", "fold", "neimark_sacker", "undecided"
 ]
+
+
+Standing: TypeAlias = Literal["kept", "reached", "open", "passed"]
 
 
 SteadyChoice: TypeAlias = Literal["march", "periodic", "auto"]
@@ -940,6 +987,9 @@ ValidityVerdict: TypeAlias = Literal["linear", "doubtful", "beyond"]
 
 
 Verdict: TypeAlias = Literal["periodic", "subharmonic", "aperiodic", "not_settled"]
+
+
+VerdictWord: TypeAlias = Literal["clear", "watch", "undecided", "act"]
 
 
 class Version(TypedDict):
@@ -1276,6 +1326,15 @@ class Integration(TypedDict, closed=True):
     window_revolutions: NotRequired[int]
 
 
+class JudgedValue(TypedDict):
+    above_percent: float
+    allowed: float
+    error: NotRequired[float]
+    limit: LimitKind
+    standing: Standing
+    value: float
+
+
 class LookRefusal(TypedDict):
     detail: str
     step: LookStep
@@ -1340,6 +1399,23 @@ class ModesChoice(TypedDict):
     modes_per_speed: int
     reason: str
     tried: list[TriedModes]
+
+
+OperatingRange = TypedDict(
+    "OperatingRange",
+    {
+        "from": float,
+        "name": str,
+        "separation_percent": NotRequired[float | None],
+        "to": float,
+        "unit": SpeedUnit,
+    },
+    closed=True,
+)
+
+
+class Operation(TypedDict, closed=True):
+    ranges: list[OperatingRange]
 
 
 class Pilot(TypedDict):
@@ -1561,6 +1637,12 @@ class ValidityLack(TypedDict):
     what: ValidityMeasure
 
 
+class WorstValue(TypedDict):
+    index: int
+    judged: JudgedValue
+    speed_rad_s: float
+
+
 class Casing(TypedDict, closed=True):
     clearance: Clearance
     lobes: NotRequired[Lobes | None]
@@ -1656,6 +1738,17 @@ class JobList(TypedDict):
     next: NotRequired[str]
 
 
+class JudgedSpeed(TypedDict):
+    critical: bool
+    index: int
+    limits: list[JudgedValue]
+    ranges: list[RangePosition]
+    resolved: NotRequired[bool]
+    speed_error_rad_s: NotRequired[float]
+    speed_rad_s: float
+    tip: NotRequired[TipResponse]
+
+
 class MeasuredCasing(TypedDict):
     filled: list[FilledHeight]
     filled_count: int
@@ -1712,6 +1805,21 @@ class ModelFacts(TypedDict):
     stiffening: NotRequired[PreliminaryStiffening]
     units: Units
     warnings: NotRequired[list[str]]
+
+
+class RangeVerdict(TypedDict):
+    critical_inside: int
+    critical_within_separation: int
+    diverged: list[int]
+    failed: list[int]
+    from_rad_s: float
+    limits: list[WorstValue]
+    missing: list[int]
+    name: NotRequired[str]
+    separation_percent: float
+    speeds: int
+    to_rad_s: float
+    verdict: VerdictWord
 
 
 class ReductionReport(TypedDict):
@@ -1785,11 +1893,13 @@ class SweepRequest(TypedDict, closed=True):
     control_speeds: NotRequired[int | None]
     fields: NotRequired[bool | None]
     integration: NotRequired[Integration]
+    limits: NotRequired[Limits | None]
     max_engine_order: NotRequired[int]
     model: str
     modes_per_speed: NotRequired[AutoOr]
     name: NotRequired[str | None]
     notes: NotRequired[str | None]
+    operation: NotRequired[Operation | None]
     peak_prominence: NotRequired[float]
     record: NotRequired[Record]
     refine: NotRequired[bool]
@@ -1799,6 +1909,19 @@ class SweepRequest(TypedDict, closed=True):
     speeds: Speeds
     sweep: NotRequired[SweepDirection]
     tags: NotRequired[list[str]]
+
+
+class SweepVerdict(TypedDict):
+    critical_speeds: list[JudgedSpeed]
+    ranges: list[RangeVerdict]
+    ranges_given: bool
+    sentence: str
+    settings: SweepRequest
+    units: Units
+    verdict: VerdictWord
+    version: str
+    worst: list[JudgedSpeed]
+    would_decide: list[OpenQuestion]
 
 
 class Validity(TypedDict):

@@ -14,6 +14,7 @@ from .contract import HistoriesRequest
 from .download import Arrays
 from .jobs import Job
 from .tables import RPM, credentials, dataset, sensor_unit, sensors, speed_axis, table, units
+from .verdict import Verdict
 
 
 class _Recorded(Job):
@@ -146,6 +147,10 @@ class Sweep(_Recorded):
     def wheel_critical_speeds(self, **query: Any) -> pd.DataFrame:
         """Critical speeds of the wheel as a whole: the worst contact node, component and blade of each."""
         return table(self.arrays("critical-speeds/wheel", **query), "speed_rad_s")
+
+    def verdict(self) -> Verdict:
+        """Whether the wheel may run in the operating ranges of the request by its limits, also while the job runs; prints as a table."""
+        return Verdict(self.json("verdict"))
 
     def record(self, request: HistoriesRequest) -> CaseStudy:
         """Has histories recorded of a sweep that has ended: by a case study, which is returned when it is submitted.

@@ -4,6 +4,7 @@ pub mod accuracy;
 pub mod auto_or;
 pub mod integration;
 pub(crate) mod omit;
+pub mod operation;
 pub mod record;
 pub mod scene;
 pub mod sensor;
@@ -25,6 +26,7 @@ pub use crate::kinds::study::request::{Grid, StudyIntegration, StudyRecord, Stud
 pub use accuracy::{Accuracy, AccuracyOf, Budget};
 pub use auto_or::AutoOr;
 pub use integration::{Integration, SchemeChoice, SteadyChoice};
+pub use operation::{Limits, OperatingRange, Operation};
 pub use record::{HistoriesRequest, HistorySpeeds, Record, Recorded, RecordedQuantity, StressRequest};
 pub use scene::Scene;
 pub use sensor::{Component, Gauge, Sensor};

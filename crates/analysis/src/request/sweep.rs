@@ -6,6 +6,7 @@ use crate::request::accuracy::{Accuracy, Budget};
 use crate::request::auto_or::AutoOr;
 use crate::request::integration::Integration;
 use crate::request::omit::is_false;
+use crate::request::operation::{Limits, Operation};
 use crate::request::record::Record;
 use crate::request::scene::Scene;
 use crate::request::sensor::Sensor;
@@ -75,6 +76,12 @@ pub struct SweepRequest {
     /// reduce, if there is room.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fields: Option<bool>,
+    /// Operation of the machine, by which the verdict says what lies inside its ranges of speed; without it the whole sweep is judged.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub operation: Option<Operation>,
+    /// Limits that the response must keep, by which the verdict is made; without any it is at best undecided.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub limits: Option<Limits>,
 }
 
 /// State that each speed of a sweep starts from. A response with several branches shows the one that it is led along.

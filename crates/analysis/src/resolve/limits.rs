@@ -17,4 +17,9 @@ pub(crate) const SUPERHARMONICS: usize = 16;
 pub(crate) const DELASSUS: usize = 1 << 26;
 /// Range of lengths and stresses other than 0, in any unit: far from where squares overflow or motion counts as decayed.
 pub(crate) const LENGTH: std::ops::RangeInclusive<f64> = 1e-30..=1e30;
+/// Most operating ranges.
+pub(crate) const RANGES: usize = 100;
+/// Most characters in the name of an operating range.
+pub(crate) const RANGE_NAME: usize = 100;
+pub(crate) const PERCENT: std::ops::RangeInclusive<f64> = 0.0..=100.0;
 pub(crate) const PHASE_RAD: f64 = 1000.0;

@@ -21,6 +21,7 @@ mod effects;
 pub(crate) mod findings;
 mod gauges;
 pub(crate) mod limits;
+mod operation;
 pub(crate) mod plain_sweep;
 pub(crate) mod recorded;
 pub(crate) mod sensors;
@@ -40,6 +41,7 @@ pub fn resolve_sweep(request: SweepRequest, facts: &ModelFacts) -> Result<Resolv
         "/peak_prominence",
         "a share of the largest response, between 0 and 1",
     );
+    operation::check_operation(&mut found, &sweep);
     check_steps(&mut found, &sweep);
     check_ramp(&mut found, &sweep);
     effects::check_after_integration(&mut found, &sweep, facts);

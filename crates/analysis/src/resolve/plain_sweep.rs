@@ -42,6 +42,8 @@ impl PlainSweep {
             control_speeds: None,
             record: Record::default(),
             fields: self.fields,
+            operation: None,
+            limits: None,
         };
         let at_its_field = |violation: Violation| match violation.pointer.strip_prefix("/speeds") {
             Some(_) => Violation { pointer: at.to_owned(), ..violation },

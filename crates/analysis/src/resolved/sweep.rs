@@ -6,8 +6,8 @@ use crate::effects::casing::request::ClearanceState;
 use crate::error::Violation;
 use crate::request::speeds::Speeds;
 use crate::request::{
-    Accuracy, AutoOr, HistoriesRequest, Integration, Record, Setting, SweepDirection, SweepRequest,
-    sweep::default_peak_prominence,
+    Accuracy, AutoOr, HistoriesRequest, Integration, Limits, Operation, Record, Setting, SweepDirection,
+    SweepRequest, sweep::default_peak_prominence,
 };
 use crate::resolved::knobs::Modes;
 use crate::resolved::scene::Scene;
@@ -39,6 +39,8 @@ pub struct ResolvedSweep {
     pub(crate) control_speeds: u32,
     pub(crate) record: Record,
     pub(crate) fields: Option<bool>,
+    pub(crate) operation: Option<Operation>,
+    pub(crate) limits: Option<Limits>,
 }
 
 impl ResolvedSweep {
@@ -75,6 +77,8 @@ impl ResolvedSweep {
             control_speeds: asked.control_speeds.unwrap_or(default_controls(modes, asked.sweep)),
             record: asked.record,
             fields: asked.fields,
+            operation: asked.operation,
+            limits: asked.limits,
         }
     }
 
@@ -237,6 +241,8 @@ impl ResolvedSweep {
             record: Record::default(),
             // Runs that are only compared need no rows.
             fields: self.fields.filter(|wanted| !wanted),
+            operation: None,
+            limits: None,
             ..self.at(setting)
         }
     }
@@ -270,6 +276,8 @@ impl From<ResolvedSweep> for SweepRequest {
             control_speeds: Some(sweep.control_speeds).filter(|&speeds| speeds != usual),
             record: sweep.record,
             fields: sweep.fields,
+            operation: sweep.operation,
+            limits: sweep.limits,
         }
     }
 }

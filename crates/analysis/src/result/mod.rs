@@ -17,6 +17,7 @@ pub mod sweep_stress;
 pub mod tip;
 pub mod trial;
 pub mod validity;
+pub mod verdict;
 pub mod wheel;
 
 pub use crate::kinds::branches::result::{
@@ -64,6 +65,10 @@ pub use sweep_stress::{SpeedStress, SweepStress};
 pub use tip::TipResponse;
 pub use trial::{Cost, Trial};
 pub use validity::{Validity, ValidityCheck, ValidityLack, ValidityMeasure, ValidityVerdict};
+pub use verdict::{
+    JudgedSpeed, JudgedValue, LimitKind, OpenKind, OpenQuestion, Position, RangePosition, RangeVerdict,
+    Standing, SweepVerdict, VerdictWord, WorstValue,
+};
 pub use wheel::{SensorView, WheelCriticalSpeed, WheelCriticalSpeeds};
 
 pub use crate::effects::abradable::result::{WearMap, WearReport};

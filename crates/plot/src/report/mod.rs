@@ -7,12 +7,13 @@ mod head;
 mod page;
 mod stress;
 mod tables;
+mod verdict;
 mod warnings;
 
 use crate::SurfaceView;
 use maud::{Markup, html};
 use rubmap_analysis::result::{
-    Campbell, CriticalSpeeds, FieldSurface, ForceMap, InteractionMap, SpeedHistories, Strengths,
+    Campbell, CriticalSpeeds, FieldSurface, ForceMap, InteractionMap, SpeedHistories, Strengths, SweepVerdict,
 };
 use serde_json::Value;
 
@@ -24,6 +25,8 @@ pub use head::Head;
 /// Results of a sweep.
 #[derive(Debug, Clone, Copy)]
 pub struct Sweep<'a> {
+    /// Verdict on the sweep.
+    pub verdict: &'a SweepVerdict,
     /// Interaction map at one sensor.
     pub map: &'a InteractionMap,
     /// Critical speeds at every sensor.
@@ -42,7 +45,7 @@ pub struct Sweep<'a> {
 
 /// Renders the report of a sweep, as HTML. All texts of users are escaped.
 pub fn sweep(head: &Head, sweep: &Sweep) -> String {
-    let Sweep { map, critical, forces, histories, campbell, strengths, surfaces } = *sweep;
+    let Sweep { verdict, map, critical, forces, histories, campbell, strengths, surfaces } = *sweep;
     let of_sensor = critical.iter().find(|table| table.sensor == map.sensor);
     let body = html! {
         (asked::sweep(&map.settings))
@@ -75,7 +78,7 @@ pub fn sweep(head: &Head, sweep: &Sweep) -> String {
         }
         (settings(serde_json::to_value(&map.settings).unwrap_or_default()))
     };
-    page(head, &body)
+    page(head, &verdict::sentence(verdict), &body)
 }
 
 /// Renders the report of a modal analysis, as HTML. All texts of users are escaped.
@@ -90,7 +93,7 @@ pub fn modal_analysis(head: &Head, campbell: &Campbell) -> String {
         (tables::driven_crossings(&campbell.driven_crossings))
         (settings(serde_json::to_value(&campbell.settings).unwrap_or_default()))
     };
-    page(head, &body)
+    page(head, &html! {}, &body)
 }
 
 /// Renders all settings of a request; posting them repeats the request.

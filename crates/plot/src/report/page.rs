@@ -18,12 +18,14 @@ table.facts th { width: 16em; font-weight: normal; color: #555 }
 tr, figure { break-inside: avoid }
 figure { margin: .5em 0 } figure svg { max-width: 100%; height: auto }
 .warnings { border-left: 4px solid #b01f20; padding-left: 1em } .small { color: #555; font-size: .9em }
+p.verdict { border-left: 6px solid; padding: .4em .8em; background: #f4f4f4; font-size: 1.1em }
+p.act { border-color: #b01f20 } p.undecided { border-color: #6b6b6b } p.watch { border-color: #c07800 } p.clear { border-color: #17693c }
 pre { white-space: pre-wrap; overflow-wrap: anywhere; font-size: .8em } .notes { white-space: pre-wrap }
 @media print { body { font-size: 9.5pt; margin: 0; padding: 0; max-width: none } pre { font-size: 7pt } }
 ";
 
-/// Renders a page around its `body`.
-pub(super) fn page(head: &Head, body: &Markup) -> String {
+/// Renders a page around its `body`; `first` comes before everything but the title.
+pub(super) fn page(head: &Head, first: &Markup, body: &Markup) -> String {
     let Head { title, facts, notes } = head;
     html! {
         (DOCTYPE)
@@ -36,6 +38,7 @@ pub(super) fn page(head: &Head, body: &Markup) -> String {
             }
             body {
                 h1 { (title) }
+                (first)
                 @if let Some(notes) = notes { p class="notes" { (notes) } }
                 (facts_table(facts.iter().map(|(name, value)| (*name, value.clone()))))
                 (body)

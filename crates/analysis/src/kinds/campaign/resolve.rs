@@ -63,6 +63,8 @@ pub(crate) fn resolve_campaign(
         control_speeds: None,
         record: Record { stress, ..Record::default() },
         fields: request.fields,
+        operation: None,
+        limits: None,
     };
     let mut found = Findings::default();
     let other = request.compared_model.zip(compared.as_ref()).map(|(model, compared)| {

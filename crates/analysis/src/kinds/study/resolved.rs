@@ -77,6 +77,8 @@ impl StudyRequest {
             control_speeds: None,
             record: Record { stress: self.record.stress, ..Record::default() },
             fields: self.fields,
+            operation: None,
+            limits: None,
         }
     }
 }

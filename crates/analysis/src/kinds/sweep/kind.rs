@@ -42,6 +42,7 @@ pub static SWEEP: Kind = Kind {
         ("interaction-map", "/interaction-map"),
         ("critical-speeds", "/critical-speeds"),
         ("wheel-critical-speeds", "/critical-speeds/wheel"),
+        ("verdict", "/verdict"),
         ("spectra", "/spectra/{index}"),
         ("forces", "/forces"),
         ("report", "/report"),

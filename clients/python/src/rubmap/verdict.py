@@ -1,0 +1,75 @@
+"""The verdict on a sweep: whether the wheel may run in its operating ranges, as an object that prints as a table."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from .tables import RPM
+
+#: What limits are called, and which of the model's units they have.
+_LIMITS = {
+    "clearance_consumption": ("clearance consumption", None),
+    "tip_motion": ("tip motion", "length"),
+    "utilisation": ("utilisation", None),
+    "node_force": ("contact force on a node", "force"),
+}
+_POSITIONS = {"inside": "in", "within_separation": "near", "outside": "outside"}
+
+
+class Verdict:
+    """The verdict on a sweep by the operating ranges and limits of its request.
+
+    Attributes:
+        word: ``clear``, ``watch``, ``undecided`` or ``act``.
+        sentence: which range, which speed, which limit, by how much.
+        ranges: a dictionary per range: verdict, speeds, worst value per limit, critical speeds.
+        critical_speeds: critical speeds of the wheel against ranges and limits, the most severe first.
+        worst: the three worst speeds.
+        would_decide: what is open, and what would decide it.
+        units: of the model.
+        settings: the whole request as resolved.
+        version: of the code.
+    """
+
+    def __init__(self, found: Mapping[str, Any]) -> None:
+        self.word: str = found["verdict"]
+        self.sentence: str = found["sentence"]
+        self.ranges: list[dict[str, Any]] = found["ranges"]
+        self.critical_speeds: list[dict[str, Any]] = found["critical_speeds"]
+        self.worst: list[dict[str, Any]] = found["worst"]
+        self.would_decide: list[dict[str, Any]] = found["would_decide"]
+        self.units: dict[str, str] = found["units"]
+        self.settings: dict[str, Any] = found["settings"]
+        self.version: str = found["version"]
+
+    def __repr__(self) -> str:
+        return str(self)
+
+    def __str__(self) -> str:
+        lines = [self.sentence]
+        rows = [row for speed in self.worst for row in self._rows(speed)]
+        if rows:
+            rows.insert(0, ("worst (rpm)", "where", "value", "against its limit"))
+        lines += [f"{rpm:>12}  {place:<28}  {value:<44}  {limit}".rstrip() for rpm, place, value, limit in rows]
+        if self.word == "undecided":
+            lines += [f"to decide: {open['remedy']} ({open['finding']})" for open in self.would_decide]
+        return "\n".join(lines)
+
+    def _rows(self, speed: Mapping[str, Any]) -> Iterator[tuple[str, str, str, str]]:
+        """A row per limit of a speed."""
+        rpm, place = f"{speed['speed_rad_s'] * RPM:.0f}", ""
+        near = [of for of in speed["ranges"] if of["position"] != "outside"] or speed["ranges"]
+        if near:
+            place = f"{_POSITIONS[near[0]['position']]} {near[0]['range']}, {near[0]['distance_percent']:+.1f} %"
+        for judged in speed["limits"]:
+            words, of = _LIMITS[judged["limit"]]
+            unit = "" if of is None else f" {self.units[of]}"
+            error = f" ± {judged['error']:.3g}" if "error" in judged else ""
+            value = f"{words} {judged['value']:.3g}{error} of {judged['allowed']:.3g}{unit}"
+            yield rpm, place, value, f"{judged['above_percent']:+.0f} %"
+            rpm, place = "", ""
+        if not speed["limits"]:
+            tip = speed.get("tip")
+            value = f"tip motion {tip['half_peak_to_peak']:.3g} {self.units['length']}" if tip else ""
+            yield rpm, place, value, "no limit"

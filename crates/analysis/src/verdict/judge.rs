@@ -1,0 +1,117 @@
+//! Verdict on a sweep from its finished speeds.
+
+use super::limit::Asked;
+use super::points::Finished;
+use super::range::Span;
+use super::rule::{self, Judged};
+use super::sentence;
+use crate::request::Operation;
+use crate::resolved::ResolvedSweep;
+use crate::result::{
+    ErrorEstimate, JudgedSpeed, Point, Position, RangePosition, RangeVerdict, SweepVerdict, VerdictWord,
+    WheelCriticalSpeed,
+};
+use crate::tips::wheel_peaks;
+use rubmap_wheel::dynamics::sector::Units;
+use rubmap_wheel::revision::VERSION;
+
+/// Number of speeds that are named as the worst.
+const WORST: usize = 3;
+
+/// Judges the finished points of a sweep, in any order, by the ranges and limits of its request.
+pub fn judge(
+    request: &ResolvedSweep,
+    units: &Units,
+    points: &[Point],
+    errors: Option<&ErrorEstimate>,
+) -> SweepVerdict {
+    let asked = Asked::of(request, errors);
+    let peaks = wheel_peaks(request, points, errors);
+    let finished = Finished::of(points);
+    let (ranges_given, spans) = spans(request);
+    let judged: Vec<Judged> =
+        spans.iter().map(|span| rule::judge(request, span, &finished, &peaks, &asked)).collect();
+    let named: &[Span] = if ranges_given { &spans } else { &[] };
+    let speed = |point: &Point| judged_speed(point, named, &peaks, &asked);
+    let of_index = |index: u32| points.iter().find(|point| point.index == index);
+    let critical_speeds: Vec<JudgedSpeed> =
+        peaks.iter().filter_map(|peak| of_index(peak.index)).map(speed).collect();
+    let worst = worst(&judged, &critical_speeds, &spans, |index| of_index(index).map(speed));
+    let mut would_decide = Vec::new();
+    would_decide.extend(asked.none_given());
+    would_decide.extend(judged.iter().flat_map(|of| of.open.iter().cloned()));
+    let ranges: Vec<RangeVerdict> = judged.iter().map(|of| of.range.clone()).collect();
+    let verdict = ranges.iter().map(|range| range.verdict).max().unwrap_or(VerdictWord::Undecided);
+    let mut all = SweepVerdict {
+        verdict,
+        sentence: String::new(),
+        ranges_given,
+        ranges,
+        critical_speeds,
+        worst,
+        would_decide,
+        units: units.clone(),
+        settings: request.clone().into(),
+        version: VERSION.to_owned(),
+    };
+    all.sentence = sentence::sentence(&all, request);
+    all
+}
+
+/// Whether the request gives ranges, and the spans to judge: its ranges, otherwise the whole sweep.
+fn spans(request: &ResolvedSweep) -> (bool, Vec<Span>) {
+    match &request.operation {
+        Some(Operation { ranges }) if !ranges.is_empty() => (true, ranges.iter().map(Span::of).collect()),
+        _ => (false, vec![Span::whole(request.speeds.rad_s())]),
+    }
+}
+
+/// Speed of a point against ranges and limits.
+fn judged_speed(point: &Point, spans: &[Span], peaks: &[WheelCriticalSpeed], asked: &Asked) -> JudgedSpeed {
+    let peak = peaks.iter().find(|peak| peak.index == point.index);
+    let position = |span: &Span| RangePosition {
+        range: span.name.clone().unwrap_or_default(),
+        position: span.position(point.speed_rad_s),
+        distance_percent: span.distance_percent(point.speed_rad_s),
+    };
+    JudgedSpeed {
+        index: point.index,
+        speed_rad_s: point.speed_rad_s,
+        critical: peak.is_some(),
+        resolved: peak.map(|peak| peak.resolved),
+        speed_error_rad_s: peak.map(|peak| peak.speed_error_rad_s),
+        tip: point.tip,
+        ranges: spans.iter().map(position).collect(),
+        limits: asked.values(point),
+    }
+}
+
+/// Worst of the critical speeds in a range and of the speeds with the largest values there; only without either, critical speeds outside.
+fn worst(
+    judged: &[Judged],
+    critical: &[JudgedSpeed],
+    spans: &[Span],
+    speed: impl Fn(u32) -> Option<JudgedSpeed>,
+) -> Vec<JudgedSpeed> {
+    let is_near =
+        |speed: &&JudgedSpeed| spans.iter().any(|span| span.position(speed.speed_rad_s) != Position::Outside);
+    let mut all: Vec<JudgedSpeed> = critical.iter().filter(is_near).cloned().collect();
+    let largest = judged.iter().flat_map(|of| &of.range.limits).map(|worst| worst.index);
+    for index in largest {
+        if all.iter().all(|known| known.index != index) {
+            all.extend(speed(index));
+        }
+    }
+    if all.is_empty() {
+        all = critical.to_vec();
+    }
+    // The order of critical speeds, by severity, decides between equal ones.
+    all.sort_by(|a, b| share(b).total_cmp(&share(a)));
+    all.truncate(WORST);
+    all
+}
+
+/// Largest value of a speed over its limit; 0 where none is known.
+fn share(speed: &JudgedSpeed) -> f64 {
+    speed.limits.iter().map(|judged| judged.value / judged.allowed).fold(0.0, f64::max)
+}

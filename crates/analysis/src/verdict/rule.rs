@@ -1,0 +1,92 @@
+//! Rule of the verdict on one range.
+
+use super::limit::Asked;
+use super::open::{Ground, questions};
+use super::points::{Finished, indices, is_completed};
+use super::range::Span;
+use crate::resolved::ResolvedSweep;
+use crate::result::{
+    LimitKind, OpenQuestion, Point, PointStatus, Position, RangeVerdict, Standing, VerdictWord,
+    WheelCriticalSpeed, WorstValue,
+};
+
+/// Verdict on a range with the questions that are open in it.
+#[derive(Debug)]
+pub(super) struct Judged {
+    pub(super) range: RangeVerdict,
+    pub(super) open: Vec<OpenQuestion>,
+}
+
+/// Judges a range: `act` where a limit is passed or a motion diverged, otherwise `undecided` where something is open, otherwise `watch` where a
+/// critical speed is near or a limit reached, otherwise `clear`. A stricter limit and a wider range only add to what makes `act`.
+pub(super) fn judge(
+    request: &ResolvedSweep,
+    span: &Span,
+    finished: &Finished,
+    peaks: &[WheelCriticalSpeed],
+    asked: &Asked,
+) -> Judged {
+    let speeds = request.speeds.rad_s();
+    let near: Vec<&Point> = finished.points.iter().filter(|point| span.reaches(point.speed_rad_s)).collect();
+    let completed: Vec<&Point> = near.iter().copied().filter(|point| is_completed(point)).collect();
+    let ended = |status: PointStatus| indices(near.iter().copied().filter(|point| point.status == status));
+    let missing: Vec<u32> = (0..request.speeds.count())
+        .filter(|&index| span.reaches(speeds[index as usize]))
+        .filter(|index| !finished.indices.contains(index))
+        .collect();
+    let at = |wanted: Position| {
+        peaks.iter().filter(|peak| span.position(peak.speed_rad_s) == wanted).count() as u32
+    };
+    let mut range = RangeVerdict {
+        name: span.name.clone(),
+        verdict: VerdictWord::Clear,
+        from_rad_s: span.from,
+        to_rad_s: span.to,
+        separation_percent: span.separation_percent,
+        speeds: completed.len() as u32,
+        missing,
+        failed: ended(PointStatus::Failed),
+        diverged: ended(PointStatus::Diverged),
+        limits: asked
+            .limits
+            .iter()
+            .filter_map(|&(kind, allowed)| worst(&completed, asked, kind, allowed))
+            .collect(),
+        critical_inside: at(Position::Inside),
+        critical_within_separation: at(Position::WithinSeparation),
+    };
+    let ground = Ground { request, span, range: &range, finished, completed: &completed, peaks, asked };
+    let open = questions(&ground);
+    range.verdict = word(&range, &completed, asked, !open.is_empty());
+    Judged { range, open }
+}
+
+fn word(range: &RangeVerdict, completed: &[&Point], asked: &Asked, is_open: bool) -> VerdictWord {
+    // Every value counts, not only the largest: errors differ from speed to speed.
+    let any = |wanted: Standing| {
+        let has = |point: &&Point| asked.values(point).iter().any(|judged| judged.standing == wanted);
+        completed.iter().any(has)
+    };
+    if !range.diverged.is_empty() || any(Standing::Passed) {
+        VerdictWord::Act
+    } else if is_open || asked.limits.is_empty() {
+        VerdictWord::Undecided
+    } else if range.critical_inside + range.critical_within_separation > 0 || any(Standing::Reached) {
+        VerdictWord::Watch
+    } else {
+        VerdictWord::Clear
+    }
+}
+
+/// Worst value of a limit: one that passes it before one that may, then the largest; none where no value is known.
+fn worst(completed: &[&Point], asked: &Asked, kind: LimitKind, allowed: f64) -> Option<WorstValue> {
+    let of = |point: &&Point| {
+        let judged = asked.judged(point, kind, allowed)?;
+        Some(WorstValue { index: point.index, speed_rad_s: point.speed_rad_s, judged })
+    };
+    let order = |a: &WorstValue, b: &WorstValue| {
+        let (a, b) = (&a.judged, &b.judged);
+        a.standing.cmp(&b.standing).then(a.value.total_cmp(&b.value))
+    };
+    completed.iter().filter_map(of).max_by(order)
+}

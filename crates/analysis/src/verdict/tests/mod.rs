@@ -1,0 +1,5 @@
+//! Verdicts against scenes by hand, and properties over random ones.
+
+mod properties;
+mod scene;
+mod scenes;

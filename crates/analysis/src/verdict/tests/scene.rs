@@ -1,0 +1,161 @@
+//! Sweeps by hand: a response over speed, and what the request asks.
+
+use serde_json::{Value, json};
+
+use crate::request::SweepRequest;
+use crate::resolved::ResolvedSweep;
+use crate::result::{ErrorEstimate, OpenKind, Point, SweepVerdict, VerdictWord};
+use crate::verdict::judge;
+use rubmap_wheel::dynamics::sector::Units;
+
+/// Sweep by hand, speeds in rad/s.
+#[derive(Clone)]
+pub(super) struct Scene {
+    pub(super) speeds: Vec<f64>,
+    /// Finished points by index, as JSON; null where a speed has no result.
+    pub(super) points: Vec<Value>,
+    pub(super) ranges: Value,
+    pub(super) limits: Value,
+    /// Relative errors, of the response and of stress, at all speeds.
+    pub(super) errors: Option<(f64, Option<f64>)>,
+    /// Fields of the request in place of the usual ones.
+    pub(super) request: Vec<(&'static str, Value)>,
+}
+
+/// Finished point at `speed` with tip motion `tip`, a clearance of 1, and a force of 10 times the motion.
+pub(super) fn point(index: usize, speed: f64, tip: f64) -> Value {
+    json!({
+        "index": index, "speed_rad_s": speed, "status": "completed", "responses": [],
+        "steps_per_revolution": 1, "smallest_stable_steps_per_revolution": 1, "steps": 1, "contact_share": 0.0,
+        "wall_time_s": 0.0, "version": "0", "settling": {"verdict": "periodic"},
+        "tip": {"rms": 0.7 * tip, "half_peak_to_peak": tip, "contact_node": 0, "sector": 0, "component": "radial", "over_clearance": tip},
+        "contact": {"mean_force": 0.0, "peak_force": 10.0 * tip, "peak_node_force": 10.0 * tip, "closings_per_revolution": 1.0,
+            "clearance_consumption": tip, "clearance_contact_node": 0, "samples_per_revolution": 512},
+        "validity": {"verdict": "linear", "checks": []},
+    })
+}
+
+impl Scene {
+    /// Sweep from 100 to 120 rad/s in steps of 1 with tip motion `level`, one range `run` from 105 to 115, and an error of 1 %.
+    pub(super) fn of(level: impl Fn(f64) -> f64) -> Self {
+        let speeds: Vec<f64> = (100..=120).map(f64::from).collect();
+        let points = speeds.iter().enumerate().map(|(index, &speed)| point(index, speed, level(speed)));
+        Self {
+            points: points.collect(),
+            speeds,
+            ranges: json!([range("run", 105.0, 115.0, 0.0)]),
+            limits: json!({"tip_motion": 1.0}),
+            errors: Some((0.01, None)),
+            request: Vec::new(),
+        }
+    }
+
+    /// Flat response: no peak anywhere.
+    pub(super) fn flat(level: f64) -> Self {
+        Self::of(|_| level)
+    }
+
+    /// Response with a resolved peak of `height` at `speed`, above a level of 0.1.
+    pub(super) fn peak(speed: f64, height: f64) -> Self {
+        Self::of(|at| (height * (1.0 - 0.09 * (at - speed).abs())).max(0.1))
+    }
+
+    pub(super) fn limited(mut self, limits: Value) -> Self {
+        self.limits = limits;
+        self
+    }
+
+    pub(super) fn ranges(mut self, ranges: Value) -> Self {
+        self.ranges = ranges;
+        self
+    }
+
+    pub(super) fn asking(mut self, field: &'static str, value: Value) -> Self {
+        self.request.push((field, value));
+        self
+    }
+
+    pub(super) fn error(mut self, of_response: f64, of_stress: Option<f64>) -> Self {
+        self.errors = Some((of_response, of_stress));
+        self
+    }
+
+    pub(super) fn without_errors(mut self) -> Self {
+        self.errors = None;
+        self
+    }
+
+    /// Scene with a field of the points in `indices` changed.
+    pub(super) fn with(
+        mut self,
+        indices: impl IntoIterator<Item = usize>,
+        field: &str,
+        value: &Value,
+    ) -> Self {
+        for index in indices {
+            *self.points[index].pointer_mut(field).unwrap_or_else(|| panic!("{field}")) = value.clone();
+        }
+        self
+    }
+
+    /// Scene with a field added to the points in `indices`.
+    pub(super) fn adding(
+        mut self,
+        indices: impl IntoIterator<Item = usize>,
+        field: &str,
+        value: &Value,
+    ) -> Self {
+        for index in indices {
+            self.points[index][field] = value.clone();
+        }
+        self
+    }
+
+    pub(super) fn verdict(&self) -> SweepVerdict {
+        let mut request = json!({
+            "model": "m", "speeds": {"values": self.speeds, "unit": "rad_s"}, "scene": {"contact": {}},
+            "sensors": [],
+        });
+        if !self.ranges.is_null() {
+            request["operation"] = json!({"ranges": self.ranges});
+        }
+        if !self.limits.is_null() {
+            request["limits"] = self.limits.clone();
+        }
+        for (field, value) in &self.request {
+            request[*field] = value.clone();
+        }
+        let request: SweepRequest = serde_json::from_value(request).unwrap();
+        let request = ResolvedSweep::stored(request, 0).unwrap();
+        let finished = self.points.iter().filter(|point| !point.is_null());
+        let points: Vec<Point> =
+            finished.map(|point| serde_json::from_value(point.clone()).unwrap()).collect();
+        let errors = self.errors.map(|(of_response, of_stress)| {
+            let of_point = |point: &Point| {
+                json!({"index": point.index, "estimated_error": of_response, "estimated_stress_error": of_stress, "controlled": false})
+            };
+            let all: Vec<Value> = points.iter().map(of_point).collect();
+            serde_json::from_value::<ErrorEstimate>(json!({"controls": [], "points": all, "message": ""})).unwrap()
+        });
+        let units = |text: &str| text.to_owned();
+        let units = Units { length: units("mm"), force: units("N"), time: units("s"), mass: units("t") };
+        judge(&request, &units, &points, errors.as_ref())
+    }
+
+    pub(super) fn word(&self) -> VerdictWord {
+        self.verdict().verdict
+    }
+
+    /// Kinds of the open questions, each once.
+    pub(super) fn open(&self) -> Vec<OpenKind> {
+        let mut kinds: Vec<OpenKind> = self.verdict().would_decide.iter().map(|open| open.what).collect();
+        kinds.sort_unstable();
+        kinds.dedup();
+        kinds
+    }
+}
+
+/// Range of a request, in rad/s.
+pub(super) fn range(name: &str, from: f64, to: f64, separation_percent: f64) -> Value {
+    json!({"name": name, "from": from, "to": to, "unit": "rad_s", "separation_percent": separation_percent})
+}

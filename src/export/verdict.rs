@@ -1,0 +1,67 @@
+//! Verdict on a sweep.
+
+use super::Export;
+use super::array::Array;
+use crate::analysis::result::{JudgedSpeed, JudgedValue, LimitKind, Position, SweepVerdict};
+
+impl Export for SweepVerdict {
+    /// A line per critical speed of the wheel, the most severe first; a limit that the request does not give has no columns.
+    fn table(&self) -> Vec<Array> {
+        let all = || self.critical_speeds.iter();
+        let at = |wanted: Position| {
+            all().map(move |speed| {
+                let there = speed.ranges.iter().filter(|place| place.position == wanted);
+                there.map(|place| place.range.as_str()).collect::<Vec<_>>().join("; ")
+            })
+        };
+        let mut columns = vec![
+            Array::whole("index", all().map(|speed| speed.index)),
+            Array::reals("speed_rad_s", all().map(|speed| speed.speed_rad_s)),
+            Array::some_reals("speed_error_rad_s", all().map(|speed| speed.speed_error_rad_s)),
+            Array::flags("resolved", all().map(|speed| speed.resolved == Some(true))),
+            Array::texts("inside", at(Position::Inside)),
+            Array::texts("within_separation", at(Position::WithinSeparation)),
+        ];
+        let limits = self.settings.limits.unwrap_or_default();
+        for (kind, name, limit) in [
+            (LimitKind::ClearanceConsumption, "clearance_consumption", limits.clearance_consumption),
+            (LimitKind::TipMotion, "tip_motion", limits.tip_motion),
+            (LimitKind::Utilisation, "utilisation", limits.utilisation),
+            (LimitKind::NodeForce, "node_force", limits.node_force),
+        ] {
+            if limit.is_none() {
+                continue;
+            }
+            let of = |speed: &JudgedSpeed| speed.limits.iter().find(|judged| judged.limit == kind).copied();
+            let reals = |what: &str, number: fn(JudgedValue) -> Option<f64>| {
+                Array::some_reals(format!("{name}_{what}"), all().map(|speed| number(of(speed)?)))
+            };
+            columns.extend([
+                reals("value", |judged| Some(judged.value)),
+                reals("error", |judged| judged.error),
+                reals("above_percent", |judged| Some(judged.above_percent)),
+                Array::words(
+                    format!("{name}_standing"),
+                    all().map(|speed| of(speed).map(|judged| judged.standing)),
+                ),
+            ]);
+        }
+        columns
+    }
+
+    /// Columns of the table, the verdict, and the settings that it rests on.
+    fn arrays(&self) -> Vec<Array> {
+        let mut arrays = self.table();
+        arrays.extend([
+            Array::text("verdict", self.verdict.as_str()),
+            Array::text("sentence", &self.sentence),
+            Array::json("ranges", &self.ranges),
+            Array::json("worst", &self.worst),
+            Array::json("would_decide", &self.would_decide),
+            Array::json("settings", &self.settings),
+            Array::json("units", &self.units),
+            Array::text("version", &self.version),
+        ]);
+        arrays
+    }
+}

@@ -1,0 +1,54 @@
+//! Verdict on a sweep.
+
+use axum::extract::State;
+use axum::response::Response;
+use tokio::runtime::Handle;
+
+use super::download::{Download, DownloadQuery, lasting};
+use super::extract::JobPath;
+use super::forms::{Forms, READ_MEMORY};
+use super::problem::Problem;
+use super::results::{find, sweep};
+use super::state::AppState;
+use crate::analysis::kinds::sweep::ERRORS;
+use crate::analysis::result::{ErrorEstimate, SweepVerdict};
+use crate::analysis::run;
+use crate::store::jobs::Job;
+use crate::store::{Store, StoreError};
+use crate::tokens::Principal;
+
+/// Download the verdict on a sweep by its operating ranges and limits: clear, watch, undecided or act, why, and what would decide it.
+///
+/// The verdict is made on reading from the speeds finished so far: while the job runs it is undecided, since speeds are missing, unless they
+/// show already that it is time to act. In csv a line is a critical speed of the wheel.
+#[utoipa::path(get, path = "/v1/jobs/{id}/verdict", operation_id = "get_verdict", tag = "results",
+    params(("id" = String, Path, description = "Id of a sweep."), DownloadQuery),
+    responses(
+        (status = 200, description = "The verdict.", body = SweepVerdict),
+        (status = 409, description = "The job is not a sweep.", body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(super) async fn get_verdict(
+    state: State<AppState>,
+    whose: Principal,
+    JobPath(id): JobPath,
+    download: Download,
+) -> Result<Response, Problem> {
+    let job = find(&state, &whose, id).await?;
+    sweep(&job)?;
+    let bytes = READ_MEMORY * state.store.points_bytes(id).await?;
+    let (store, runtime, lasting) = (state.store.clone(), Handle::current(), lasting(&job));
+    let read = move || {
+        let verdict = runtime.block_on(verdict(&store, &job))?;
+        verdict.map_or_else(|| Err(StoreError::Unseen.into()), Ok)
+    };
+    Forms::undrawn().answer(&state, download, lasting, bytes, read).await
+}
+
+/// Verdict on a sweep from what is stored of it; none for a job of another kind.
+pub(super) async fn verdict(store: &Store, job: &Job) -> Result<Option<SweepVerdict>, StoreError> {
+    let Ok((request, facts)) = sweep(job) else { return Ok(None) };
+    let points = store.points(job.id).await?;
+    let text = store.document(job.id, ERRORS).await?;
+    let errors: Option<ErrorEstimate> = text.map(|text| serde_json::from_str(&text)).transpose()?;
+    Ok(Some(run::judge(request, &facts.units, &points, errors.as_ref())))
+}
