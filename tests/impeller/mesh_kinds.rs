@@ -257,3 +257,17 @@ fn cyclic_frequencies_are_those_of_a_commercial_solver() {
     println!("largest difference {worst:.2e}");
     assert!(worst < 0.01, "{worst:e}");
 }
+
+/// Contact lines around the axis have no meridional curve and no normals.
+#[test]
+fn a_contact_line_around_the_axis_is_refused() {
+    let grid = block(ElementKind::C3D8I, CELLS, |at| at);
+    let rim =
+        grid.nodes.iter().zip(1..).filter(|([r, j, z], _)| *r == 2.0 && *z == 0.0 && *j > 0.0 && *j < 4.0);
+    let rim: String = rim.map(|(_, id): (_, usize)| format!("{id}\n")).collect();
+    let text = format!("{}*NSET, NSET=RIM\n{rim}", deck(ElementKind::C3D8I, SECTORS, 0.0));
+    let file = mesh::read(text.as_bytes(), &|_| Err("no file".to_owned())).unwrap();
+    let settings = MeshSettings { contact_set: Some("RIM".into()), ..MeshSettings::new(SPEED) };
+    let message = from_mesh::sector(&file, &settings).map(|_| ()).unwrap_err().to_string();
+    assert!(message.contains("the contact line runs around the axis"), "{message}");
+}

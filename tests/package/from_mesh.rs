@@ -417,6 +417,20 @@ fn nodes_on_the_axis_are_in_no_pair() {
     assert!(refused.contains("the contact line has 0 free nodes"), "{refused}");
 }
 
+/// Half a turn about a line in a flat face lays the face onto itself: no wheel of two sectors about an axis that nobody stated.
+#[test]
+fn half_turns_beside_another_symmetry_are_refused() {
+    let file = read_mesh(&solid_disk("2, 1, 3\n4, 1, 3\n"));
+    let of_two =
+        |axis| MeshSettings { contact_set: Some("TIP".into()), sectors: Some(2), axis, ..settings() };
+    let refused = from_mesh::sector(&file, &of_two(None)).map(|_| ()).unwrap_err().to_string();
+    assert!(refused.starts_with("half a turn about"), "{refused}");
+    assert!(refused.ends_with("the turn by 2π/6 about [0.0, 0.0, 1.0]: state the `axis`"), "{refused}");
+    let about_z = Axis { origin: [0.0; 3], direction: [0.0, 0.0, 1.0] };
+    let refused = from_mesh::sector(&file, &of_two(Some(about_z))).map(|_| ()).unwrap_err().to_string();
+    assert!(refused.starts_with("no face of the skin turned by 2π/2"), "{refused}");
+}
+
 /// Refusal of a mesh that is changed.
 pub(crate) fn refused(change: impl FnOnce(&mut SectorMesh)) -> String {
     let mut mesh = sector_mesh(&impeller(7));

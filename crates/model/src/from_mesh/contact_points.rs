@@ -63,8 +63,12 @@ pub(super) fn contact_line(
         return Err(FromMeshError::FewNodes { found: line.len() });
     }
     let normals = |nodes: &[(u64, [f64; 3])]| {
-        with_normals(nodes, &Normals::ContactNodes, axis, &mesh.nodes)
-            .map_err(|error| FromMeshError::Normals(error.to_string()))
+        let points = with_normals(nodes, &Normals::ContactNodes, axis, &mesh.nodes)
+            .map_err(|error| FromMeshError::Normals(error.to_string()))?;
+        match points.iter().find(|point| point.normal.iter().any(|x| !x.is_finite())) {
+            Some(point) => Err(FromMeshError::NoMeridian { node: point.node }),
+            None => Ok(points),
+        }
     };
     // The whole line is looked at: few nodes of a crooked one may look straight.
     check_normals(mesh, surface, axis, tip, &normals(&line)?)?;

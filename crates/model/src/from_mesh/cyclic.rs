@@ -92,6 +92,11 @@ pub(super) fn symmetry(
     if axes.len() == 1 {
         return known.map(|found| found.symmetry).map_err(|(_, error)| error);
     }
+    if let Ok(found) = &known
+        && found.symmetry.sectors == 2
+    {
+        search.only_half_turn(&found.symmetry.axis, &axes)?;
+    }
     match known {
         // Half a turn carries many a flat face onto itself.
         Ok(found) if stated.is_some() || found.symmetry.sectors > 2 => Ok(found.symmetry),
@@ -153,6 +158,24 @@ struct Tried {
 }
 
 impl Search<'_> {
+    /// Refuses half a turn about an axis that nobody states where another turn fits, too: half a turn about a line in a flat face lays
+    /// the face onto itself.
+    fn only_half_turn(&self, about: &Axis, axes: &[Axis]) -> Result<(), FromMeshError> {
+        let others: Vec<Axis> = axes.iter().filter(|axis| *axis != about).cloned().collect();
+        let of_any_number = Search { sectors: None, ..*self };
+        for search in [self, &of_any_number] {
+            if let Some(other) = search.tried(&others)?.best {
+                let sectors = other.symmetry.sectors;
+                return Err(FromMeshError::HalfTurn {
+                    about: about.direction,
+                    other: other.symmetry.axis.direction,
+                    sectors,
+                });
+            }
+        }
+        Ok(())
+    }
+
     /// Best fits about these axes.
     fn tried(&self, axes: &[Axis]) -> Result<Tried, FromMeshError> {
         let mut tried = Tried::default();

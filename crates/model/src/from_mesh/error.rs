@@ -155,6 +155,18 @@ pub enum FromMeshError {
     /// Axis of rotation without a direction.
     #[error("the axis of rotation has no direction")]
     AxisWithoutDirection,
+    /// Half a turn that fits beside a turn about another axis.
+    #[error(
+        "half a turn about {about:?} lays faces of the skin onto others, and so does the turn by 2π/{sectors} about {other:?}: state the `axis`"
+    )]
+    HalfTurn {
+        /// Direction of the axis of two sectors.
+        about: [f64; 3],
+        /// Direction of the other axis.
+        other: [f64; 3],
+        /// Number of sectors about the other axis.
+        sectors: usize,
+    },
     /// Mesh without cyclic faces.
     #[error("{}", no_faces(*.sectors, .near.as_ref(), *.tolerance, *.axes))]
     NoFaces {
@@ -244,7 +256,8 @@ pub enum FromMeshError {
     NoBore,
     /// Skin without a recognisable tip.
     #[error(
-        "no blade tip was found on the skin; name a node set along the tip with `contact_set`, or a node of the tip with `contact_at`"
+        "no blade tip was found on the skin; name a node set along the tip with \
+         `contact_set`, a node of it with `contact_at`, or give the curve of the `shroud`, which also tips with a kink follow"
     )]
     NoTip,
     /// Contact set that is neither a line nor an area.
@@ -276,6 +289,15 @@ pub enum FromMeshError {
     FewNodes {
         /// Number of usable nodes.
         found: usize,
+    },
+    /// Contact line around the axis, whose normals no meridional curve gives.
+    #[error(
+        "at node {node} the contact line runs around the axis, at one radius and axial coordinate; give one that runs along the tip from \
+         inlet to outlet"
+    )]
+    NoMeridian {
+        /// Number of the node.
+        node: u64,
     },
     /// Contact nodes without a normal.
     #[error("{0}")]
