@@ -49,10 +49,10 @@ pub struct ContactNode {
     pub dofs: [usize; 3],
 }
 
-/// Node on the axis of several sectors: one point that they share.
+/// Node on the axis of several sectors: one point that they share, with one displacement.
 ///
-/// Its displacement, the same in all sectors, leaves it the axial direction in nodal diameter 0, a wave across the axis in nodal diameter 1
-/// (both directions across it where there are two sectors), and nothing in any other.
+/// Nodal diameter 0 leaves the axial direction of it, nodal diameter 1 a wave across the axis (both directions where there are two sectors),
+/// and any other nothing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct AxisNode {
     /// Row of the displacement along the axis among the own DOF; none where clamped.
