@@ -231,14 +231,14 @@ class Client:
         """A parametric impeller: a job whose ``model`` is the id of the model."""
         return ModelGeneration(self.service, cast(Mapping[str, Any], request))
 
-    def model(self, called: str) -> Model:
+    def model(self, id: str) -> Model:
         """A model by its id, the beginning of its id, or its name.
 
         Raises:
             LookupError: no model is called so, or several are.
         """
-        id = called if _MODEL_ID.fullmatch(called) else self._find("models", called)
-        return Model(self.service, self.service.get(f"/v1/models/{id}"))
+        whole = id if _MODEL_ID.fullmatch(id) else self._find("models", id)
+        return Model(self.service, self.service.get(f"/v1/models/{whole}"))
 
     def models(self, limit: int | None = None, **query: Any) -> list[Model]:
         """Models, newest first, ``limit`` at most; ``name`` and ``tag`` choose among them."""
@@ -282,14 +282,14 @@ class Client:
         """Many designs of a scene over speeds, not submitted yet."""
         return Campaign(self.service, cast(Mapping[str, Any], request))
 
-    def job(self, called: str) -> Job:
+    def job(self, id: str) -> Job:
         """A job by its id, the beginning of its id, or its name, as :class:`Sweep`, :class:`ModalAnalysis`, :class:`Study`, :class:`CaseStudy`, :class:`Branches`, :class:`RunUps`, :class:`Campaign` or :class:`ModelGeneration`.
 
         Raises:
             LookupError: no job is called so, or several are.
         """
-        id = called if _JOB_ID.fullmatch(called) else self._find("jobs", called)
-        return self._job(self.service.get(f"/v1/jobs/{id}"))
+        whole = id if _JOB_ID.fullmatch(id) else self._find("jobs", id)
+        return self._job(self.service.get(f"/v1/jobs/{whole}"))
 
     def jobs(self, limit: int | None = None, **query: Any) -> list[Job]:
         """Jobs, newest first, ``limit`` at most; ``kind``, ``status``, ``model``, ``name`` and ``tag`` choose among them."""
