@@ -3,6 +3,7 @@
 use crate::resolved::ResolvedSweep;
 use crate::response_curve::ResponseCurve;
 use crate::result::{Point, Refinement, Unresolvable, Unresolved};
+use crate::verdict::Span;
 use rubmap_wheel::response::critical_speed::{ON_BRANCH, Resolution, Wanted, peaks};
 
 /// Smallest limit of added speeds. A sweep gets at most as many added speeds as it had at first, or this many if those were fewer: a rough
@@ -43,8 +44,14 @@ pub fn refine(request: &ResolvedSweep, points: &[Point]) -> Option<ResolvedSweep
     let asked = request.speeds.asked();
     let most = (asked + most_added(asked)).saturating_sub(speeds.len());
     let mut wanted = wanted(request, speeds, points);
-    // Peaks that are known worst go first where not all can; the sort is stable.
-    wanted.sort_by(|a, b| (b.width / b.speed).total_cmp(&(a.width / a.speed)));
+    // Where not all can be added, those in the operating ranges go first, then peaks that are known worst; the sort is stable.
+    let spans: Vec<Span> =
+        request.operation.iter().flat_map(|operation| &operation.ranges).map(Span::of).collect();
+    let elsewhere = |speed: f64| !spans.iter().any(|span| span.reaches(speed));
+    wanted.sort_by(|a, b| {
+        let wider = (b.width / b.speed).total_cmp(&(a.width / a.speed));
+        elsewhere(a.speed).cmp(&elsewhere(b.speed)).then(wider)
+    });
     wanted.truncate(most.min(request.speeds.lists().room()));
     let mut more: Vec<f64> = wanted.into_iter().map(|each| each.speed).collect();
     more.sort_by(f64::total_cmp);
@@ -98,11 +105,7 @@ fn unresolved(request: &ResolvedSweep, speeds: &[f64], points: &[Point]) -> Vec<
     let resolutions = resolutions(request, speeds, points).into_iter();
     let unresolved = resolutions.filter(|(_, _, resolution)| !resolution.resolved);
     unresolved
-        .map(|(sensor, speed_rad_s, resolution)| Unresolved {
-            sensor,
-            speed_rad_s,
-            reason: why(&resolution),
-        })
+        .map(|(sensor, speed_rad_s, resolution)| Unresolved { sensor, speed_rad_s, reason: why(&resolution) })
         .collect()
 }
 
@@ -198,8 +201,11 @@ mod tests {
     #[test]
     fn the_ends_of_the_range_are_left_alone_and_failures_are_approached() {
         let (_, refinement) = refined(request(5), &|speed| [speed, 2000.0 - speed]);
-        let at_end =
-            |sensor, speed_rad_s| Unresolved { sensor: Some(sensor), speed_rad_s, reason: Unresolvable::EndOfRange };
+        let at_end = |sensor, speed_rad_s| Unresolved {
+            sensor: Some(sensor),
+            speed_rad_s,
+            reason: Unresolvable::EndOfRange,
+        };
         let unresolved = vec![at_end(0, 1100.0), at_end(1, 900.0)];
         assert_eq!(refinement, Refinement { added: 0, rounds: 0, complete: false, unresolved });
         // The response grows until runs fail.
@@ -229,6 +235,23 @@ mod tests {
         let many = ResolvedSweep { speeds: speeds(range), ..request(2) };
         let (found, _) = refined(many, &rough);
         assert_eq!(found.speeds.rad_s().len(), MAX_SPEEDS);
+    }
+
+    #[test]
+    fn operating_ranges_go_first() {
+        let rough = |speed: f64| {
+            let bits = speed.to_bits().wrapping_mul(0x9e37_79b9_7f4a_7c15);
+            [(bits >> 40) as f64 / f64::from(1 << 24), 1.0]
+        };
+        let range = json!({"ranges": [{"name": "r", "from": 1000.0, "to": 1020.0, "unit": "rad_s"}]});
+        let mut asked = request(6);
+        asked.operation = serde_json::from_value(range).unwrap();
+        let inside = |request: &ResolvedSweep| {
+            let added = &request.speeds.rad_s()[6..];
+            added.iter().filter(|speed| (1000.0..=1020.0).contains(*speed)).count()
+        };
+        let (within, without) = (refined(asked, &rough).0, refined(request(6), &rough).0);
+        assert!(inside(&within) > inside(&without), "{} {}", inside(&within), inside(&without));
     }
 
     #[test]

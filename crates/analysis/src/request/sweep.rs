@@ -49,7 +49,8 @@ pub struct SweepRequest {
     pub sweep: SweepDirection,
     /// Whether speeds are added around critical speeds, of the wheel and of any sensor, until the response on both sides of
     /// every peak is resolved: when all speeds are finished, the intervals beside a peak that is not `resolved` are halved,
-    /// again and again. At most as many speeds are added as were asked for, or 50 if those were fewer. They follow the
+    /// again and again. At most as many speeds are added as were asked for, or 50 if those were fewer, in operating ranges
+    /// before elsewhere. They follow the
     /// others in `speeds`, one list a round. An end of the range is not refined, and no sweep up or down. Default: true
     /// from 20 speeds on; false for fewer, for a sweep up or down, and where a `budget` is to be kept.
     #[serde(default, skip_serializing_if = "Option::is_none")]

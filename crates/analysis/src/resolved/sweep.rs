@@ -80,7 +80,11 @@ impl ResolvedSweep {
             sweep: asked.sweep,
             refine: asked.refine.unwrap_or(refined),
             reproducible: asked.reproducible,
-            control_speeds: asked.control_speeds.unwrap_or(if controlled { DEFAULT_CONTROL_SPEEDS } else { 0 }),
+            control_speeds: asked.control_speeds.unwrap_or(if controlled {
+                DEFAULT_CONTROL_SPEEDS
+            } else {
+                0
+            }),
             record: asked.record,
             fields: asked.fields,
             operation: asked.operation,
