@@ -150,7 +150,7 @@ impl Scene {
             accuracy: None,
             budget: None,
             control_speeds: None,
-            refine: false,
+            refine: Some(false),
             reproducible: false,
             fields: None,
             operation: None,

@@ -13,6 +13,7 @@ use crate::effects::symmetry::repeats::repeats;
 use crate::effects::symmetry::request::Symmetry;
 use crate::effects::table::planned;
 use crate::model::{ModelFacts, ReducedSector};
+use crate::refine::most_added;
 use crate::request::{HistorySpeeds, Recorded, SweepDirection};
 use crate::resolve::recorded::{lines, revolutions};
 use crate::resolved::{ResolvedCaseStudy, ResolvedModalAnalysis, ResolvedSweep, Scene, TrialRequest};
@@ -61,6 +62,7 @@ pub(crate) fn plan_sweep(
             .map(|_| stress_bytes(facts, reduced, request.modes_per_speed(), places)),
         placed_sensors: Vec::new(),
         speeds: speeds.len() as u32,
+        added_speeds_at_most: request.refine.then(|| most_added(request.speeds.asked()) as u32),
         workers: workers as u32,
         machine: None,
         estimate: reduced.and_then(|reduced| {

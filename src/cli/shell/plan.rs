@@ -78,7 +78,11 @@ static IN_WORDS: [(&str, InWords); 8] = [
 fn sweep(plan: &SweepPlan) -> String {
     let mut words = effects(&plan.effects);
     // Writing to a string cannot fail, here and below.
-    let _ = writeln!(words, "speeds      {}, {} side by side", plan.speeds, plan.workers);
+    let more = match plan.added_speeds_at_most {
+        Some(most) => format!(", at most {most} more about peaks (`refine`)"),
+        None => String::new(),
+    };
+    let _ = writeln!(words, "speeds      {}{more}, {} side by side", plan.speeds, plan.workers);
     times_of(&mut words, plan.machine.as_ref());
     reduction(&mut words, plan.reduction, plan.reduced_unknowns_at_most);
     if let Some(estimate) = &plan.estimate {

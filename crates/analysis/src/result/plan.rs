@@ -40,6 +40,9 @@ pub struct SweepPlan {
     pub placed_sensors: Vec<PlacedSensor>,
     /// Number of speeds to simulate, those of the request.
     pub speeds: u32,
+    /// Largest number of speeds that `refine` adds to them; absent without it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub added_speeds_at_most: Option<u32>,
     /// Threads that compute speeds side by side, on all machines; one where each speed starts from the end of another.
     pub workers: u32,
     /// Machine whose steps were measured for the times of this plan.
