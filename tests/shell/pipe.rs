@@ -60,7 +60,7 @@ fn from_a_package_to_its_critical_speeds() {
     for (words, endings) in [
         ("interaction-map -o map.pdf", ".json, .csv, .npz, .svg, .png"),
         ("interaction-map -o map.html", ".json, .csv"),
-        ("report -o page.pdf", "end with .html"),
+        ("report -o page.pdf", "report comes as html"),
     ] {
         let refused = shell.run(&format!("get first {words}"));
         let file = words.split_whitespace().last().unwrap();

@@ -94,14 +94,16 @@ impl GetArgs {
             Some(ending) if OF_ONE_FORM.contains(&(&self.result, &ending)) => Ok(None),
             Some(ending) if FORMS.contains(&ending.as_str()) => Ok(Some(ending)),
             Some(ending) => {
-                let forms = match OF_ONE_FORM.iter().find(|(result, _)| *result == self.result) {
-                    Some((_, form)) => (*form).to_owned(),
-                    None => FORMS.join(", ."),
-                };
-                bail!(
-                    "{}: no result comes as {ending}; let the name end with .{forms}, or name the form with --format",
-                    file.display()
-                )
+                let (file, result) = (file.display(), &self.result);
+                match OF_ONE_FORM.iter().find(|(of, _)| of == result) {
+                    Some((_, form)) => {
+                        bail!("{file}: {result} comes as {form}: let the name end with .{form}")
+                    }
+                    None => bail!(
+                        "{file}: no result comes as {ending}; let the name end with .{}, or name the form with --format",
+                        FORMS.join(", .")
+                    ),
+                }
             }
         }
     }
