@@ -17,7 +17,7 @@ import httpx
 
 from .download import Arrays, arrays, download
 from .errors import JobFailed, Refusal, RubmapError, Unreachable
-from .html import badge, rows
+from .notebook import badge, rows
 from .plan import Plan
 from .progress import progress as shown
 from .service import AGAIN, Service

@@ -10,7 +10,7 @@ from typing import Any
 import pandas as pd
 
 from .download import Arrays, arrays, download
-from .html import rows
+from .notebook import rows
 from .service import Service
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from .html import rows
+from .notebook import rows
 
 
 class Plan(dict[str, Any]):

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from html import escape
 from typing import Any
 
-from .html import badge, table
+from .notebook import badge, table
 from .tables import RPM
 
 #: What limits are called, and which of the model's units they have.
