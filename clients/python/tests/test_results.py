@@ -186,7 +186,8 @@ def test_a_campaign_compares_two_models(client: rubmap.Client, model: rubmap.Mod
     del request["record"]
     parameters = [{"name": "damping", "at": ["/scene/damping/modal_ratio"], "from": 0.004, "to": 0.01, "levels": 3}]
     request |= {"compared_model": made.model, "parameters": parameters, "design": {"kind": "grid"}}
-    assert client.campaign(request).plan()["simulations"] == 12
+    plan = client.campaign(request).plan()
+    assert plan["simulations"] == 12 and "3: 12 simulations" in str(plan) and str(plan).count("reduction") == 2
     job = client.campaign(request).submit().wait(progress=False)
     designs, differences = job.designs(), job.differences()
     np.testing.assert_allclose(designs["damping"], [0.004, 0.007, 0.01])
@@ -210,6 +211,7 @@ def test_branches_are_those_of_the_json(client: rubmap.Client, model: rubmap.Mod
     job = client.branches(request).submit().wait(progress=False)
     plan = job.plan()
     assert plan["points_at_least"] <= len(job.points(0)) <= plan["points_at_most"] and plan["estimate"]["workers"] == 1
+    assert f"points      at least {plan['points_at_least']}, at most {plan['points_at_most']}" in str(plan)
     assert job.id is not None and isinstance(client.job(job.id), rubmap.Branches)
     points, json = job.points(), job.json("branches")
     assert json["complete"] and points.attrs["parameter"] == "speed" and points.attrs["unit"] == "mm"
@@ -296,6 +298,9 @@ def test_run_ups_are_those_of_the_json(client: rubmap.Client, model: rubmap.Mode
     }
     job = client.run_ups(request).submit().wait(progress=False)
     plan = job.plan()
+    assert [line.split()[1:3] for line in str(plan).splitlines() if line.startswith("run ")] == [
+        [f"{run['rate_rad_s2']:.4g}", "rad/s²:"] for run in plan["runs"]
+    ]
     assert job.id is not None and isinstance(client.job(job.id), rubmap.RunUps)
     json, frames, runs = job.json("run-ups"), job.envelope(), job.runs()
     assert json["complete"] and frames.attrs["complete"] and frames.attrs["unit"] == "mm"

@@ -61,8 +61,10 @@ class Plan(dict[str, Any]):
         elif "simulations" in self:
             yield "runs", f"{self['simulations']} at {self['speeds']} speeds"
         elif "speeds" in self:
+            added = self.get("added_speeds_at_most")
+            more = f", at most {added} more about peaks" if added is not None else ""
             beside = f", {self['workers']} side by side" if "workers" in self else ""
-            yield "speeds", f"{self['speeds']}{beside}"
+            yield "speeds", f"{self['speeds']}{more}{beside}"
         if "points_at_least" in self:
             yield "points", f"at least {self['points_at_least']}, at most {self['points_at_most']} and doubled branches"
         for run in self.get("runs", []):
