@@ -25,7 +25,7 @@ use crate::speed_scene::SpeedScene;
 use crate::steady::{self, revolutions_taken};
 use crate::stepping::Stepping;
 use rubmap_numerics::sector_fourier::harmonic_count;
-use rubmap_wheel::dynamics::casing::RestrictionTable;
+use rubmap_wheel::dynamics::casing::{Casing, RestrictionTable};
 use rubmap_wheel::dynamics::modal_wheel::{ModalWheel, RotationEffects};
 use rubmap_wheel::revision::VERSION;
 
@@ -281,13 +281,15 @@ fn plan_point(
         };
         let casing = scene.casing(clearance, request.integration.ramp_revolutions)?;
         scene.initial(casing.as_ref())?;
-        Ok(scene)
+        let interference = casing.as_ref().filter(|_| request.scene.contact.is_some());
+        Ok((scene, interference.and_then(Casing::interference)))
     });
     let set_up = start.elapsed().as_secs_f64();
     let planned = PlannedPoint {
         index: index as u32,
         speed_rad_s,
         message: None,
+        interference: None,
         integrated_unknowns: 0,
         scheme: None,
         steps_per_revolution: 0,
@@ -295,8 +297,8 @@ fn plan_point(
         computing_time_s: None,
         memory_bytes: 0,
     };
-    let scene = match ready {
-        Ok(scene) => scene,
+    let (scene, interference) = match ready {
+        Ok(ready) => ready,
         Err(reason) => return PlannedPoint { message: Some(reason.to_string()), ..planned },
     };
     let SpeedScene { wheel, stepping, .. } = &scene;
@@ -312,6 +314,7 @@ fn plan_point(
     let spectra = windowed as f64 * calibration.spectra_seconds(size, request.sensors.len());
     let stress = calibration.stress_seconds(stress_numbers(places, modes(wheel)));
     PlannedPoint {
+        interference,
         integrated_unknowns: unknowns as u32,
         steps_per_revolution: stepping.discretisation.per_revolution as u32,
         steps: most,
@@ -467,6 +470,7 @@ mod tests {
             index,
             speed_rad_s,
             message: None,
+            interference: None,
             integrated_unknowns: 10,
             scheme: None,
             steps_per_revolution: steps as u32,
