@@ -13,7 +13,7 @@ import xarray as xr
 from .contract import HistoriesRequest
 from .download import Arrays
 from .jobs import Job
-from .tables import RPM, credentials, dataset, sensor_unit, sensors, speed_axis, table, units
+from .tables import RPM, credentials, dataset, plain_name, sensor_unit, sensors, speed_axis, table, units
 from .verdict import Verdict
 
 
@@ -71,7 +71,7 @@ class Sweep(_Recorded):
         """The interaction map of a sensor, also while the job runs.
 
         Dimensions: ``speed`` (rad/s; also ``speed_rpm`` and ``index`` in the request) and ``engine_order``. Variables: ``amplitude`` (speed, engine_order), in the
-        model's unit of length; ``status``, ``utilisation``, ``largest_von_mises`` (the model's unit of stress), ``validity`` by speed. The coordinate
+        model's unit of length; ``status``, ``utilisation``, ``largest_von_mises`` (the model's unit of stress), ``linear_theory`` (whether it holds) by speed. The coordinate
         ``frequency`` (speed, engine_order) is in Hz, in the rotating frame. Speeds ascend, whatever their order in the request.
 
         Args:
@@ -100,11 +100,11 @@ class Sweep(_Recorded):
             ("validity", {}),
         ):
             if name in found:
-                variables[name] = ("speed", found[name], attributes)
+                variables[plain_name(name)] = ("speed", found[name], attributes)
         return dataset(variables, coordinates, found).assign_attrs(sensor=sensors(found)[0]).sortby("speed")
 
     def points(self, sensor: int | None = None) -> pd.DataFrame:
-        """What is known of every speed: response, settling, errors, energy, contact, wall time; a row a speed, ascending; nested names
+        """What is known of every speed: response, steady state, whether linear theory holds, errors, energy, contact, wall time; a row a speed, ascending; nested names
         are joined by dots.
 
         ``response.rms`` and what else begins so is of the sensor, the first if none is said, in the unit of ``attrs["unit"]``.
@@ -113,6 +113,7 @@ class Sweep(_Recorded):
         frame = pd.json_normalize([_with_response(point, sensor or 0) for point in found["points"]])
         if frame.empty:
             frame = pd.DataFrame(columns=["index", "speed_rad_s", "status"])
+        frame = frame.rename(columns=plain_name)
         frame = frame.sort_values("speed_rad_s", ignore_index=True)
         unit = _unit(found["sensor"], found["units"])
         frame.attrs.update(unit=unit, units=found["units"], version=found["version"])
