@@ -20,10 +20,13 @@ pub struct ModalAnalysisRequest {
     /// them 20.
     #[serde(default)]
     pub modes_per_speed: AutoOr,
-    /// Modal families to report: frequencies per nodal diameter, by their rank at each speed.
+    /// Modal families to report: frequencies per nodal diameter.
     #[serde(default = "default_families")]
     #[cfg_attr(feature = "schema", schema(minimum = 1, maximum = 100))]
     pub families: u32,
+    /// Meaning of a family.
+    #[serde(default)]
+    pub families_by: FamiliesBy,
     /// Superharmonic numbers n of the linear criterion f = i·n·Ω/2π.
     #[serde(default = "default_superharmonics")]
     #[cfg_attr(feature = "schema", schema(max_items = 16))]
@@ -51,6 +54,18 @@ pub struct ModalAnalysisRequest {
     /// Whether the rows of the reduction's basis are stored, as in a sweep.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fields: Option<bool>,
+}
+
+/// Meaning of a modal family, of which every nodal diameter has one mode.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum FamiliesBy {
+    /// Mode with the shape of that of this rank at rest, followed over speed through crossings and sharp veerings by modal assurance.
+    #[default]
+    Shape,
+    /// Mode whose frequency has this rank at a speed, in ascending order: modes that cross swap their families there.
+    Rank,
 }
 
 fn default_families() -> u32 {
