@@ -29,6 +29,9 @@ pub use crate::kinds::campaign::result::{
     DifferenceVerdict, LimitsMet, ParameterSensitivity, Sensitivities, ThresholdShare, severity_column,
     severity_unit,
 };
+pub use crate::kinds::modal_analysis::interference::{
+    AskedInterference, FoldedOrder, Interference, InterferingMode, NearestOrder,
+};
 pub use crate::kinds::modal_analysis::result::{AbsoluteFrequencies, Campbell, FollowedFamilies, WaveTables};
 pub use crate::kinds::run_up::result::{
     LargestOfRun, PassingRate, PlannedRunUp, RunUp, RunUpEnd, RunUpFrame, RunUpLeg, RunUpPlan, RunUps,
