@@ -21,7 +21,7 @@ const HALF_BAR: f64 = 0.14;
 
 /// Modes of all nodal diameters at one speed, and the engine orders folded onto the nodal diameters that they drive: up between multiples of N and the
 /// halves behind them, down from there. Orders of the lobes are marked, with bars over the operating range.
-pub fn interference(found: &Interference) -> Drawing<'static> {
+pub fn interference(found: &Interference) -> Drawing<'_> {
     let highest = found.modes.iter().map(|mode| mode.frequency_hz).filter(|hz| hz.is_finite());
     let highest = highest.fold(0.0, f64::max);
     let top = if highest > 0.0 { 1.08 * highest } else { 1.0 };

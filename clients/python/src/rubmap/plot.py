@@ -19,6 +19,7 @@ __all__ = [
     "critical_speeds",
     "envelope",
     "interaction_map",
+    "interference",
     "level",
     "spectrogram",
     "spectrum",
@@ -99,6 +100,24 @@ def campbell(
         )
     ax.set_xlabel("speed of rotation, rpm")
     ax.set_ylabel("frequency, Hz")
+    ax.legend(fontsize="small")
+    return ax
+
+
+def interference(found: pd.DataFrame, ax: Axes | None = None) -> Axes:
+    """Modes over the nodal diameter at one speed and the zig-zag of engine orders, of :meth:`ModalAnalysis.interference`."""
+    ax = _axes(ax)
+    orders = found.attrs["engine_orders"]
+    ax.plot([0, *orders["nodal_diameter"]], [0.0, *orders["frequency_hz"]], color="grey", linewidth=0.8)
+    places = zip(orders["nodal_diameter"], orders["frequency_hz"], orders["of_lobes"], strict=True)
+    driven = [(diameter, hz) for diameter, hz, of_lobes in places if of_lobes]
+    ax.plot(*zip(*driven, strict=True), "D", color="#d62728", linestyle="none", label="engine orders of the lobes")
+    for family, modes in found.groupby("family"):
+        ax.plot(modes["nodal_diameter"], modes["frequency_hz"], "o", color=_COLOURS[(int(family) - 1) % len(_COLOURS)], label=f"family {family}")
+    ax.set_ylim(0.0, 1.08 * float(found["frequency_hz"].max()))
+    ax.set_xlabel("nodal diameter")
+    ax.set_ylabel("frequency, Hz")
+    ax.set_title(f"{found.attrs['speed_rpm']:,.0f} rpm")
     ax.legend(fontsize="small")
     return ax
 
