@@ -3,6 +3,7 @@
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
 use crate::error::AnalysisError;
+use crate::family_track::Track;
 use crate::monitor::Monitor;
 use rubmap_numerics::sector_fourier::harmonic_count;
 use rubmap_wheel::dynamics::error::ModelError;
@@ -19,26 +20,6 @@ pub(crate) struct Families<'a> {
     effects: RotationEffects,
     /// Modes of every nodal diameter; none where a family is a rank.
     tracks: Vec<Track>,
-}
-
-/// Modes of the families of a nodal diameter at ascending speeds.
-struct Track {
-    speeds: Vec<f64>,
-    modes: Vec<FamilyModes>,
-}
-
-impl Track {
-    fn at(&self, speed_rad_s: f64) -> Option<&FamilyModes> {
-        let found = self.speeds.binary_search_by(|speed| speed.total_cmp(&speed_rad_s)).ok()?;
-        self.modes.get(found)
-    }
-
-    /// Family of a rank where it is the same at the speeds on both sides.
-    fn family(&self, speed_rad_s: f64, rank: usize) -> Option<usize> {
-        let above = self.speeds.partition_point(|&speed| speed < speed_rad_s);
-        let (low, high) = (self.modes.get(above.saturating_sub(1))?, self.modes.get(above)?);
-        low.family(rank).filter(|_| low.family(rank) == high.family(rank))
-    }
 }
 
 impl<'a> Families<'a> {

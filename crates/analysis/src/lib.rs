@@ -24,6 +24,7 @@ pub mod end_state;
 pub mod error;
 pub mod euler_load;
 mod families;
+pub mod family_track;
 pub mod fields;
 mod gauge;
 mod histories;

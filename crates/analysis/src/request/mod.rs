@@ -2,6 +2,7 @@
 
 pub mod accuracy;
 pub mod auto_or;
+pub mod families;
 pub mod integration;
 pub(crate) mod omit;
 pub mod operation;
@@ -18,13 +19,14 @@ pub use crate::kinds::campaign::request::{
     Threshold,
 };
 pub use crate::kinds::case_study::request::{CaseSpeed, CaseStudyRequest, CaseStudySettings};
-pub use crate::kinds::modal_analysis::request::{FamiliesBy, ModalAnalysisRequest};
+pub use crate::kinds::modal_analysis::request::ModalAnalysisRequest;
 pub use crate::kinds::run_up::request::{
     RunUpIntegration, RunUpRequest, RunUpSettings, RunUpSpeed, SpeedCourse, SpeedPoint,
 };
 pub use crate::kinds::study::request::{Grid, StudyIntegration, StudyRecord, StudyRequest};
 pub use accuracy::{Accuracy, AccuracyOf, Budget};
 pub use auto_or::AutoOr;
+pub use families::FamiliesBy;
 pub use integration::{Integration, SchemeChoice, SteadyChoice};
 pub use operation::{Limits, OperatingRange, Operation};
 pub use record::{HistoriesRequest, HistorySpeeds, Record, Recorded, RecordedQuantity, StressRequest};

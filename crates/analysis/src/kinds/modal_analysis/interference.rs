@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 
 use serde::{Deserialize, Serialize};
 
-use super::request::FamiliesBy;
 use super::result::Campbell;
+use crate::request::families::FamiliesBy;
 use rubmap_wheel::response::campbell::multiples;
 use rubmap_wheel::response::waves::{Table, Wave, driven_wave, fold};
 

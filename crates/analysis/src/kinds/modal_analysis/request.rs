@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::request::accuracy::{Accuracy, Budget};
 use crate::request::auto_or::AutoOr;
+use crate::request::families::FamiliesBy;
 use crate::request::omit::is_false;
 use crate::request::speeds::Speeds;
 use crate::request::sweep::default_max_engine_order;
@@ -54,18 +55,6 @@ pub struct ModalAnalysisRequest {
     /// Whether the rows of the reduction's basis are stored, as in a sweep.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fields: Option<bool>,
-}
-
-/// Meaning of a modal family, of which every nodal diameter has one mode.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
-#[serde(rename_all = "snake_case")]
-pub enum FamiliesBy {
-    /// Mode with the shape of that of this rank at rest, followed over speed through crossings and sharp veerings by modal assurance.
-    #[default]
-    Shape,
-    /// Mode whose frequency has this rank at a speed, in ascending order: modes that cross swap their families there.
-    Rank,
 }
 
 fn default_families() -> u32 {

@@ -3,7 +3,8 @@
 use serde::Serialize;
 
 use crate::error::Violation;
-use crate::request::{FamiliesBy, ModalAnalysisRequest};
+use crate::request::ModalAnalysisRequest;
+use crate::request::families::FamiliesBy;
 use crate::resolved::knobs::Modes;
 use crate::resolved::speeds::ResolvedSpeeds;
 
