@@ -31,8 +31,8 @@ impl Export for Interference {
             Array::whole("orders_nodal_diameter", orders().map(|order| order.nodal_diameter)),
             Array::reals("orders_frequency_hz", orders().map(|order| order.frequency_hz)),
             Array::flags("orders_of_lobes", orders().map(|order| order.of_lobes)),
-            Array::whole("sectors", [self.sectors]),
-            Array::whole("lobes", [self.lobes]),
+            Array::real("sectors", f64::from(self.sectors)),
+            Array::real("lobes", f64::from(self.lobes)),
             Array::text("model", &self.model),
             Array::text("version", &self.version),
         ]);

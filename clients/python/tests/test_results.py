@@ -145,9 +145,9 @@ def test_modes_and_campbell_agree(client: rubmap.Client, swept: rubmap.Sweep, mo
     assert {"speed_rpm", "distance_hz", "course"} <= set(analysis.veerings().columns)
     interference = analysis.interference(speed_rpm=26000, range_rpm=(20000, 22000))
     top = campbell["frequency"].isel(speed=-1)
-    for mode in interference.itertuples():
-        expected = float(top.sel(nodal_diameter=mode.nodal_diameter, family=mode.family))
-        np.testing.assert_allclose(mode.frequency_hz, expected, rtol=1e-12)
+    places = zip(interference["nodal_diameter"], interference["family"], strict=True)
+    expected = [float(top.sel(nodal_diameter=diameter, family=family)) for diameter, family in places]
+    np.testing.assert_allclose(interference["frequency_hz"], expected, rtol=1e-12)
     np.testing.assert_allclose(interference.attrs["speed_rpm"], 26000)
     assert interference.attrs["engine_orders"]["nodal_diameter"][:2] == [1, 2]
     plot.interference(interference)

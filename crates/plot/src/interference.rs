@@ -14,7 +14,7 @@ use rubmap_analysis::request::FamiliesBy;
 use rubmap_analysis::result::{FoldedOrder, Interference, InterferingMode, NearestOrder, Wave};
 
 /// Largest distance from its engine order, per cent, at which a mode has it written beside it.
-const WRITTEN: f64 = 10.0;
+const WRITTEN: f64 = 20.0;
 
 /// Half the width of the bar of an engine order over the operating range, in nodal diameters.
 const HALF_BAR: f64 = 0.14;

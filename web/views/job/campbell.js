@@ -4,7 +4,7 @@
 import { api, submit } from '../../lib/api.js';
 import { h, replace } from '../../lib/dom.js';
 import { follow } from '../../lib/events.js';
-import { number, speed } from '../../lib/format.js';
+import { number, rpm, speed } from '../../lib/format.js';
 import { again } from '../../lib/place.js';
 import { plot } from '../../lib/plot.js';
 import { problem } from '../../lib/problem.js';
@@ -41,17 +41,17 @@ function tablesOf(found, context) {
   const branches = found.waves ? [['forward', found.waves.forward_hz], ['backward', found.waves.backward_hz]] : [['', found.frequencies_hz]];
   const modes = branches.flatMap(([wave, hz]) => hz[at].flatMap((line, i) => line.map((each, j) => ({ i, j, wave, hz: each, assurance: found.followed?.assurance[at]?.[i]?.[j] }))));
   const mode = [
-    { name: 'Nodal diameter', number: true, cell: (each) => each.i, sort: (each) => each.i },
+    { name: 'Diameter', number: true, cell: (each) => each.i, sort: (each) => each.i },
     { name: 'Family', number: true, cell: (each) => each.j + 1, sort: (each) => each.j },
   ];
+  const titled = (caption, what) => [h('h2', { class: 'small' }, caption), table({ caption, ...what })];
   return [
-    table({
-      caption: 'Engine orders of the lobes meet modes at',
+    titled('Engine orders of the lobes meet modes at', {
       rows: found.driven_crossings,
       columns: [
-        { name: 'Speed', cell: (each) => speed(each.speed_rad_s), sort: (each) => each.speed_rad_s },
-        { name: 'Engine order', number: true, cell: (each) => each.engine_order, sort: (each) => each.engine_order },
-        { name: 'Nodal diameter', number: true, cell: (each) => each.nodal_diameter, sort: (each) => each.nodal_diameter },
+        { name: 'rpm', number: true, cell: (each) => number(rpm(each.speed_rad_s), 5), sort: (each) => each.speed_rad_s },
+        { name: 'Order', number: true, cell: (each) => each.engine_order, sort: (each) => each.engine_order },
+        { name: 'Diameter', number: true, cell: (each) => each.nodal_diameter, sort: (each) => each.nodal_diameter },
         { name: 'Family', number: true, cell: (each) => each.family, sort: (each) => each.family },
         { name: 'Hz', number: true, cell: (each) => number(each.frequency_hz), sort: (each) => each.frequency_hz },
       ],
@@ -64,15 +64,14 @@ function tablesOf(found, context) {
         ...mode,
         found.waves ? { name: 'Wave', cell: (each) => each.wave } : null,
         { name: 'Hz', number: true, cell: (each) => number(each.hz), sort: (each) => each.hz },
-        found.followed ? { name: 'Shape', cell: (each) => (each.assurance < 0.75 ? `mixed, ${number(each.assurance, 2)} its own` : 'its own') } : null,
+        modes.some((each) => each.assurance < 0.75) ? { name: 'Shape', cell: (each) => (each.assurance < 0.75 ? `mixed, ${number(each.assurance, 2)} its own` : 'its own') } : null,
       ].filter(Boolean),
     }),
-    found.followed?.veerings.length ? table({
-      caption: 'Families cross or veer at',
+    found.followed?.veerings.length ? titled('Families cross or veer at', {
       rows: found.followed.veerings,
       columns: [
-        { name: 'Speed', cell: (each) => speed(each.speed_rad_s), sort: (each) => each.speed_rad_s },
-        { name: 'Nodal diameter', number: true, cell: (each) => each.nodal_diameter, sort: (each) => each.nodal_diameter },
+        { name: 'rpm', number: true, cell: (each) => number(rpm(each.speed_rad_s), 5), sort: (each) => each.speed_rad_s },
+        { name: 'Diameter', number: true, cell: (each) => each.nodal_diameter, sort: (each) => each.nodal_diameter },
         { name: 'Families', cell: (each) => each.families.join(' and ') },
         { name: 'Hz', number: true, cell: (each) => number(each.frequency_hz), sort: (each) => each.frequency_hz },
         { name: 'Apart, Hz', number: true, cell: (each) => number(each.distance_hz), sort: (each) => each.distance_hz },

@@ -57,13 +57,13 @@ function tableOf(found) {
     caption: 'Modes and their nearest engine order of the lobes',
     rows: found.modes,
     columns: [
-      { name: 'Nodal diameter', number: true, cell: (each) => each.nodal_diameter, sort: (each) => each.nodal_diameter },
+      { name: 'Diameter', number: true, cell: (each) => each.nodal_diameter, sort: (each) => each.nodal_diameter },
       { name: 'Family', number: true, cell: (each) => each.family, sort: (each) => each.family },
       found.modes.some((each) => each.wave) ? { name: 'Wave', cell: (each) => each.wave ?? 'standing' } : null,
       { name: 'Hz', number: true, cell: (each) => number(each.frequency_hz), sort: (each) => each.frequency_hz },
-      { name: 'Engine order', number: true, cell: (each) => each.nearest?.engine_order ?? 'not driven', sort: (each) => each.nearest?.engine_order ?? 0 },
-      { name: 'Above it, %', number: true, cell: (each) => (each.nearest ? number(each.nearest.margin_percent, 3) : '–'), sort: (each) => Math.abs(each.nearest?.margin_percent ?? 1e9) },
-      found.range_rad_s ? { name: 'Met in the range by', cell: (each) => (each.met_in_range ?? []).join(', ') || '–' } : null,
+      { name: 'Order', number: true, cell: (each) => each.nearest?.engine_order ?? 'none', sort: (each) => each.nearest?.engine_order ?? 0 },
+      { name: 'Above, %', number: true, cell: (each) => (each.nearest ? number(each.nearest.margin_percent, 3) : '–'), sort: (each) => Math.abs(each.nearest?.margin_percent ?? 1e9) },
+      found.range_rad_s ? { name: 'Met by', cell: (each) => (each.met_in_range ?? []).join(', ') || '–' } : null,
     ].filter(Boolean),
   });
 }

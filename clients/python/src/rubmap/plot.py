@@ -109,11 +109,12 @@ def interference(found: pd.DataFrame, ax: Axes | None = None) -> Axes:
     ax = _axes(ax)
     orders = found.attrs["engine_orders"]
     ax.plot([0, *orders["nodal_diameter"]], [0.0, *orders["frequency_hz"]], color="grey", linewidth=0.8)
-    places = zip(orders["nodal_diameter"], orders["frequency_hz"], orders["of_lobes"], strict=True)
-    driven = [(diameter, hz) for diameter, hz, of_lobes in places if of_lobes]
-    ax.plot(*zip(*driven, strict=True), "D", color="#d62728", linestyle="none", label="engine orders of the lobes")
-    for family, modes in found.groupby("family"):
-        ax.plot(modes["nodal_diameter"], modes["frequency_hz"], "o", color=_COLOURS[(int(family) - 1) % len(_COLOURS)], label=f"family {family}")
+    driven = pd.DataFrame(orders).query("of_lobes")
+    ax.plot(driven["nodal_diameter"], driven["frequency_hz"], "D", color="#d62728", label="engine orders of the lobes")
+    for family in range(1, int(found["family"].max()) + 1):
+        modes = found[found["family"] == family]
+        colour = _COLOURS[(family - 1) % len(_COLOURS)]
+        ax.plot(modes["nodal_diameter"], modes["frequency_hz"], "o", color=colour, label=f"family {family}")
     ax.set_ylim(0.0, 1.08 * float(found["frequency_hz"].max()))
     ax.set_xlabel("nodal diameter")
     ax.set_ylabel("frequency, Hz")

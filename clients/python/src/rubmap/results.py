@@ -232,7 +232,8 @@ class ModalAnalysis(Job):
         asked = {"speed": speed_rpm, "from": first, "to": last, "lobes": lobes, "max_engine_order": max_engine_order}
         given = {name: value for name, value in asked.items() if value is not None}
         found = self.arrays("interference", unit="rpm", **given)
-        frame = table(found, "nodal_diameter")
+        of_modes = {name: values for name, values in found.items() if not name.startswith("orders_")}
+        frame = table(of_modes, "nodal_diameter")
         frame.attrs["speed_rpm"] = float(found["speed_rad_s"]) * RPM
         orders = {name.removeprefix("orders_"): of for name, of in found.items() if name.startswith("orders_")}
         frame.attrs["engine_orders"] = pd.DataFrame(orders).to_dict("list")

@@ -22,7 +22,7 @@ pub enum Course {
     /// Sharp veering: the branches do not meet but exchange their shapes within a step of the speeds on which families are followed. Families go with
     /// their shapes, so that their frequencies jump at the speed by about the distance.
     Exchanges,
-    /// Wide veering: shapes turn slowly, and the families stay on their branches.
+    /// Families that come near and stay on their branches: a wide veering, in which shapes turn slowly, or none.
     Stays,
 }
 
@@ -69,7 +69,8 @@ pub fn veerings(
             let bracket = (grid[point.saturating_sub(1)], grid[point + 1]);
             let distance = |speed: f64| omega(speed).map(|omega| omega[lower + 1] - omega[lower]);
             let Some(speed) = least(bracket, distance) else { continue };
-            let Some(at) = omega(speed).filter(|_| speed > 0.0) else { continue };
+            // At rest every distance is stationary.
+            let Some(at) = omega(speed).filter(|_| speed > 1e-3 * grid[1]) else { continue };
             let (middle, distance) = (0.5 * (at[lower] + at[lower + 1]), at[lower + 1] - at[lower]);
             let order = |point: usize| modes[point].ranks[a] < modes[point].ranks[b];
             let (below, above) = (order(point.saturating_sub(2)), order((point + 2).min(points - 1)));
