@@ -56,7 +56,7 @@ def test_a_bad_package_is_refused_with_file_and_row(service, tmp_path, zipped, n
 
 def test_a_wheel_is_generated_from_a_preset(service, new_page):
     page = new_page(f"{service.url}/#/generate", expected=["422"])
-    sectors = page.get_by_label("Sectors")
+    sectors = page.get_by_label("Number of sectors")
     sectors.fill("2")
     page.get_by_text("at least 3").last.wait_for()
     page.get_by_role("button", name="Generate").click()
@@ -72,14 +72,14 @@ def test_a_sweep_is_planned_asked_for_and_followed(service, model, swept, new_pa
     plan = page.get_by_role("status", name="Plan")
     plan.get_by_text(re.compile("steps", re.I)).first.wait_for()
     before = plan.inner_text()
-    page.get_by_label("Count").first.fill("12")
+    page.get_by_label("Number of speeds").fill("12")
     plan.get_by_text("12", exact=True).wait_for()
     assert plan.inner_text() != before
     # What the form makes is there to be seen, and what is written there the form shows.
     page.get_by_text("The request as JSON").click()
     text = page.get_by_label("Request; the form follows what you write")
     text.fill(text.input_value().replace('"count": 12', '"count": 9'))
-    assert page.get_by_label("Count").first.input_value() == "9"
+    assert page.get_by_label("Number of speeds").input_value() == "9"
     page.get_by_role("button", name="Start").click()
     job = open_job(page)
     page.get_by_text("done", exact=True).wait_for(timeout=120_000)
@@ -227,14 +227,15 @@ def test_an_answer_that_breaks_off_is_asked_for_again(service, swept, new_page):
 def test_a_form_keeps_what_was_filled_in_and_starts_nothing_else(service, model, new_page):
     before = len(service.call("GET", "/v1/jobs?limit=500")["jobs"])
     page = new_page(f"{service.url}/#/sweep?model={model}")
-    page.get_by_role("button", name="Add to engine order excitation").click()
+    page.get_by_text("Effects", exact=True).click()
+    page.get_by_role("button", name="Add to forces at engine orders").click()
     page.get_by_label("Plan").get_by_text("Reduction", exact=True).wait_for()
-    page.get_by_label("Count").first.fill("17")
+    page.get_by_label("Number of speeds").fill("17")
     page.get_by_role("link", name="Jobs").click()
     page.get_by_role("heading", name="Jobs").wait_for()
     page.go_back()
     page.get_by_text("This is what you had filled in here.").wait_for()
-    assert page.get_by_label("Count").first.input_value() == "17"
+    assert page.get_by_label("Number of speeds").input_value() == "17"
     page.get_by_text("The request as JSON").click()
     page.get_by_label("Request; the form follows").fill('{"model": ')
     page.get_by_role("button", name="Start").click()
@@ -242,7 +243,7 @@ def test_a_form_keeps_what_was_filled_in_and_starts_nothing_else(service, model,
     assert len(service.call("GET", "/v1/jobs?limit=500")["jobs"]) == before
     page.get_by_role("button", name="Begin anew").click()
     page.get_by_text("This is what you had filled in here.").wait_for(state="hidden")
-    assert page.get_by_label("Count").first.input_value() != "17"
+    assert page.get_by_label("Number of speeds").input_value() != "17"
 
 
 def test_an_accuracy_gives_the_settings_back_in_whose_place_it_was(service, model, new_page):
@@ -271,8 +272,8 @@ def test_a_march_is_of_so_many_revolutions_or_until_it_repeats(service, model, n
     page.get_by_text("The request as JSON").click()
     text = page.get_by_label("Request; the form follows what you write")
     text.wait_for()
-    page.get_by_text("Settings", exact=True).click()
-    page.get_by_label("Integration", exact=True).check()
+    page.get_by_text("Accuracy", exact=True).first.click()
+    page.get_by_label("Time integration").check()
     field = page.get_by_label("Revolutions", exact=True)
     assert field.get_attribute("placeholder") == "until it repeats"
     for words, value in [("30", {"revolutions": 30}), ("until it repeats", {"revolutions": "auto"}), ("", {})]:
@@ -426,7 +427,7 @@ def test_a_wheel_is_run_up_seen_and_run_up_again(service, swept, model, new_page
     assert again == first
     page.get_by_role("link", name="As up, but").click()
     page.get_by_label("Rates").wait_for()
-    assert [page.get_by_label(name, exact=True).input_value() for name in ("Unit", "From", "To", "Rates", "Hold, s")] == ["rpm", "19000", "21000", "10000, 40000", "0.05"]
+    assert [page.get_by_label(name, exact=True).input_value() for name in ("Unit", "From", "To", "Rates", "Held before")] == ["rpm", "19000", "21000", "10000, 40000", "0.05"]
 
 
 def test_a_run_up_through_points_has_one_run(service, model, new_page):

@@ -2,13 +2,13 @@
 
 import { api } from '../lib/api.js';
 import { h, replace } from '../lib/dom.js';
-import { nameOf, percent } from '../lib/format.js';
+import { nameOf } from '../lib/format.js';
 import { placeWith } from '../lib/place.js';
 import { select } from './job/choices.js';
 import { campaignOfModel } from './request/campaign.js';
 import { runUpsOfModel } from './request/run-up.js';
 import { chooseModel, requestForm } from './request/view.js';
-import { CLEARANCE, sceneOf, speedsOf } from './request/sensible.js';
+import { sceneOf, speedsOf } from './request/sensible.js';
 
 /** Kinds of jobs that are asked for by a form. */
 export const REQUESTS = {
@@ -72,6 +72,6 @@ export async function show(main, { query }, signal, first = 'sweep') {
     return;
   }
   const model = await api.get(`/v1/models/${query.get('model')}`, { signal });
-  const words = `Model: ${model.name}. Speeds and casing are scaled to it (clearance ${percent(CLEARANCE)} of the tips’ radius); change them as needed. Lengths are in ${model.units.length}.`;
+  const words = `Model: ${model.name}. Speeds and casing begin with what suits its size: change them to those of your machine.`;
   await requestForm(place, { model, kind, value: kind.begin(model), words }, signal);
 }
