@@ -35,6 +35,34 @@ def test_a_package_is_chosen_dropped_and_deleted(service, zipped, tmp_path, new_
     assert page.get_by_role("link", name="7 sectors").count() == 0
 
 
+def test_the_first_page_leads_to_a_model_and_to_jobs_with_their_verdicts(service, zipped, swept, new_page):
+    page = new_page(service.url)
+    page.get_by_role("heading", name="Latest jobs").wait_for()
+    assert page.get_by_role("link", name="Generate an impeller").get_attribute("href") == "#/generate"
+    # Of sweeps only, and as the service has them.
+    jobs = service.call("GET", "/v1/jobs?limit=8")["jobs"]
+    sweeps = [job["id"] for job in jobs if job["kind"] == "sweep" and job["status"] == "successful"]
+    assert swept in sweeps
+    page.wait_for_function(f"() => document.querySelectorAll('.jobs [data-verdict]').length === {len(sweeps)}")
+    for job in sweeps:
+        said = page.locator(".jobs li", has=page.locator(f"a[href='#/jobs/{job}']")).locator("[data-verdict]")
+        assert said.inner_text() == service.call("GET", f"/v1/jobs/{job}/verdict")["verdict"]
+    page.get_by_label("Drop a package here").set_input_files(zipped)
+    page.get_by_text("The service already has a model with this content").wait_for()
+
+
+def test_an_example_opens_with_a_result_and_only_once(service, new_page):
+    page = new_page(service.url)
+    page.get_by_role("button", name="Open an example").click()
+    job = open_job(page)
+    asked = service.finish(job)
+    assert asked["status"] == "successful" and asked["request"]["operation"]["ranges"][0]["name"] == "Cruise"
+    assert service.call("GET", f"/v1/jobs/{job}/verdict")["verdict"] in ("act", "watch", "clear")
+    page.get_by_role("link", name="rubmap", exact=True).click()
+    page.get_by_role("button", name="Open an example").click()
+    assert open_job(page) == job
+
+
 def test_a_bad_package_is_refused_with_file_and_row(service, tmp_path, zipped, new_page):
     import zipfile
 
@@ -65,6 +93,23 @@ def test_a_wheel_is_generated_from_a_preset(service, new_page):
     page.get_by_role("button", name="Generate").click()
     page.get_by_role("heading", name="9 sectors", level=1).wait_for()
     page.locator("canvas.stage").wait_for()
+
+
+def test_a_material_is_suggested_in_the_units_of_the_model(service, new_page):
+    page = new_page(f"{service.url}/#/generate")
+    page.get_by_label("Typical values of").select_option(label="Aluminium 7075-T6, wrought")
+    page.get_by_text("confirm them by the certificate").wait_for()
+    fields = ["Young’s modulus E", "Poisson’s ratio ν", "Density ρ", "Yield strength", "Ultimate strength", "Amplitude"]
+    values = [float(page.get_by_label(name).input_value()) for name in fields]
+    # N/mm² and t/mm³.
+    assert values == [71700, 0.33, 2.81e-9, 503, 572, 159]
+    assert "not confirmed" in page.get_by_label("Source").input_value()
+    assert page.get_by_role("img", name="Meridional section").count() == 1
+    page.get_by_label("Number of sectors").fill("5")
+    page.get_by_role("button", name="Generate", exact=True).click()
+    page.wait_for_url("**/#/models/*")
+    made = service.call("GET", "/v1/models/" + page.url.rsplit("/", 1)[1].split("?")[0])
+    assert abs(made["in_si"]["materials"][0]["youngs_modulus_pa"] / 71.7e9 - 1) < 1e-9
 
 
 def test_a_sweep_is_planned_asked_for_and_followed(service, model, swept, new_page):
@@ -244,6 +289,89 @@ def test_a_form_keeps_what_was_filled_in_and_starts_nothing_else(service, model,
     page.get_by_role("button", name="Begin anew").click()
     page.get_by_text("This is what you had filled in here.").wait_for(state="hidden")
     assert page.get_by_label("Number of speeds").input_value() != "17"
+
+
+def test_a_form_says_beforehand_by_how_much_lobes_exceed_the_clearance(service, model, new_page):
+    page = new_page(f"{service.url}/#/sweep?model={model}")
+    told = page.get_by_role("group").get_by_role("status").first
+    page.get_by_label("At the leading edge").fill("0.5")
+    page.get_by_label("At the trailing edge").fill("0.4")
+    page.get_by_label("Height").fill("0.3")
+    page.get_by_text("leaves 0.1 mm of the clearance").wait_for()
+    page.get_by_label("Height").fill("0.44")
+    page.get_by_text("stands 0.04 mm farther in than the clearance (10 % of it)").wait_for()
+    page.get_by_label("Number of lobes").fill("")
+    page.get_by_text("The drawing needs clearance").wait_for()
+    assert told.count() == 1
+    assert page.get_by_role("img", name="Around the circumference").count() == 1
+
+
+def test_a_name_is_proposed_and_follows_until_one_is_written(service, model, new_page):
+    page = new_page(f"{service.url}/#/sweep?model={model}", expected=["422"])
+    name = page.get_by_label("Name", exact=True).last
+    page.get_by_label("At the leading edge").fill("0.31")
+    page.get_by_label("At the trailing edge").fill("0.31")
+    called = service.call("GET", f"/v1/models/{model}")["name"]
+    assert name.input_value().startswith(called) and "clearance 0.31 mm" in name.input_value()
+    page.get_by_label("To", exact=True).fill("20000")
+    assert "to 20,000 rpm" in name.input_value()
+    page.get_by_text("The request as JSON").click()
+    assert json.loads(page.get_by_label("Request; the form follows").input_value())["name"] == name.input_value()
+    name.fill("mine")
+    page.get_by_label("To", exact=True).fill("21000")
+    assert name.input_value() == "mine"
+
+
+def test_ranges_and_limits_are_asked_for_over_the_frequencies_of_the_model(service, swept, model, new_page):
+    page = new_page(f"{service.url}/#/sweep?model={model}", expected=["422"])
+    page.get_by_role("button", name="Compute").click()
+    page.locator(".crossing").first.wait_for(state="attached")
+    page.get_by_role("checkbox", name="Operating ranges").check()
+    first = page.get_by_role("group", name="Range 1")
+    first.get_by_label("Name").fill("Idle")
+    first.get_by_label("From").fill("15000")
+    first.get_by_label("To").fill("18000")
+    page.get_by_role("button", name="Another range").click()
+    page.get_by_role("group", name="Range 2").get_by_label("Name").fill("Full speed")
+    page.get_by_role("checkbox", name="Limits").check()
+    page.get_by_label("Motion of a tip").fill("0.5")
+    assert page.locator("rect.range").count() == 2
+    page.get_by_text("Idle: ").wait_for()
+    page.get_by_text("The request as JSON").click()
+    asked = json.loads(page.get_by_label("Request; the form follows").input_value())
+    assert [one["name"] for one in asked["operation"]["ranges"]] == ["Idle", "Full speed"]
+    assert asked["limits"]["tip_motion"] == 0.5 and asked["limits"]["clearance_consumption"] == 1
+
+
+def test_every_field_of_a_request_has_words(service, new_page):
+    """Names of the contract never stand alone."""
+    schemas = service.call("GET", "/openapi.json")["components"]["schemas"]
+
+    def resolved(schema):
+        while True:
+            ones = [one for one in schema.get("oneOf", schema.get("allOf", [])) if one.get("type") != "null"]
+            if "$ref" in schema:
+                schema = schemas[schema["$ref"].split("/")[-1]]
+            elif len(ones) == 1:
+                schema = ones[0]
+            else:
+                return schema
+
+    def pointers(schema, at=""):
+        schema = resolved(schema)
+        for name, part in schema.get("properties", {}).items():
+            yield f"{at}/{name}"
+            yield from pointers(part, f"{at}/{name}")
+        if "items" in schema:
+            yield from pointers(schema["items"], f"{at}/-")
+        for one in schema.get("oneOf", []):
+            yield from pointers(one, at)
+
+    kinds = ("Sweep", "ModalAnalysis", "Study", "CaseStudy", "Branches", "RunUp", "Campaign", "Impeller")
+    asked = sorted({pointer for kind in kinds for pointer in pointers(schemas[f"{kind}Request"])} - {"/model", "/preset"})
+    page = new_page(service.url)
+    lacking = page.evaluate("async (asked) => { const { wordsOf } = await import('/page/lib/form/words.js'); return asked.filter((one) => !wordsOf(one)); }", asked)
+    assert len(asked) > 200 and lacking == []
 
 
 def test_an_accuracy_gives_the_settings_back_in_whose_place_it_was(service, model, new_page):

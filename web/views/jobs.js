@@ -7,6 +7,7 @@ import { bytes, count, duration, KINDS, moment, nameOf, short } from '../lib/for
 import { cursorOf, placeWith } from '../lib/place.js';
 import { problem } from '../lib/problem.js';
 import { narrowing, searchField } from '../lib/search.js';
+import { verdictTag } from '../lib/verdict-tag.js';
 import { remaining, STATUSES } from './job.js';
 import { actions } from './job/actions.js';
 import { select } from './job/choices.js';
@@ -111,7 +112,7 @@ function row({ item, progress }, job, context) {
   replace(item,
     h('div', { class: 'row between' },
       h('span', {}, box, ' ', h('a', { href: `#/jobs/${job.id}` }, nameOf(job))),
-      h('span', { class: `tag ${{ successful: 'good', failed: 'bad' }[job.status] ?? ''}` }, STATUSES[job.status] ?? job.status)),
+      h('span', {}, verdictTag(job, context.signal), ' ', h('span', { class: `tag ${{ successful: 'good', failed: 'bad' }[job.status] ?? ''}` }, STATUSES[job.status] ?? job.status))),
     progress,
     h('div', { class: 'row' }, actions(job, { told: context.told, deleted: () => {
       context.choose(job.id, false);

@@ -187,6 +187,7 @@ export const WORDS = {
   'record/quantities': ['Quantities'],
   '/fields': ['For fields and stress of the whole wheel'],
 
+  '/scene': ['Effects'],
   '/accuracy': ['Accuracy'],
   'accuracy/target': ['Error to stay below', 'of the response'],
   'accuracy/of': ['Error of'],
