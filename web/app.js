@@ -89,12 +89,21 @@ async function show() {
   }
 }
 
+/** Whether the last thing that a reader used was the keyboard: only then is the place of the focus shown around the whole content. */
+let byKeys = false;
+addEventListener('keydown', () => { byKeys = true; }, true);
+addEventListener('pointerdown', () => { byKeys = false; }, true);
+function focusMain(options) {
+  main.classList.toggle('by-keys', byKeys);
+  main.focus(options);
+}
+
 let path = null;
 /** A view is begun anew when its place changes; a reader is then at its top. */
 function moved() {
   const now = location.hash.split('?')[0];
   if (path !== null && now !== path) {
-    main.focus({ preventScroll: true });
+    focusMain({ preventScroll: true });
     scrollTo(0, 0);
   }
   path = now;
@@ -116,7 +125,7 @@ session();
 
 document.getElementById('skip').addEventListener('click', (event) => {
   event.preventDefault();
-  main.focus();
+  focusMain();
 });
 
 addEventListener('hashchange', moved);

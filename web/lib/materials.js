@@ -20,7 +20,7 @@ const ALLOYS = [
   ['Steel 1.4313 (13Cr-4Ni), QT780', 200, 0.3, 7700, 620, 780, 350, 'minimum (EN 10088-3)', '0.45 of the ultimate strength, a rule for smooth steel'],
   ['Steel 34CrNiMo6 (4340), quenched and tempered', 207, 0.29, 7850, 800, 1000, 450, 'minimum of 40 to 100 mm (EN 10083-3)', '0.45 of the ultimate strength, a rule for smooth steel'],
   ['Duplex steel 1.4462 (2205)', 200, 0.3, 7800, 450, 650, 285, 'minimum of bar (EN 10088-3)', 'about 0.45 of the ultimate strength, a rule for smooth steel'],
-  ['Nickel alloy 718, aged', 200, 0.29, 8190, 1034, 1276, 580, 'minimum (AMS 5663)', '0.45 of the ultimate strength, a cautious rule'],
+  ['Nickel alloy 718, aged', 200, 0.29, 8190, 1034, 1276, 570, 'minimum (AMS 5663)', '0.45 of the ultimate strength, a cautious rule'],
   ['Nickel alloy 713LC, cast', 197, 0.3, 8000, 750, 895, 200, 'typical (maker’s data)', 'a cautious value for castings'],
 ];
 

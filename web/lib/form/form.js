@@ -198,6 +198,7 @@ function object(context, schema, pointer, name, required) {
   });
   context.places.set(pointer, shown);
   fill();
+  if (empty) shown.element.classList.add('switched');
   return empty ? shown.element : h('fieldset', { class: 'switched' }, h('legend', { class: 'visually-hidden' }, title), shown.element, body);
 }
 

@@ -75,14 +75,10 @@ export function completed(value, schema, definitions) {
   return whole;
 }
 
-const UNITS = [['_rad_s', 'rad/s'], ['_rad', 'rad'], ['_deg', 'degrees'], ['_hz', 'Hz'], ['_seconds', 's'], ['_s', 's']];
-
-/** The name of a field in words, with the unit that it ends with. */
+/** The name of a field in words. */
 export function label(name) {
-  const found = UNITS.find(([ending]) => name.endsWith(ending) && name !== ending.slice(1));
-  const words = (found ? name.slice(0, -found[0].length) : name).replaceAll('_', ' ');
-  const text = words.charAt(0).toUpperCase() + words.slice(1);
-  return found ? `${text}, ${found[1]}` : text;
+  const words = name.replaceAll('_', ' ');
+  return words.charAt(0).toUpperCase() + words.slice(1);
 }
 
 /** The first sentence of a description; all of it is in the contract. */

@@ -1,7 +1,8 @@
 // Where packages and meshes are dropped or chosen.
 
+import { part } from '../../lib/api.js';
 import { h, newId, replace } from '../../lib/dom.js';
-import { meshForm } from './mesh.js';
+import { problem } from '../../lib/problem.js';
 import { sender } from './sending.js';
 
 /** Endings of mesh files that file choosers offer; what a file is the service finds from its content. */
@@ -25,7 +26,11 @@ function taker(below, signal) {
       // Another mesh, or the same one mended: what was filled in stays.
       form.take(file);
     } else {
-      form = meshForm(file, sending, () => {
+      const made = await part(() => import('./mesh.js')).catch((error) => {
+        replace(told, problem(error));
+      });
+      if (!made || signal.aborted) return;
+      form = made.meshForm(file, sending, () => {
         form = null;
         replace(below);
         input.focus();

@@ -73,7 +73,7 @@ export function sectionsOf({ value, begun, units, wheel, campbell, dial }) {
     },
     {
       title: 'Recorded', parts: recorded, open: open(...recorded),
-      state: ({ sensors, record, stress }) => [sensors?.length ? count(sensors.length, 'sensor') : 'usual sensors', record?.stress || stress ? 'stress' : null, record?.histories ? 'histories' : null].filter(Boolean).join(', '),
+      state: ({ sensors, record, stress }) => [sensors?.length ? count(sensors.length, 'sensor') : null, record?.stress || stress ? 'stress' : null, record?.histories ? 'histories' : null].filter(Boolean).join(', ') || 'as usual',
     },
     {
       title: 'Accuracy', above: dial, open: open('/accuracy', '/budget', '/modes_per_speed', '/integration', '/refine', '/control_speeds', '/sweep', '/max_engine_order', '/peak_prominence'),

@@ -50,7 +50,7 @@ export function beginning(pointer, model) {
     '/scene/damping': scene.damping,
     '/operation': { ranges: [range] },
     '/operation/ranges/-': { ...range, name: 'Another' },
-    '/limits': { clearance_consumption: 1, ...((model.mesh?.sets ?? []).some((set) => set.yield_strength) && { utilisation: 1 }) },
+    '/limits': { clearance_consumption: 1, ...((model.mesh?.sets ?? []).some((set) => set.ultimate && set.fatigue) && { utilisation: 1 }) },
     '/scene/friction': { coefficient: 0.15 },
     '/scene/casing/single_lobes/-': { angle_rad: 0, amplitude: scene.casing.lobes.amplitude, width_rad: 0.35 },
     '/scene/casing/waves/-': { order: 2, amplitude: round(0.5 * scene.casing.lobes.amplitude) },

@@ -15,20 +15,25 @@ const PLOT = { left: 64, right: WIDTH - 10, top: 16, bottom: HEIGHT - 40 };
 const LOOKED_AT = 5;
 /** Crossings within a range that are told one by one. */
 const TOLD = 5;
+/** Ticks of a range that are drawn. */
+const MOST = 500;
 /** Speeds of an analysis. */
 const COUNT = 25;
 
 const isNumber = Number.isFinite;
 const toRadS = (value, unit) => value / (OF_SPEED[unit] ?? 1);
 
+/** Speeds of one range, list or course. */
+function named({ from, to, count: n, values, value, points, unit }) {
+  const steps = Math.min(Math.max(1, (n || 2) - 1), MOST);
+  const range = isNumber(from) && isNumber(to) ? Array.from({ length: steps + 1 }, (_, k) => from + ((to - from) * k) / steps) : [];
+  const all = values ?? (isNumber(value) ? [value] : points?.map((point) => point.speed) ?? range);
+  return Array.isArray(all) ? all.filter(isNumber).map((each) => toRadS(each, unit)) : [];
+}
+
 /** All speeds that a request names, rad/s, those of a range between its ends, too. */
 export function askedSpeeds({ speeds, speed: one }) {
-  const lists = Array.isArray(speeds) ? speeds : [speeds, one];
-  return lists.filter(Boolean).flatMap(({ from, to, count: n, values, value, points, unit }) => {
-    const named = values ?? (isNumber(value) ? [value] : points ? points.map((point) => point.speed) : null);
-    const between = isNumber(from) && isNumber(to) ? Array.from({ length: Math.min(Math.max(2, n || 2), 500) }, (_, k, all = Math.min(Math.max(2, n || 2), 500)) => from + ((to - from) * k) / (all - 1)) : [];
-    return (Array.isArray(named) ? named : between).filter(isNumber).map((each) => toRadS(each, unit));
-  });
+  return [speeds, one].flat().filter(Boolean).flatMap(named);
 }
 
 /** Operating ranges with their ends in rad/s, those that are whole. */

@@ -34,31 +34,17 @@ function outline(nodes, tips) {
   return [...top, ...side(Math.min, BESIDE.least).reverse()];
 }
 
-/** Radius, z and the unit normal of contact nodes: across the line of the tips, away from the wheel. */
-function tipLine(contact, nodes) {
-  const place = ({ position: [r, , z] }) => [z, r];
-  const points = contact.map(place);
-  const middle = nodes.reduce(([z, r], { position }) => [z + position[2] / nodes.length, r + position[0] / nodes.length], [0, 0]);
-  const normals = points.map((_, k) => {
-    const [a, b] = [points[Math.max(0, k - 1)], points[Math.min(points.length - 1, k + 1)]];
-    const [dz, dr] = [b[0] - a[0], b[1] - a[1]];
-    const length = Math.hypot(dz, dr) || 1;
-    return [-dr / length, dz / length];
-  });
-  // Away from the wheel on the whole, not node by node.
-  const away = points.reduce((sum, [z, r], k) => sum + (z - middle[0]) * normals[k][0] + (r - middle[1]) * normals[k][1], 0);
-  return { points, normals: points.length < 2 ? [[0, 1]] : normals.map(([z, r]) => (away < 0 ? [-z, -r] : [z, r])) };
-}
-
 /** The meridional section: the wheel, its casing in the distance of the clearance, and where lobes stand. */
 function meridian(section, shape) {
-  const { points, normals } = tipLine(section.contact, section.nodes);
+  const points = section.contact.map(({ position: [r, , z] }) => [z, r]);
+  const normals = section.contact.map(({ normal: [r, , z] }) => [z, r]);
   const body = outline(section.nodes, points);
   const all = [...body, ...points];
   const extreme = (of, k) => all.reduce((so, point) => of(so, point[k]), all[0][k]);
   const [left, right, top] = [extreme(Math.min, 0), extreme(Math.max, 0), extreme(Math.max, 1)];
   const scale = Math.min((WIDTH - 2 * MARGIN - SHOWN) / (right - left || 1), (HEIGHT - MARGIN - SHOWN - 20) / (top || 1));
-  const at = ([z, r]) => [MARGIN + SHOWN + (z - left) * scale, HEIGHT - 20 - r * scale];
+  const from = Math.max(MARGIN + SHOWN, (WIDTH - (right - left) * scale) / 2);
+  const at = ([z, r]) => [from + (z - left) * scale, HEIGHT - 20 - r * scale];
   const times = SHOWN / (Math.max(...shape.clearances, shape.highest) || 1) / scale;
   const offset = (by) => points.map(([z, r], k) => {
     const distance = times * by(points.length < 2 ? 0 : k / (points.length - 1));
@@ -75,7 +61,7 @@ function meridian(section, shape) {
       crest ? s('path', { class: 'crest', d: line(crest) }) : null,
       s('path', { class: 'axis', d: line([[4, HEIGHT - 20], [WIDTH - 4, HEIGHT - 20]]) }),
       words(WIDTH - 4, HEIGHT - 6, 'axis of rotation', { 'text-anchor': 'end' }),
-      words(casing[0][0], casing[0][1] - 8, 'casing')),
+      words(casing[0][0] - 5, casing[0][1] + 4, 'casing', { 'text-anchor': 'end' })),
   };
 }
 
@@ -144,13 +130,13 @@ export function wheelInCasing(model, section) {
       told.className = 'note';
       return;
     }
-    const length = model.units.length;
+    const { contact_radius: radius, units: { length } } = model;
     const round = around(model.sectors, shape);
     const cut = section ? meridian(section, shape) : null;
     const figure = (picture, caption) => h('figure', {}, picture, h('figcaption', { class: 'quiet small' }, caption));
     replace(pictures,
       cut ? figure(cut.picture, `In section: clearance drawn ${said(cut.times)} times as large${shape.highest > 0 ? '; dashed: where the casing stands farthest in' : ''}.`) : null,
-      figure(round.picture, `Around: ${model.sectors} tips at radius ${number(model.contact_radius)} ${length}, the casing at its smallest clearance; distances ${said(round.pixels / (round.tips / model.contact_radius))} times as large.`));
+      figure(round.picture, `Around: ${model.sectors} tips${radius ? ` at radius ${number(radius)} ${length}` : ''}, the casing at its smallest clearance; its distance drawn ${radius ? `${said(round.pixels / (round.tips / radius))} times as large` : 'larger'}.`));
     const [much, text] = verdictOf(shape, model.units, casing.clearance.given === 'cold');
     told.className = `note ${much ? 'warning' : ''}`;
     replace(told, text);
