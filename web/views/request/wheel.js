@@ -34,11 +34,14 @@ function outline(nodes, tips) {
   return [...top, ...side(Math.min, BESIDE.least).reverse()];
 }
 
+/** What is drawn of a model's section whatever the casing: the line of the tips, its normals, the outline. */
+function profileOf({ contact, nodes }) {
+  const points = contact.map(({ position: [r, , z] }) => [z, r]);
+  return { points, normals: contact.map(({ normal: [r, , z] }) => [z, r]), body: outline(nodes, points) };
+}
+
 /** The meridional section: the wheel, its casing in the distance of the clearance, and where lobes stand. */
-function meridian(section, shape) {
-  const points = section.contact.map(({ position: [r, , z] }) => [z, r]);
-  const normals = section.contact.map(({ normal: [r, , z] }) => [z, r]);
-  const body = outline(section.nodes, points);
+function meridian({ points, normals, body }, shape) {
   const all = [...body, ...points];
   const extreme = (of, k) => all.reduce((so, point) => of(so, point[k]), all[0][k]);
   const [left, right, top] = [extreme(Math.min, 0), extreme(Math.max, 0), extreme(Math.max, 1)];
@@ -120,6 +123,7 @@ function verdictOf(shape, { length }, cold) {
 export function wheelInCasing(model, section) {
   const told = h('p', { class: 'note', role: 'status' });
   const pictures = h('div', { class: 'sketches' });
+  const profile = section && profileOf(section);
   const element = h('div', {}, pictures, told);
   function show(request) {
     const casing = request.scene?.casing;
@@ -132,7 +136,7 @@ export function wheelInCasing(model, section) {
     }
     const { contact_radius: radius, units: { length } } = model;
     const round = around(model.sectors, shape);
-    const cut = section ? meridian(section, shape) : null;
+    const cut = profile ? meridian(profile, shape) : null;
     const figure = (picture, caption) => h('figure', {}, picture, h('figcaption', { class: 'quiet small' }, caption));
     replace(pictures,
       cut ? figure(cut.picture, `In section: clearance drawn ${said(cut.times)} times as large${shape.highest > 0 ? '; dashed: where the casing stands farthest in' : ''}.`) : null,
