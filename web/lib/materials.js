@@ -4,6 +4,10 @@ import { h, newId, replace } from './dom.js';
 import { number } from './format.js';
 import { lengthIn } from './units.js';
 
+const ASM = 'typical (ASM Metals Handbook)';
+const BENDING = 'smooth, rotating bending, 5e8 cycles';
+const RULE = '0.45 of the ultimate strength, a rule for smooth steel';
+
 /**
  * Name; Young's modulus, GPa; Poisson's ratio; density, kg/m³; yield, ultimate and fatigue strength (amplitude of a fully reversed stress), MPa; where strengths are
  * from; what the fatigue strength is of.
@@ -12,14 +16,14 @@ import { lengthIn } from './units.js';
 const ALLOYS = [
   ['Ti-6Al-4V, annealed', 114, 0.33, 4430, 828, 895, 500, 'minimum of annealed bar (AMS 4928, MMPDS)', 'smooth, rotating bending, 1e7 cycles'],
   ['Ti-6Al-2Sn-4Zr-2Mo, duplex annealed', 114, 0.32, 4540, 828, 895, 480, 'minimum of bar (AMS 4975)', 'smooth, rotating bending, 1e7 cycles'],
-  ['Aluminium 2618-T61, forged', 74.5, 0.33, 2760, 372, 441, 124, 'typical (ASM Metals Handbook)', 'smooth, rotating bending, 5e8 cycles'],
-  ['Aluminium 2014-T6, forged', 73.1, 0.33, 2800, 414, 483, 124, 'typical (ASM Metals Handbook)', 'smooth, rotating bending, 5e8 cycles'],
-  ['Aluminium 7075-T6, wrought', 71.7, 0.33, 2810, 503, 572, 159, 'typical (ASM Metals Handbook)', 'smooth, rotating bending, 5e8 cycles'],
-  ['Aluminium A356-T6, cast', 72.4, 0.33, 2680, 205, 275, 90, 'typical of permanent-mould castings (ASM Metals Handbook)', 'smooth, rotating bending, 5e8 cycles'],
-  ['Steel 17-4 PH (1.4542), H1025', 197, 0.27, 7800, 1000, 1070, 480, 'minimum of bar (AMS 5643)', '0.45 of the ultimate strength, a rule for smooth steel'],
-  ['Steel 1.4313 (13Cr-4Ni), QT780', 200, 0.3, 7700, 620, 780, 350, 'minimum (EN 10088-3)', '0.45 of the ultimate strength, a rule for smooth steel'],
-  ['Steel 34CrNiMo6 (4340), quenched and tempered', 207, 0.29, 7850, 800, 1000, 450, 'minimum of 40 to 100 mm (EN 10083-3)', '0.45 of the ultimate strength, a rule for smooth steel'],
-  ['Duplex steel 1.4462 (2205)', 200, 0.3, 7800, 450, 650, 285, 'minimum of bar (EN 10088-3)', 'about 0.45 of the ultimate strength, a rule for smooth steel'],
+  ['Aluminium 2618-T61, forged', 74.5, 0.33, 2760, 372, 441, 124, ASM, BENDING],
+  ['Aluminium 2014-T6, forged', 73.1, 0.33, 2800, 414, 483, 124, ASM, BENDING],
+  ['Aluminium 7075-T6, wrought', 71.7, 0.33, 2810, 503, 572, 159, ASM, BENDING],
+  ['Aluminium A356-T6, cast', 72.4, 0.33, 2680, 205, 275, 90, 'typical of permanent-mould castings (ASM Metals Handbook)', BENDING],
+  ['Steel 17-4 PH (1.4542), H1025', 197, 0.27, 7800, 1000, 1070, 480, 'minimum of bar (AMS 5643)', RULE],
+  ['Steel 1.4313 (13Cr-4Ni), QT780', 200, 0.3, 7700, 620, 780, 350, 'minimum (EN 10088-3)', RULE],
+  ['Steel 34CrNiMo6 (4340), quenched and tempered', 207, 0.29, 7850, 800, 1000, 450, 'minimum of 40 to 100 mm (EN 10083-3)', RULE],
+  ['Duplex steel 1.4462 (2205)', 200, 0.3, 7800, 450, 650, 290, 'minimum of bar (EN 10088-3)', RULE],
   ['Nickel alloy 718, aged', 200, 0.29, 8190, 1034, 1276, 570, 'minimum (AMS 5663)', '0.45 of the ultimate strength, a cautious rule'],
   ['Nickel alloy 713LC, cast', 197, 0.3, 8000, 750, 895, 200, 'typical (maker’s data)', 'a cautious value for castings'],
 ];

@@ -34,13 +34,12 @@ export async function show(main, _where, signal) {
     // What has not changed stays, and with it the focus.
     if (now === last) return;
     last = now;
-    replace(jobs, list.length === 0 ? null : [h('h2', {}, 'Latest jobs'), h('ul', { class: 'plain jobs' }, list.map((job) => row(job, signal))), h('p', {}, h('a', { href: '#/jobs' }, 'All jobs'))]);
+    replace(jobs, list.length === 0 ? null : [h('h2', {}, 'Latest jobs'), h('ul', { class: 'plain jobs' }, list.map((job) => row(job, signal)))]);
   }
   await refresh();
   const found = (await api.get('/v1/models', { query: { limit: MODELS }, signal })).models;
   replace(models, found.length === 0 ? null : [h('h2', {}, 'Latest models'),
-    h('ul', { class: 'plain' }, found.map((model) => h('li', {}, h('a', { href: `#/models/${model.id}` }, model.name), ' · ', h('a', { href: `#/sweep?model=${model.id}`, 'aria-label': `New sweep of ${model.name}` }, 'new sweep')))),
-    h('p', {}, h('a', { href: '#/models' }, 'All models'))]);
+    h('ul', { class: 'plain' }, found.map((model) => h('li', {}, h('a', { href: `#/models/${model.id}` }, model.name), ' · ', h('a', { href: `#/sweep?model=${model.id}`, 'aria-label': `New sweep of ${model.name}` }, 'new sweep'))))]);
   poll(refresh, () => pace, signal).catch((error) => {
     if (!signal.aborted) replace(jobs, problem(error));
   });

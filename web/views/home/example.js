@@ -9,7 +9,7 @@ const TAG = 'rubmap-example';
 /** Ti-6Al-4V in mm, N, s, t; fatigue strength and its source as reports repeat it. */
 const MATERIAL = {
   youngs_modulus: 114_000, poissons_ratio: 0.33, density: 4.43e-9, yield_strength: 828, ultimate_strength: 895,
-  fatigue_strength: { amplitude: 500, source: 'example: typical value of Ti-6Al-4V, annealed, smooth, rotating bending, 1e7 cycles, in air at 20 °C' },
+  fatigue_strength: { amplitude: 500, source: 'example: Ti-6Al-4V, smooth, rotating bending, 1e7 cycles, 20 °C' },
 };
 
 /** Lobes 5 % higher than the clearance; the range has a critical speed inside. */

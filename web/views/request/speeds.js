@@ -50,21 +50,21 @@ function step(most) {
   return [1, 2, 5, 10].map((each) => each * power).find((each) => most / each <= 6);
 }
 
-function diagram(campbell, request, ranges, asked) {
+/** The drawing; a family that has no frequency at a speed leaves it out there. */
+function diagram(campbell, ranges, asked) {
   const speeds = campbell?.speeds_rad_s ?? [];
   const right = 1.02 * Math.max(1, ...speeds, ...asked, ...ranges.map(({ to, aside }) => to * (1 + aside)));
-  const highest = campbell ? 1.05 * Math.max(...campbell.frequencies_hz.flat(2)) : 1;
+  const highest = campbell ? 1.05 * Math.max(...campbell.frequencies_hz.flat(2).filter(isNumber)) : 1;
   const x = (omega) => PLOT.left + (omega / right) * (PLOT.right - PLOT.left);
   const y = (hz) => PLOT.bottom - (hz / highest) * (PLOT.bottom - PLOT.top);
   const ticks = (most, place) => Array.from({ length: Math.floor(most / step(most)) + 1 }, (_, k) => place(k * step(most)));
-  const high = PLOT.bottom - PLOT.top;
-  const band = (from, to, kind) => s('rect', { class: kind, x: x(Math.max(0, from)).toFixed(1), y: PLOT.top, width: Math.max(1, x(to) - x(Math.max(0, from))).toFixed(1), height: high });
+  const band = (from, to, kind) => s('rect', { class: kind, x: x(Math.max(0, from)), y: PLOT.top, width: Math.max(1, x(to) - x(Math.max(0, from))), height: PLOT.bottom - PLOT.top });
   const families = (campbell?.frequencies_hz[0] ?? []).flatMap((list, diameter) => list.map((_, family) => {
-    const points = speeds.map((omega, k) => [x(omega), y(campbell.frequencies_hz[k][diameter][family])]);
+    const points = speeds.map((omega, k) => [omega, campbell.frequencies_hz[k][diameter][family]]).filter(([, hz]) => isNumber(hz)).map(([omega, hz]) => [x(omega), y(hz)]);
     return s('path', { class: `family family-${Math.min(family, 2)}`, d: line(points) }, s('title', {}, `nodal diameter ${diameter}, family ${family + 1}`));
   }));
   const crossings = (campbell?.driven_crossings ?? []).filter((one) => one.speed_rad_s <= right && one.speed_rad_s > 0);
-  const dots = crossings.map((one) => s('circle', { class: 'crossing', cx: x(one.speed_rad_s).toFixed(1), cy: y(one.frequency_hz).toFixed(1), r: 3.5 },
+  const dots = crossings.map((one) => s('circle', { class: 'crossing', cx: x(one.speed_rad_s), cy: y(one.frequency_hz), r: 3.5 },
     s('title', {}, `${speed(one.speed_rad_s)}: engine order ${one.engine_order}, nodal diameter ${one.nodal_diameter}, family ${one.family}, ${number(one.frequency_hz, 5)} Hz`)));
   // Lines of engine orders from rest to where they leave the diagram, with their numbers where these have room.
   let labelled = 0;
@@ -88,7 +88,6 @@ function diagram(campbell, request, ranges, asked) {
 
 /** Crossings within each range, in words. */
 function inRanges(campbell, ranges) {
-  if (!campbell) return null;
   const { driven_crossings: all } = campbell;
   return ranges.map(({ name, from, to, aside }) => {
     const inside = all.filter(({ speed_rad_s: at }) => at >= from * (1 - aside) && at <= to * (1 + aside)).toSorted((a, b) => a.speed_rad_s - b.speed_rad_s);
@@ -131,7 +130,7 @@ export function speedsOver(model, signal) {
     const lobes = lobesOf(request);
     const fits = known.find(({ settings }) => settings.lobes === lobes && Boolean(settings.coriolis) === Boolean(request.scene?.coriolis ?? request.coriolis));
     const campbell = fits ?? known[0] ?? null;
-    replace(picture, diagram(campbell, request, ranges, askedSpeeds(request)));
+    replace(picture, diagram(campbell, ranges, askedSpeeds(request)));
     start.hidden = Boolean(fits) || !isNumber(lobes);
     start.textContent = campbell ? `Compute for ${count(lobes, 'lobe')}` : 'Compute natural frequencies';
     replace(told,
