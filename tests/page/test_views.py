@@ -4,6 +4,7 @@ import pytest
 from conftest import WINDOWS, branches_of, judged, run_ups_of, sweep_of
 
 VIEWS = {
+    "home": "#/home",
     "models": "#/models",
     "model": "#/models/{model}",
     "modes": "#/models/{model}?view=modes",
