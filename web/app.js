@@ -8,6 +8,7 @@ import { apply, choice, choose } from './lib/theme.js';
 
 /** Views by the first words of an address, `:id` standing for any. Each has `show(main, {id, query}, signal)`. */
 const VIEWS = [
+  ['home', () => import('./views/home.js')],
   ['models', () => import('./views/models.js')],
   ['models/:id', () => import('./views/model.js')],
   ['generate', () => import('./views/generate.js')],
@@ -25,7 +26,7 @@ let leave = new AbortController();
 /** The view of an address, with its id and parameters. */
 function find(hash) {
   const [path, search] = hash.replace(/^#\/?/, '').split('?', 2);
-  const words = (path || 'models').split('/').filter(Boolean);
+  const words = (path || 'home').split('/').filter(Boolean);
   for (const [pattern, load] of VIEWS) {
     const parts = pattern.split('/');
     if (parts.length === words.length && parts.every((part, k) => part === ':id' || part === words[k])) {
@@ -63,7 +64,7 @@ async function show() {
   const focused = main.contains(document.activeElement) && document.activeElement !== main ? nameOf(document.activeElement) : null;
   if (!found) {
     document.title = 'Not found · rubmap';
-    replace(main, h('h1', {}, 'This page does not exist'), h('p', {}, h('a', { href: '#/models' }, 'To the models')));
+    replace(main, h('h1', {}, 'This page does not exist'), h('p', {}, h('a', { href: '#/home' }, 'To the first page')));
     return;
   }
   main.setAttribute('aria-busy', 'true');
@@ -88,12 +89,21 @@ async function show() {
   }
 }
 
+/** Whether the last thing that a reader used was the keyboard: only then is the place of the focus shown around the whole content. */
+let byKeys = false;
+addEventListener('keydown', () => { byKeys = true; }, true);
+addEventListener('pointerdown', () => { byKeys = false; }, true);
+function focusMain(options) {
+  main.classList.toggle('by-keys', byKeys);
+  main.focus(options);
+}
+
 let path = null;
 /** A view is begun anew when its place changes; a reader is then at its top. */
 function moved() {
   const now = location.hash.split('?')[0];
   if (path !== null && now !== path) {
-    main.focus({ preventScroll: true });
+    focusMain({ preventScroll: true });
     scrollTo(0, 0);
   }
   path = now;
@@ -115,7 +125,7 @@ session();
 
 document.getElementById('skip').addEventListener('click', (event) => {
   event.preventDefault();
-  main.focus();
+  focusMain();
 });
 
 addEventListener('hashchange', moved);

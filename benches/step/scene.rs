@@ -76,7 +76,7 @@ impl Scene {
         let stiffening = stiffnesses == 3;
         let modal = ModalWheel::at(&reduced.wheel, SPEED, RotationEffects::stiffening(stiffening))
             .expect("the default impeller is sound");
-        let damping = ModalDamping { modal_ratio: DAMPING, family_ratios: Vec::new() };
+        let damping = ModalDamping { modal_ratio: DAMPING, family_ratios: Vec::new(), ranks: Vec::new() };
         Self { reduced, modal, damping, stiffening, modes }
     }
 

@@ -132,7 +132,7 @@ pub(super) struct Link {
     href: String,
     /// Relation of the linked thing: `self`, `interaction-map`, `critical-speeds`, `wheel-critical-speeds`, `verdict`, `forces`,
     /// `spectra`
-    /// (with a `{index}` to fill in), `campbell`, `branches`, `run-ups`, `spectrogram` (of the first run), `campaign`,
+    /// (with a `{index}` to fill in), `campbell`, `interference`, `branches`, `run-ups`, `spectrogram` (of the first run), `campaign`,
     /// `work-precision`, `histories`, `report`, `archive` or `model`; where it is recorded, and not in lists of jobs, `stress` and
     /// `fields`.
     rel: &'static str,

@@ -35,6 +35,34 @@ def test_a_package_is_chosen_dropped_and_deleted(service, zipped, tmp_path, new_
     assert page.get_by_role("link", name="7 sectors").count() == 0
 
 
+def test_the_first_page_leads_to_a_model_and_to_jobs_with_their_verdicts(service, zipped, swept, new_page):
+    page = new_page(service.url)
+    page.get_by_role("heading", name="Latest jobs").wait_for()
+    assert page.get_by_role("link", name="Generate an impeller").get_attribute("href") == "#/generate"
+    # Of sweeps only, and as the service has them.
+    jobs = service.call("GET", "/v1/jobs?limit=8")["jobs"]
+    sweeps = [job["id"] for job in jobs if job["kind"] == "sweep" and job["status"] == "successful"]
+    assert swept in sweeps
+    page.wait_for_function(f"() => document.querySelectorAll('.jobs [data-verdict]').length === {len(sweeps)}")
+    for job in sweeps:
+        said = page.locator(".jobs li", has=page.locator(f"a[href='#/jobs/{job}']")).locator("[data-verdict]")
+        assert said.inner_text() == service.call("GET", f"/v1/jobs/{job}/verdict")["verdict"]
+    page.get_by_label("Drop a package here").set_input_files(zipped)
+    page.get_by_text("The service already has a model with this content").wait_for()
+
+
+def test_an_example_opens_with_a_result_and_only_once(service, new_page):
+    page = new_page(service.url)
+    page.get_by_role("button", name="Open an example").click()
+    job = open_job(page)
+    asked = service.finish(job)
+    assert asked["status"] == "successful" and asked["request"]["operation"]["ranges"][0]["name"] == "Cruise"
+    assert service.call("GET", f"/v1/jobs/{job}/verdict")["verdict"] in ("act", "watch", "clear")
+    page.get_by_role("link", name="rubmap", exact=True).click()
+    page.get_by_role("button", name="Open an example").click()
+    assert open_job(page) == job
+
+
 def test_a_bad_package_is_refused_with_file_and_row(service, tmp_path, zipped, new_page):
     import zipfile
 
@@ -56,7 +84,7 @@ def test_a_bad_package_is_refused_with_file_and_row(service, tmp_path, zipped, n
 
 def test_a_wheel_is_generated_from_a_preset(service, new_page):
     page = new_page(f"{service.url}/#/generate", expected=["422"])
-    sectors = page.get_by_label("Sectors")
+    sectors = page.get_by_label("Number of sectors")
     sectors.fill("2")
     page.get_by_text("at least 3").last.wait_for()
     page.get_by_role("button", name="Generate").click()
@@ -67,19 +95,36 @@ def test_a_wheel_is_generated_from_a_preset(service, new_page):
     page.locator("canvas.stage").wait_for()
 
 
+def test_a_material_is_suggested_in_the_units_of_the_model(service, new_page):
+    page = new_page(f"{service.url}/#/generate")
+    page.get_by_label("Typical values of").select_option(label="Aluminium 7075-T6, wrought")
+    page.get_by_text("confirm them by the certificate").wait_for()
+    fields = ["Young’s modulus E", "Poisson’s ratio ν", "Density ρ", "Yield strength", "Ultimate strength", "Amplitude"]
+    values = [float(page.get_by_label(name).input_value()) for name in fields]
+    # N/mm² and t/mm³.
+    assert values == [71700, 0.33, 2.81e-9, 503, 572, 159]
+    assert "not confirmed" in page.get_by_label("Source").input_value()
+    assert page.get_by_role("img", name="Meridional section").count() == 1
+    page.get_by_label("Number of sectors").fill("5")
+    page.get_by_role("button", name="Generate", exact=True).click()
+    page.wait_for_url("**/#/models/*")
+    made = service.call("GET", "/v1/models/" + page.url.rsplit("/", 1)[1].split("?")[0])
+    assert abs(made["in_si"]["materials"][0]["youngs_modulus_pa"] / 71.7e9 - 1) < 1e-9
+
+
 def test_a_sweep_is_planned_asked_for_and_followed(service, model, swept, new_page):
     page = new_page(f"{service.url}/#/sweep?model={model}", expected=["422"])
     plan = page.get_by_role("status", name="Plan")
     plan.get_by_text(re.compile("steps", re.I)).first.wait_for()
     before = plan.inner_text()
-    page.get_by_label("Count").first.fill("12")
+    page.get_by_label("Number of speeds").fill("12")
     plan.get_by_text("12", exact=True).wait_for()
     assert plan.inner_text() != before
     # What the form makes is there to be seen, and what is written there the form shows.
     page.get_by_text("The request as JSON").click()
     text = page.get_by_label("Request; the form follows what you write")
     text.fill(text.input_value().replace('"count": 12', '"count": 9'))
-    assert page.get_by_label("Count").first.input_value() == "9"
+    assert page.get_by_label("Number of speeds").input_value() == "9"
     page.get_by_role("button", name="Start").click()
     job = open_job(page)
     page.get_by_text("done", exact=True).wait_for(timeout=120_000)
@@ -120,6 +165,8 @@ def test_sweeps_are_compared_and_a_measurement_laid_over(service, swept, model, 
     page.get_by_role("heading", name="Level over speed").wait_for()
     page.locator(".figure .main-svg").first.wait_for()
     page.locator(".legendtext").get_by_text("to compare <b>& so on", exact=True).first.wait_for()
+    # They differ by their names alone.
+    page.get_by_text("The requests are the same but for names").wait_for()
     measured = tmp_path / "measured.csv"
     measured.write_text("speed,frequency,amplitude\n14000,800,0.1\n22000,1200,0.3\n")
     page.locator("input[type=file]").set_input_files(measured)
@@ -134,6 +181,19 @@ def test_a_search_goes_on_being_written(service, new_page):
         page.keyboard.type("pe")
         page.wait_for_url("**name=nope")
         assert page.get_by_label("Name has").input_value() == "nope"
+
+
+def test_the_content_is_framed_for_readers_with_a_keyboard_only(service, new_page):
+    page = new_page(f"{service.url}/#/jobs")
+    page.get_by_role("heading", name="Jobs").wait_for()
+    outline = "getComputedStyle(document.querySelector('main')).outlineStyle"
+    # By an address.
+    page.evaluate("location.hash = '#/models'")
+    page.get_by_role("heading", name="Models").wait_for()
+    assert page.evaluate("document.activeElement.id") == "main" and page.evaluate(outline) == "none"
+    page.get_by_role("link", name="Skip to the content").focus()
+    page.keyboard.press("Enter")
+    assert page.evaluate("document.activeElement.id") == "main" and page.evaluate(outline) == "solid"
 
 
 def test_what_a_job_is_called_is_changed(service, model, new_page):
@@ -227,14 +287,15 @@ def test_an_answer_that_breaks_off_is_asked_for_again(service, swept, new_page):
 def test_a_form_keeps_what_was_filled_in_and_starts_nothing_else(service, model, new_page):
     before = len(service.call("GET", "/v1/jobs?limit=500")["jobs"])
     page = new_page(f"{service.url}/#/sweep?model={model}")
-    page.get_by_role("button", name="Add to engine order excitation").click()
+    page.get_by_text("Effects", exact=True).click()
+    page.get_by_role("button", name="Add to forces at engine orders").click()
     page.get_by_label("Plan").get_by_text("Reduction", exact=True).wait_for()
-    page.get_by_label("Count").first.fill("17")
+    page.get_by_label("Number of speeds").fill("17")
     page.get_by_role("link", name="Jobs").click()
     page.get_by_role("heading", name="Jobs").wait_for()
     page.go_back()
     page.get_by_text("This is what you had filled in here.").wait_for()
-    assert page.get_by_label("Count").first.input_value() == "17"
+    assert page.get_by_label("Number of speeds").input_value() == "17"
     page.get_by_text("The request as JSON").click()
     page.get_by_label("Request; the form follows").fill('{"model": ')
     page.get_by_role("button", name="Start").click()
@@ -242,7 +303,90 @@ def test_a_form_keeps_what_was_filled_in_and_starts_nothing_else(service, model,
     assert len(service.call("GET", "/v1/jobs?limit=500")["jobs"]) == before
     page.get_by_role("button", name="Begin anew").click()
     page.get_by_text("This is what you had filled in here.").wait_for(state="hidden")
-    assert page.get_by_label("Count").first.input_value() != "17"
+    assert page.get_by_label("Number of speeds").input_value() != "17"
+
+
+def test_a_form_says_beforehand_by_how_much_lobes_exceed_the_clearance(service, model, new_page):
+    page = new_page(f"{service.url}/#/sweep?model={model}")
+    told = page.get_by_role("group").get_by_role("status").first
+    page.get_by_label("At the leading edge").fill("0.5")
+    page.get_by_label("At the trailing edge").fill("0.4")
+    page.get_by_label("Height").fill("0.3")
+    page.get_by_text("leaves 0.1 mm of the clearance").wait_for()
+    page.get_by_label("Height").fill("0.44")
+    page.get_by_text("stands 0.04 mm farther in than the clearance (10 % of it)").wait_for()
+    page.get_by_label("Number of lobes").fill("")
+    page.get_by_text("The drawing needs clearance").wait_for()
+    assert told.count() == 1
+    assert page.get_by_role("img", name="Around the circumference").count() == 1
+
+
+def test_a_name_is_proposed_and_follows_until_one_is_written(service, model, new_page):
+    page = new_page(f"{service.url}/#/sweep?model={model}", expected=["422"])
+    name = page.get_by_label("Name", exact=True).last
+    page.get_by_label("At the leading edge").fill("0.31")
+    page.get_by_label("At the trailing edge").fill("0.31")
+    called = service.call("GET", f"/v1/models/{model}")["name"]
+    assert name.input_value().startswith(called) and "clearance 0.31 mm" in name.input_value()
+    page.get_by_label("To", exact=True).fill("20000")
+    assert "to 20,000 rpm" in name.input_value()
+    page.get_by_text("The request as JSON").click()
+    assert json.loads(page.get_by_label("Request; the form follows").input_value())["name"] == name.input_value()
+    name.fill("mine")
+    page.get_by_label("To", exact=True).fill("21000")
+    assert name.input_value() == "mine"
+
+
+def test_ranges_and_limits_are_asked_for_over_the_frequencies_of_the_model(service, swept, model, new_page):
+    page = new_page(f"{service.url}/#/sweep?model={model}", expected=["422"])
+    page.get_by_role("button", name="Compute").click()
+    page.locator(".crossing").first.wait_for(state="attached")
+    page.get_by_role("checkbox", name="Operating ranges").check()
+    first = page.get_by_role("group", name="Range 1")
+    first.get_by_label("Name").fill("Idle")
+    first.get_by_label("From").fill("15000")
+    first.get_by_label("To").fill("18000")
+    page.get_by_role("button", name="Another range").click()
+    page.get_by_role("group", name="Range 2").get_by_label("Name").fill("Full speed")
+    page.get_by_role("checkbox", name="Limits").check()
+    page.get_by_label("Motion of a tip").fill("0.5")
+    assert page.locator("rect.range").count() == 2
+    page.get_by_text("Idle: ").wait_for()
+    page.get_by_text("The request as JSON").click()
+    asked = json.loads(page.get_by_label("Request; the form follows").input_value())
+    assert [one["name"] for one in asked["operation"]["ranges"]] == ["Idle", "Full speed"]
+    assert asked["limits"]["tip_motion"] == 0.5 and asked["limits"]["clearance_consumption"] == 1
+
+
+def test_every_field_of_a_request_has_words(service, new_page):
+    """Names of the contract never stand alone, unless they are words."""
+    schemas = service.call("GET", "/openapi.json")["components"]["schemas"]
+
+    def resolved(schema):
+        while True:
+            ones = [one for one in schema.get("oneOf", schema.get("allOf", [])) if one.get("type") != "null"]
+            if "$ref" in schema:
+                schema = schemas[schema["$ref"].split("/")[-1]]
+            elif len(ones) == 1:
+                schema = ones[0]
+            else:
+                return schema
+
+    def pointers(schema, at=""):
+        schema = resolved(schema)
+        for name, part in schema.get("properties", {}).items():
+            yield f"{at}/{name}"
+            yield from pointers(part, f"{at}/{name}")
+        if "items" in schema:
+            yield from pointers(schema["items"], f"{at}/-")
+        for one in schema.get("oneOf", []):
+            yield from pointers(one, at)
+
+    kinds = ("Sweep", "ModalAnalysis", "Study", "CaseStudy", "Branches", "RunUp", "Campaign", "Impeller")
+    asked = sorted({pointer for kind in kinds for pointer in pointers(schemas[f"{kind}Request"])} - {"/model", "/preset"})
+    page = new_page(service.url)
+    lacking = page.evaluate("async (asked) => { const { wordsOf } = await import('/page/lib/form/words.js'); return asked.filter((one) => !wordsOf(one)); }", asked)
+    assert len(asked) > 200 and [one for one in lacking if "_" in one.rsplit("/", 1)[1]] == []
 
 
 def test_an_accuracy_gives_the_settings_back_in_whose_place_it_was(service, model, new_page):
@@ -271,8 +415,8 @@ def test_a_march_is_of_so_many_revolutions_or_until_it_repeats(service, model, n
     page.get_by_text("The request as JSON").click()
     text = page.get_by_label("Request; the form follows what you write")
     text.wait_for()
-    page.get_by_text("Settings", exact=True).click()
-    page.get_by_label("Integration", exact=True).check()
+    page.get_by_text("Accuracy", exact=True).first.click()
+    page.get_by_label("Time integration").check()
     field = page.get_by_label("Revolutions", exact=True)
     assert field.get_attribute("placeholder") == "until it repeats"
     for words, value in [("30", {"revolutions": 30}), ("until it repeats", {"revolutions": "auto"}), ("", {})]:
@@ -426,7 +570,7 @@ def test_a_wheel_is_run_up_seen_and_run_up_again(service, swept, model, new_page
     assert again == first
     page.get_by_role("link", name="As up, but").click()
     page.get_by_label("Rates").wait_for()
-    assert [page.get_by_label(name, exact=True).input_value() for name in ("Unit", "From", "To", "Rates", "Hold, s")] == ["rpm", "19000", "21000", "10000, 40000", "0.05"]
+    assert [page.get_by_label(name, exact=True).input_value() for name in ("Unit", "From", "To", "Rates", "Held before")] == ["rpm", "19000", "21000", "10000, 40000", "0.05"]
 
 
 def test_a_run_up_through_points_has_one_run(service, model, new_page):
@@ -476,6 +620,11 @@ def test_amplitudes_are_compared_in_one_unit(service, swept, new_page):
     page = new_page(f"{service.url}/#/compare?jobs={swept},{job}")
     page.get_by_text("amplitudes in mm").wait_for()
     page.locator(".figure .main-svg").first.wait_for()
+    apart = page.get_by_role("region", name="What differs in the requests")
+    row = apart.locator("tr", has_text="Casing › Lobes › Height")
+    # Both as they were asked for: no unit is said that is not that of both.
+    assert row.locator("td").all_inner_texts() == ["Casing › Lobes › Height", "0.425", "0.000425"]
+    assert apart.locator("tr", has_text="(m)").locator("td").first.inner_text() == "Model"
     levels = page.evaluate("document.querySelector('.figure').data.map((trace) => trace.y)")
     assert all(abs(a - b) < 1e-3 * max(levels[0]) for a, b in zip(*levels, strict=True))
 

@@ -149,12 +149,20 @@ def test_what_a_mesh_lacks_is_asked_for_at_its_form(service, decks, new_page):
     for name, value, unit in (("Young’s modulus", "113800", "N/mm²"), ("Poisson’s ratio", "0.342", "no unit"), ("Density", "4.43e-9", "t/mm³")):
         form.get_by_label(name).fill(value)
         assert unit in form.get_by_label(name).locator("..").inner_text()
+    # A fatigue strength is worth what its source is.
+    form.get_by_label("Yield strength").fill("828")
+    form.get_by_label("Fatigue strength", exact=True).fill("500")
+    make.click()
+    form.get_by_text("A fatigue strength names its source.").wait_for()
+    form.get_by_label("Source of the fatigue strength").fill("a test")
     form.get_by_label("Number of sectors").fill("10")
     form.get_by_label("Number of contact nodes").fill("7")
     form.get_by_label("Name", exact=True).fill("of a bare mesh")
     asked = posted(page, make.click)
     page.get_by_role("heading", name="of a bare mesh", level=1).wait_for(timeout=120_000)
-    assert settings(page, asked)["materials"] == {"*": {"youngs_modulus": 113800, "poissons_ratio": 0.342, "density": 4.43e-9}}
+    assert settings(page, asked)["materials"] == {
+        "*": {"youngs_modulus": 113800, "poissons_ratio": 0.342, "density": 4.43e-9, "yield_strength": 828, "fatigue_strength": {"amplitude": 500, "source": "a test"}}
+    }
     model = service.call("GET", f"/v1/models/{page.url.split('/models/')[1]}")
     assert model["contact_nodes"] == 7 and model["speeds_rad_s"][-1] == 3000
     assert page.get_by_role("region", name="Found in the mesh").get_by_text("sectors: 10 (as stated)").count() == 1

@@ -10,6 +10,7 @@ import { lengthIn, unitOf } from '../lib/units.js';
 import { difference } from './compare/difference.js';
 import { levels } from './compare/levels.js';
 import { measurement, overCampbell } from './compare/measured.js';
+import { requestsApart } from './compare/requests.js';
 import { analysisOf } from './job/campbell.js';
 import { sensorWords } from './job/choices.js';
 import { at, peakWords } from './job/critical.js';
@@ -116,9 +117,12 @@ async function compare(element, lost, { jobs, warnings }, signal) {
   const campbell = h('div', { class: 'figure tall' });
   const told = h('div');
   const unit = unitOf(jobs[0].map.sensor, jobs[0].map.units);
+  // Models may be gone; those of the list have names.
+  const { models } = await api.get('/v1/models', { query: { limit: LISTED }, signal });
   replace(element,
     lost, warnings.map((words) => h('p', { class: 'note warning', role: 'alert' }, words)),
     h('p', { class: 'quiet' }, `At the sensor ${sensorWords(jobs[0].map.sensor)}; amplitudes in ${unit}.`),
+    jobs.length > 1 ? [h('h2', {}, 'What differs in the requests'), requestsApart(jobs, models)] : null,
     h('h2', {}, 'Level over speed'), level, measuredForm(told, unit, show), told,
     jobs.length > 1 ? [h('h2', {}, 'Difference of the maps'), apartNote, apart] : null,
     h('h2', {}, 'Critical speeds'), criticalTable(jobs),

@@ -5,8 +5,10 @@ import { debounced, facts, h, newId, replace } from '../lib/dom.js';
 import { draftHere, draftNote } from '../lib/draft.js';
 import { ended, follow } from '../lib/events.js';
 import { form } from '../lib/form/form.js';
-import { bytes, nameOf, number } from '../lib/format.js';
+import { bytes, nameOf, number, speed } from '../lib/format.js';
+import { materialChoice } from '../lib/materials.js';
 import { problem } from '../lib/problem.js';
+import { sketch } from './generate/sketch.js';
 
 const PRESETS = {
   small: 'small: seconds; for trying out the program',
@@ -14,12 +16,18 @@ const PRESETS = {
   paper: 'paper: the size of the published example',
 };
 
-const GROUPS = [
-  { title: null, names: ['name', 'sectors', 'outlet_radius', 'inlet_tip_radius', 'axial_length', 'outlet_blade_height', 'contact_nodes', 'top_speed_rad_s', 'gyroscopic'] },
-  { title: 'Shape of hub and blade', names: ['bore_radius', 'inlet_hub_radius', 'rim_thickness', 'root_thickness', 'tip_thickness', 'wrap_deg', 'backsweep_deg', 'splitter'] },
-  { title: 'Material, mesh, units', names: ['material', 'element_order', 'mesh', 'units'] },
-  { title: 'Tags, notes', names: ['tags', 'notes'] },
-];
+/** Sections, the sketch above the shape and the alloys above the material. */
+function sections(picture, alloys) {
+  const shape = ['sectors', 'outlet_radius', 'inlet_tip_radius', 'inlet_hub_radius', 'bore_radius', 'axial_length', 'outlet_blade_height', 'rim_thickness', 'root_thickness', 'tip_thickness', 'wrap_deg', 'backsweep_deg', 'splitter'];
+  const at = (names) => names.map((name) => `/${name}`);
+  return [
+    { title: 'Shape', parts: at(shape), above: picture, open: true },
+    { title: 'Material', parts: ['/material'], above: alloys, open: true, state: ({ material }) => (material?.ultimate_strength && material?.fatigue_strength ? 'with strengths' : 'without strengths') },
+    { title: 'Speed and contact line', parts: at(['top_speed_rad_s', 'contact_nodes', 'gyroscopic']), open: true, state: (now) => `up to ${speed(now.top_speed_rad_s)}` },
+    { title: 'Mesh and units', parts: at(['element_order', 'mesh', 'units']), rest: [''], state: ({ units = {} }) => [units.length, units.force, units.time, units.mass].filter(Boolean).join(', ') },
+    { title: 'Name, tags, notes', parts: at(['name', 'tags', 'notes']), open: true, state: ({ name }) => name ?? '' },
+  ];
+}
 
 export async function show(main, { query }, signal) {
   const definitions = (await openapi()).components.schemas;
@@ -49,15 +57,24 @@ export async function show(main, { query }, signal) {
   const draft = draftHere();
   const kept = draft.kept();
   const value = kept ?? Object.fromEntries(Object.entries(whole.settings).filter(([, part]) => part !== null));
+  const picture = sketch();
+  const unitsOf = (now) => ({ ...whole.settings.units, ...now.units });
+  const alloys = materialChoice(() => unitsOf(made.value()), (material) => {
+    made.set({ ...made.value(), material });
+    changed(made.value());
+  });
+  const changed = (now) => {
+    draft.keep(now);
+    picture.show(now);
+    plan();
+  };
   const made = form({
     schema: { $ref: '#/components/schemas/ImpellerRequest' },
-    definitions, value, groups: GROUPS, skip: ['/preset'],
+    definitions, value, sections: sections(picture.element, alloys), units: unitsOf(value), skip: ['/preset'],
     initial: (pointer) => (pointer === '/splitter' ? {} : undefined),
-    onChange: (now) => {
-      draft.keep(now);
-      plan();
-    },
+    onChange: changed,
   });
+  picture.show(value);
   let asking = new AbortController();
   const plan = debounced(async () => {
     asking.abort();

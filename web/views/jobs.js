@@ -7,12 +7,15 @@ import { bytes, count, duration, KINDS, moment, nameOf, short } from '../lib/for
 import { cursorOf, placeWith } from '../lib/place.js';
 import { problem } from '../lib/problem.js';
 import { narrowing, searchField } from '../lib/search.js';
+import { verdictTag } from '../lib/verdict-tag.js';
 import { remaining, STATUSES } from './job.js';
 import { actions } from './job/actions.js';
 import { select } from './job/choices.js';
 
 /** Jobs of a page. */
 const LIMIT = 50;
+/** Models whose names are known. */
+const MODELS = 200;
 
 /** Milliseconds between two looks: while something runs, and otherwise, for jobs that others post. */
 const PACE = { running: 1500, calm: 10_000 };
@@ -36,6 +39,8 @@ export async function show(main, { query }, signal) {
   const shown = new Map();
   let pace = PACE.calm;
   const context = {
+    // Names of models by their ids, for jobs whose own do not say them.
+    models: new Map(),
     told,
     signal,
     refresh,
@@ -63,6 +68,7 @@ export async function show(main, { query }, signal) {
       cursor ? h('a', { class: 'button', href: placeWith('jobs', query, { cursor }) }, 'Older') : null);
   }
 
+  for (const { id, name } of (await api.get('/v1/models', { query: { limit: MODELS }, signal })).models) context.models.set(id, name);
   await refresh();
   poll(refresh, () => pace, signal).catch((error) => {
     if (!signal.aborted) replace(told, problem(error));
@@ -95,7 +101,7 @@ function update(list, shown, jobs, context) {
     const state = known ?? { item: h('li', { class: 'card' }), status: null, progress: h('div') };
     if (state.status !== job.status) row(state, job, context);
     state.status = job.status;
-    progress(state.progress, job);
+    progress(state.progress, job, context.models.get(job.model));
     if (before ? before.nextSibling !== state.item : list.firstChild !== state.item) {
       if (before) before.after(state.item);
       else list.prepend(state.item);
@@ -111,7 +117,7 @@ function row({ item, progress }, job, context) {
   replace(item,
     h('div', { class: 'row between' },
       h('span', {}, box, ' ', h('a', { href: `#/jobs/${job.id}` }, nameOf(job))),
-      h('span', { class: `tag ${{ successful: 'good', failed: 'bad' }[job.status] ?? ''}` }, STATUSES[job.status] ?? job.status)),
+      h('span', {}, verdictTag(job, context.signal), ' ', h('span', { class: `tag ${{ successful: 'good', failed: 'bad' }[job.status] ?? ''}` }, STATUSES[job.status] ?? job.status))),
     progress,
     h('div', { class: 'row' }, actions(job, { told: context.told, deleted: () => {
       context.choose(job.id, false);
@@ -119,8 +125,8 @@ function row({ item, progress }, job, context) {
     } }, context.signal)));
 }
 
-function progress(element, job) {
-  const what = [KINDS[job.kind], job.speeds ? count(job.speeds.total, 'speed') : null, (job.tags ?? []).map((tag) => `#${tag}`).join(' ')];
+function progress(element, job, model) {
+  const what = [KINDS[job.kind], model && !nameOf(job).includes(model) ? model : null, job.speeds ? count(job.speeds.total, 'speed') : null, (job.tags ?? []).map((tag) => `#${tag}`).join(' ')];
   if (ended(job)) {
     const bad = (job.speeds?.diverged ?? 0) + (job.speeds?.failed ?? 0);
     replace(element, h('p', { class: 'quiet small' }, [...what, moment(job.finished_at), bytes(job.stored_bytes)].filter(Boolean).join(' · '), bad > 0 ? h('span', { class: 'warn' }, ` · ${count(bad, 'speed')} without a result`) : null));

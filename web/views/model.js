@@ -6,6 +6,7 @@ import { bytes, moment, number, rpm, short } from '../lib/format.js';
 import { labelsButton } from '../lib/labels.js';
 import { again, placeWith } from '../lib/place.js';
 import { unread } from '../lib/problem.js';
+import { stiffeningNote } from './model/stiffening.js';
 import { deleteButton } from './models.js';
 
 /** What there is to see of a model; the first is shown when none is asked for. */
@@ -54,7 +55,7 @@ export async function show(main, { id, query }, signal) {
     ]),
     foundInMesh(model.found ?? []),
     (model.warnings ?? []).map((warning) => h('p', { class: 'note warning' }, warning)),
-    stiffening ? h('p', { class: `note ${stiffening.verdict === 'sound' ? '' : 'warning'}` }, stiffening.message) : null,
+    stiffening ? stiffeningNote(stiffening) : null,
     h('div', { class: 'row' },
       h('a', { class: 'button main', href: `#/sweep?model=${id}` }, 'New sweep'),
       h('a', { class: 'button', href: `#/study?model=${id}` }, 'New study'),

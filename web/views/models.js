@@ -41,9 +41,7 @@ function filter(query, go, signal) {
 }
 
 function introduction() {
-  return h('div', { class: 'note' },
-    h('p', {}, 'There is no model yet. A model is one sector of a wheel from your finite-element program: its mesh (Abaqus or CalculiX, Gmsh, Nastran, Ansys or VTK), from which the service assembles the matrices; or a zip with the mass matrix, the stiffness at one or three speeds, nodes, and the nodes at which the blade may touch the casing.'),
-    h('p', {}, 'To try the program without your own model, ', h('a', { href: '#/generate' }, 'generate an impeller'), ' in a few seconds.'));
+  return h('p', { class: 'note' }, 'There is no model yet: ', h('a', { href: '#/home' }, 'three ways to one'), '.');
 }
 
 function card(model, { told, read }, signal) {

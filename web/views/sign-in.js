@@ -6,7 +6,7 @@ import { problem } from '../lib/problem.js';
 import { signIn } from '../lib/session.js';
 
 export async function show(main, { query }, signal) {
-  const back = query.get('back') || '#/models';
+  const back = query.get('back') || '#/home';
   const told = h('div', { 'aria-live': 'polite' });
   const field = h('input', { id: 'token', type: 'password', autocomplete: 'off', required: true, size: '48' });
   const form = h('form', { on: { submit: enter } },
@@ -32,7 +32,7 @@ export async function show(main, { query }, signal) {
     try {
       await api.get('/v1/models', { query: { limit: 1 }, signal });
       // Only to a place of this page.
-      location.hash = back.startsWith('#/') ? back : '#/models';
+      location.hash = back.startsWith('#/') ? back : '#/home';
     } catch (error) {
       if (signal.aborted) return;
       const unknown = error instanceof Refusal && error.status === 401;

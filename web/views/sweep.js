@@ -2,19 +2,20 @@
 
 import { api } from '../lib/api.js';
 import { h, replace } from '../lib/dom.js';
-import { nameOf, percent } from '../lib/format.js';
+import { KINDS, nameOf } from '../lib/format.js';
 import { placeWith } from '../lib/place.js';
 import { select } from './job/choices.js';
 import { campaignOfModel } from './request/campaign.js';
 import { runUpsOfModel } from './request/run-up.js';
 import { chooseModel, requestForm } from './request/view.js';
-import { CLEARANCE, sceneOf, speedsOf } from './request/sensible.js';
+import { sceneOf, speedsOf } from './request/sensible.js';
 
 /** Kinds of jobs that are asked for by a form. */
 export const REQUESTS = {
   sweep: {
     words: 'Sweep: contact over a range of speeds', schema: 'SweepRequest', path: '/v1/sweeps', plan: '/v1/sweeps/plan', priced: true,
-    begin: (model) => ({ model: model.id, speeds: speedsOf(model), scene: sceneOf(model) }),
+    // Stress where there are elements to compute it in: whether a wheel bears its motion is asked of every one.
+    begin: (model) => ({ model: model.id, speeds: speedsOf(model), scene: sceneOf(model), ...(model.mesh && { record: { stress: {} } }) }),
   },
   modal_analysis: {
     words: 'Modal analysis: frequencies over speed', schema: 'ModalAnalysisRequest', path: '/v1/modal-analyses', plan: '/v1/modal-analyses/plan', priced: false,
@@ -64,7 +65,7 @@ export async function show(main, { query }, signal, first = 'sweep') {
   const name = query.get('kind') ?? first;
   const kind = REQUESTS[name] ?? REQUESTS.sweep;
   const go = (changes) => { location.hash = placeWith(first, query, changes); };
-  replace(main, h('h1', {}, first === 'study' ? 'New study' : 'New sweep'),
+  replace(main, h('h1', {}, `New ${KINDS[name in REQUESTS ? name : 'sweep'].toLowerCase()}`),
     h('div', { class: 'row' }, select('Kind of job', Object.entries(REQUESTS).map(([key, one]) => [key, one.words]), name, (chosen) => go({ kind: chosen }))),
     place);
   if (!query.has('model')) {
@@ -72,6 +73,6 @@ export async function show(main, { query }, signal, first = 'sweep') {
     return;
   }
   const model = await api.get(`/v1/models/${query.get('model')}`, { signal });
-  const words = `Model: ${model.name}. Speeds and casing are scaled to it (clearance ${percent(CLEARANCE)} of the tips’ radius); change them as needed. Lengths are in ${model.units.length}.`;
+  const words = `Model: ${model.name}. Speeds and casing begin with what suits its size: change them to those of your machine.`;
   await requestForm(place, { model, kind, value: kind.begin(model), words }, signal);
 }

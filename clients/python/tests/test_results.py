@@ -148,6 +148,16 @@ def test_modes_and_campbell_agree(client: rubmap.Client, swept: rubmap.Sweep, mo
     crossings = analysis.crossings()
     assert {"speed_rad_s", "frequency_hz", "nodal_diameter"} <= set(crossings.columns)
     plot.campbell(campbell, lobes=2, crossings=crossings)
+    assert (campbell["rank"].sel(speed=0.0) == campbell["family"]).all() and (campbell["assurance"] > 0.0).all()
+    assert {"speed_rpm", "distance_hz", "course"} <= set(analysis.veerings().columns)
+    interference = analysis.interference(speed_rpm=26000, range_rpm=(20000, 22000))
+    top = campbell["frequency"].isel(speed=-1)
+    places = zip(interference["nodal_diameter"], interference["family"], strict=True)
+    expected = [float(top.sel(nodal_diameter=diameter, family=family)) for diameter, family in places]
+    np.testing.assert_allclose(interference["frequency_hz"], expected, rtol=1e-12)
+    np.testing.assert_allclose(interference.attrs["speed_rpm"], 26000)
+    assert interference.attrs["engine_orders"]["nodal_diameter"][:2] == [1, 2]
+    plot.interference(interference)
     assert 3 in {reduction["modes_per_speed"] for reduction in model.reductions}
     mesh = model.mesh(sector=0)
     assert mesh["position"].shape == (len(mesh["node"]), 3) and (mesh["contact"] > 0).sum() == 10

@@ -97,6 +97,13 @@ fn sweep(plan: &SweepPlan) -> String {
             let _ = writeln!(words, "not         {:.2} rad/s: {message}", point.speed_rad_s);
         }
     }
+    let inside = plan.points.iter().filter_map(|point| point.interference).reduce(f64::max);
+    if let Some(inside) = inside {
+        let _ = writeln!(
+            words,
+            "casing      at most {inside:.3e} inside the tips at rest, in the model's unit of length"
+        );
+    }
     for sensor in &plan.placed_sensors {
         let _ = writeln!(words, "sensor {:<4} node {} at {:?}", sensor.sensor, sensor.node, sensor.position);
     }

@@ -1,21 +1,22 @@
 // Fields of a form for values that have no parts.
 
 import { h, newId } from '../dom.js';
-import { help, label, range } from './schema.js';
+import { help, label, withRange } from './schema.js';
 
-/** A field with its label, its help and a place for what is wrong with it. */
-export function field(name, schema, control, { extra, words } = {}) {
+/** A field with its label, its unit, its help and a place for what is wrong with it. */
+export function field(name, schema, control, { extra, words, title, unit } = {}) {
   const id = newId('field');
-  const [helpId, errorId] = [`${id}-help`, `${id}-error`];
+  const errorId = `${id}-error`;
   control.id = id;
-  const text = [words ?? help(schema), range(schema)].filter(Boolean).join(' — ');
-  if (text) control.setAttribute('aria-describedby', `${helpId} ${errorId}`);
-  else control.setAttribute('aria-describedby', errorId);
+  const text = withRange(words ?? help(schema), schema);
+  const told = text ? h('div', { class: 'help', id: `${id}-help` }, text) : null;
+  const measured = unit ? h('span', { class: 'unit', id: `${id}-unit` }, unit) : null;
+  control.setAttribute('aria-describedby', [measured?.id, told?.id, errorId].filter(Boolean).join(' '));
   const error = h('div', { class: 'error', id: errorId });
-  const heading = h('label', { for: id }, label(name));
+  const heading = h('label', { for: id }, title ?? label(name));
   const element = control.type === 'checkbox'
-    ? h('div', { class: 'field' }, h('div', { class: 'row' }, control, heading, extra), h('div', { class: 'help', id: helpId }, text), error)
-    : h('div', { class: 'field' }, heading, h('div', { class: 'help', id: helpId }, text), h('div', { class: 'row' }, control, extra), error);
+    ? h('div', { class: 'field' }, h('div', { class: 'row' }, control, heading, extra), told, error)
+    : h('div', { class: 'field' }, heading, h('div', { class: 'row' }, control, measured, extra), told, error);
   return {
     element,
     control,
@@ -39,6 +40,9 @@ function readNumber(text) {
 /** What `"auto"` means of a field, where other words say it better. */
 const AUTO = { revolutions: 'until it repeats' };
 
+/** Words of a contract that are no words. */
+const OPTIONS = { rad_s: 'rad/s', hz: 'Hz', running: 'at speed', cold: 'cold, at rest' };
+
 /**
  * The control of a value without parts, what stands beside it, and how it is read: `undefined` means that it is left out.
  * @returns {{control: any, beside?: any, read: () => any} | null}
@@ -56,7 +60,7 @@ export function control(kind, schema, value, required, name) {
     }
     case 'word': {
       const options = required ? schema.enum : ['', ...schema.enum];
-      const list = h('select', { value: value ?? schema.default ?? '' }, options.map((one) => h('option', { value: one }, one === '' ? 'default' : String(one).replaceAll('_', ' '))));
+      const list = h('select', { value: value ?? schema.default ?? '' }, options.map((one) => h('option', { value: one }, one === '' ? 'default' : OPTIONS[one] ?? String(one).replaceAll('_', ' '))));
       return { control: list, read: () => (list.value === '' ? undefined : list.value) };
     }
     case 'number': {

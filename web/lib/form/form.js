@@ -3,14 +3,21 @@
 import { h, replace } from '../dom.js';
 import { control, field } from './fields.js';
 import { completed, fits, help, kindOf, label, resolve } from './schema.js';
+import { ordered, unitIn, wordsOf } from './words.js';
+
+/**
+ * A section of a form: the parts at its pointers, then those at the places in `rest` that no section names; `groups` are under headings of their own.
+ * @typedef {{title: string, parts?: string[], rest?: string[], groups?: {title: string, parts: string[], rest?: string[]}[], above?: Node | null, below?: Node | null, state?: (value: any) => string,
+ *   open?: boolean}} Section
+ */
 
 /**
  * A form.
  * @param {{schema: any, definitions: Record<string, any>, value: any, onChange: (value: any) => void,
- *   groups: {title: string | null, names: string[], open?: boolean}[], skip?: string[], initial?: (pointer: string) => any,
- *   beside?: (pointer: string) => Node | null, open?: string[]}} what
- *   `groups` says in which order properties stand, `skip` has pointers that are asked elsewhere, `initial` says what a part begins with that is switched on, `beside` what stands
- *   beside a switch, `open` the pointers of parts that are open at first.
+ *   sections: Section[], units?: any, rare?: Record<string, [string, string[]]>, skip?: string[], initial?: (pointer: string) => any,
+ *   beside?: (pointer: string) => Node | null}} what
+ *   `sections` says in which order parts stand, `units` are those of the model, `rare` has by pointers the fields that few need, closed under a title, `skip` pointers that are asked
+ *   elsewhere, `initial` says what a part begins with that is switched on, `beside` what stands beside a switch.
  */
 export function form(what) {
   const context = { ...what, value: null, places: new Map() };
@@ -18,7 +25,10 @@ export function form(what) {
   function set(value) {
     context.value = completed(value, what.schema, what.definitions);
     context.places.clear();
-    replace(element, groups(context, resolve(what.schema, what.definitions)));
+    context.states = [];
+    const opened = [...element.children].map((one) => one.tagName === 'DETAILS' && one.open);
+    replace(element, sections(context, resolve(what.schema, what.definitions), opened));
+    tellStates(context);
   }
   set(what.value);
   return {
@@ -26,6 +36,13 @@ export function form(what) {
     value: () => context.value,
     /** Shows another value. */
     set,
+    /** Writes a text into a field as if by hand, without a word to `onChange`. */
+    write(pointer, text) {
+      const place = context.places.get(pointer);
+      if (!place) return;
+      place.control.value = text;
+      context.value = { ...context.value, [pointer.slice(1)]: text };
+    },
     /** Says at each field what the service finds wrong there; returns those errors that have no field. */
     complain(errors, focus) {
       for (const place of context.places.values()) place.complain(null);
@@ -80,28 +97,58 @@ function put(context, pointer, value) {
     parent[last] = value;
   }
   context.value = completed(copy, context.schema, context.definitions);
+  tellStates(context);
   context.onChange(context.value);
 }
 
-/** The properties of the whole in groups; those that no group names are in the last. */
-function groups(context, schema) {
-  const named = new Set(context.groups.flatMap(({ names }) => names));
-  const rest = Object.keys(schema.properties).filter((name) => !named.has(name));
-  return context.groups.map(({ title, names, open }, index) => {
-    const all = index === context.groups.length - 1 ? [...names, ...rest] : names;
-    const shown = parts(context, schema, '', all);
-    if (shown.length === 0) return null;
-    const fields = h('div', { class: 'fields' }, shown);
-    return title ? h('details', { open }, h('summary', {}, title), fields) : fields;
+/** Says beside the titles of sections what is in them. */
+function tellStates(context) {
+  for (const { place, state } of context.states) place.textContent = state(context.value);
+}
+
+/** The form in its sections; those that are made anew stay as open as they were. */
+function sections(context, schema, opened) {
+  const all = context.sections.flatMap((section) => [section, ...(section.groups ?? [])]);
+  const named = new Set([...all.flatMap((one) => one.parts ?? []), ...all.flatMap((one) => one.rest ?? [])]);
+  const schemaAt = (pointer) => words(pointer).reduce((at, word) => resolve(at.properties?.[word] ?? {}, context.definitions), schema);
+  const has = (pointer) => schemaAt(pointer).properties ?? {};
+  const parent = (pointer) => pointer.slice(0, pointer.lastIndexOf('/'));
+  const fieldsOf = ({ parts: own = [], rest = [] }) => {
+    const others = rest.flatMap((at) => ordered(Object.keys(has(at)), at).map((name) => `${at}/${name}`).filter((pointer) => !named.has(pointer)));
+    const places = [...own, ...others].filter((pointer) => pointer.split('/').at(-1) in has(parent(pointer)));
+    return places.flatMap((pointer) => parts(context, schemaAt(parent(pointer)), parent(pointer), [pointer.split('/').at(-1)]));
+  };
+  return context.sections.map((section, k) => {
+    const fields = fieldsOf(section);
+    const groups = (section.groups ?? []).map((one) => [one.title, fieldsOf(one)]).filter(([, shown]) => shown.length > 0);
+    if (fields.length === 0 && groups.length === 0) return h('div');
+    const place = h('span', { class: 'state' });
+    if (section.state) context.states.push({ place, state: section.state });
+    return h('details', { class: 'section', open: opened[k] ?? section.open }, h('summary', {}, h('span', {}, section.title), ' ', place),
+      section.above, h('div', { class: 'fields' }, fields),
+      groups.map(([title, shown]) => [h('h3', {}, title), h('div', { class: 'fields switches' }, shown)]),
+      section.below);
   });
 }
 
-/** Fields of the properties of an object, of all or of these. */
-function parts(context, schema, pointer, names = Object.keys(schema.properties ?? {})) {
+/** Fields of the properties of an object, of all or of these; those that few need are closed. */
+function parts(context, schema, pointer, names = ordered(Object.keys(schema.properties ?? {}), pointer)) {
   const required = new Set(schema.required ?? []);
-  return names
-    .filter((name) => schema.properties[name] && !(context.skip ?? []).includes(`${pointer}/${name}`))
-    .map((name) => part(context, resolve(schema.properties[name], context.definitions), `${pointer}/${name}`, name, required.has(name)));
+  const [title, few] = context.rare?.[pointer.replace(/\/\d+/g, '/-')] ?? [null, []];
+  const made = (name) => part(context, resolve(schema.properties[name], context.definitions), `${pointer}/${name}`, name, required.has(name));
+  const shown = names.filter((name) => schema.properties[name] && !(context.skip ?? []).includes(`${pointer}/${name}`));
+  const hidden = shown.filter((name) => few.includes(name));
+  const isGiven = (name) => get(context, `${pointer}/${name}`) !== undefined;
+  return [
+    ...shown.filter((name) => !few.includes(name)).map(made),
+    ...(hidden.length > 0 ? [h('details', { class: 'rare', open: hidden.some(isGiven) }, h('summary', {}, title), h('div', { class: 'fields' }, hidden.map(made)))] : []),
+  ];
+}
+
+/** Label, help and unit of a field. */
+function saying(context, pointer, name) {
+  const [title, unit, text] = wordsOf(pointer) ?? [];
+  return { title: title ?? label(name), unit: unit ? unitIn(unit, context.units) : '', words: text };
 }
 
 function part(context, whole, pointer, name, required) {
@@ -112,12 +159,14 @@ function part(context, whole, pointer, name, required) {
   if (kind === 'list') return list(context, schema, pointer, name);
   if (kind === 'json') return json(context, schema, pointer, name);
   const made = control(kind, schema, get(context, pointer), required, name);
-  const shown = field(name, schema, made.control, { extra: [made.beside, context.beside?.(pointer)] });
+  const shown = field(name, schema, made.control, { ...saying(context, pointer, name), extra: [made.beside, context.beside?.(pointer)] });
   made.control.addEventListener(kind === 'switch' || kind === 'word' ? 'change' : 'input', () => {
     shown.complain(null);
     put(context, pointer, made.read());
   });
   context.places.set(pointer, shown);
+  if (kind === 'switch' && pointer.startsWith('/scene/')) shown.element.classList.add('switched');
+  if (pointer === '/name' || name === 'source') shown.element.classList.add('wide');
   return shown.element;
 }
 
@@ -132,35 +181,35 @@ function one(context, schema, pointer) {
 /** An object: a group of fields; one that may be left out has a switch. */
 function object(context, schema, pointer, name, required) {
   const body = h('div');
+  const { title, words: text } = saying(context, pointer, name);
   const empty = Object.keys(schema.properties ?? {}).length === 0;
   const fill = () => replace(body, get(context, pointer) === undefined || get(context, pointer) === null ? null : h('div', { class: 'fields' }, parts(context, schema, pointer)));
   if (required) {
     fill();
     const error = h('div', { class: 'error', role: 'alert' });
     context.places.set(pointer, { control: error, complain: (message) => { error.textContent = message ?? ''; } });
-    return group(context, pointer, name, h('div', {}, error, body));
+    return h('fieldset', {}, h('legend', {}, title), text ? h('p', { class: 'help quiet small' }, text) : null, error, body);
   }
   const box = h('input', { type: 'checkbox', checked: get(context, pointer) !== undefined && get(context, pointer) !== null });
-  const shown = field(name, schema, box, { extra: context.beside?.(pointer), words: help(schema) });
+  const shown = field(name, schema, box, { title, extra: context.beside?.(pointer), words: text ?? help(schema) });
   box.addEventListener('change', () => {
     put(context, pointer, box.checked ? structuredClone(context.initial?.(pointer) ?? {}) : undefined);
     fill();
   });
   context.places.set(pointer, shown);
   fill();
-  return empty ? shown.element : h('fieldset', {}, h('legend', { class: 'visually-hidden' }, label(name)), shown.element, body);
-}
-
-function group(context, pointer, name, body) {
-  if (pointer.split('/').length > 2) return h('fieldset', {}, h('legend', {}, label(name)), body);
-  return h('details', { open: (context.open ?? []).includes(pointer) }, h('summary', {}, label(name)), body);
+  if (empty) shown.element.classList.add('switched');
+  return empty ? shown.element : h('fieldset', { class: 'switched' }, h('legend', { class: 'visually-hidden' }, title), shown.element, body);
 }
 
 /** A list of objects, which can grow and shrink. */
 function list(context, schema, pointer, name) {
   const items = resolve(schema.items, context.definitions);
   const body = h('div');
-  const more = h('button', { type: 'button' }, `Add to ${label(name).toLowerCase()}`);
+  const { title, words: text } = saying(context, pointer, name);
+  // A list that its part is about needs no frame of its own.
+  const bare = text === '';
+  const more = h('button', { type: 'button' }, `${bare ? 'Another' : 'Add to'} ${title.toLowerCase()}`);
   const fill = () => {
     replace(body, (get(context, pointer) ?? []).map((_, index) => {
       const at = `${pointer}/${index}`;
@@ -171,7 +220,7 @@ function list(context, schema, pointer, name) {
         fill();
         more.focus();
       });
-      return h('fieldset', {}, h('legend', {}, `${label(name)} ${index + 1}`), h('div', { class: 'fields' }, parts(context, items, at)), remove);
+      return h('fieldset', {}, h('legend', {}, `${title} ${index + 1}`), h('div', { class: 'fields' }, parts(context, items, at)), remove);
     }));
   };
   more.addEventListener('click', () => {
@@ -182,14 +231,16 @@ function list(context, schema, pointer, name) {
   const error = h('div', { class: 'error' });
   context.places.set(pointer, { control: more, complain: (message) => { error.textContent = message ?? ''; } });
   fill();
-  return h('fieldset', {}, h('legend', {}, label(name), ' ', context.beside?.(pointer)), h('p', { class: 'help quiet small' }, help(schema)), error, body, more);
+  const told = text ?? help(schema);
+  if (bare) return h('div', { class: 'wide' }, error, body, more);
+  return h('fieldset', { class: 'switched' }, h('legend', {}, title, ' ', context.beside?.(pointer)), told ? h('p', { class: 'help quiet small' }, told) : null, error, body, more);
 }
 
 /** What has no fields of its own, as JSON; what is none goes as a text, which the service refuses where the contract has none. */
 function json(context, schema, pointer, name) {
   const value = get(context, pointer);
   const text = h('textarea', { rows: 3, spellcheck: 'false', value: value === undefined ? '' : JSON.stringify(value) });
-  const shown = field(name, schema, text);
+  const shown = field(name, schema, text, saying(context, pointer, name));
   text.addEventListener('input', () => {
     const words = text.value.trim();
     shown.complain(null);

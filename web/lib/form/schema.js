@@ -75,14 +75,10 @@ export function completed(value, schema, definitions) {
   return whole;
 }
 
-const UNITS = [['_rad_s', 'rad/s'], ['_rad', 'rad'], ['_deg', 'degrees'], ['_hz', 'Hz'], ['_seconds', 's'], ['_s', 's']];
-
-/** The name of a field in words, with the unit that it ends with. */
+/** The name of a field in words. */
 export function label(name) {
-  const found = UNITS.find(([ending]) => name.endsWith(ending) && name !== ending.slice(1));
-  const words = (found ? name.slice(0, -found[0].length) : name).replaceAll('_', ' ');
-  const text = words.charAt(0).toUpperCase() + words.slice(1);
-  return found ? `${text}, ${found[1]}` : text;
+  const words = name.replaceAll('_', ' ');
+  return words.charAt(0).toUpperCase() + words.slice(1);
 }
 
 /** The first sentence of a description; all of it is in the contract. */
@@ -92,9 +88,12 @@ export function help(schema) {
   return end > 0 && text.length > 160 ? text.slice(0, end + 1) : text;
 }
 
-/** What a number may be, in words. */
-export function range(schema) {
-  const low = schema.exclusiveMinimum !== undefined ? `above ${schema.exclusiveMinimum}` : schema.minimum !== undefined ? `at least ${schema.minimum}` : null;
-  const high = schema.exclusiveMaximum !== undefined ? `below ${schema.exclusiveMaximum}` : schema.maximum !== undefined ? `at most ${schema.maximum}` : null;
-  return [low, high].filter(Boolean).join(', ');
+/** A help with what a number may be, where it does not say that already. */
+export function withRange(text, schema) {
+  const { exclusiveMinimum: above, minimum: least, exclusiveMaximum: below, maximum: most } = schema;
+  // That a length is above 0 and a count at least 1 needs no word.
+  const low = above ? `above ${above}` : least > 1 || least < 0 ? `at least ${least}` : null;
+  const high = below !== undefined ? `below ${below}` : most < 100 ? `at most ${most}` : null;
+  const limits = [low, high].filter((one) => one && !text.includes(one)).join(', ');
+  return limits ? `${text} ${limits.charAt(0).toUpperCase()}${limits.slice(1)}.`.trim() : text;
 }

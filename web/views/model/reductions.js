@@ -3,6 +3,7 @@
 import { h, replace } from '../../lib/dom.js';
 import { duration, number, percent, speed } from '../../lib/format.js';
 import { table } from '../../lib/table.js';
+import { stiffeningNote } from './stiffening.js';
 
 export function show(place, { model }) {
   if (model.reductions.length === 0) {
@@ -10,12 +11,12 @@ export function show(place, { model }) {
     return;
   }
   replace(place, model.reductions.map((reduction) => {
-    const indefinite = reduction.full_model.filter((at) => at.indefinite.length > 0);
+    const indefinite = reduction.full_model.some((at) => at.indefinite.length > 0);
     return h('article', { class: 'card' },
       h('h2', {}, `${reduction.modes_per_speed} modes per speed`),
       h('p', {}, `${reduction.wheel_unknowns} unknowns of the wheel; ${reduction.counted_modes} of ${reduction.modes} fixed-interface modes proven to be the lowest by a count of eigenvalues; `
         + `largest residual ${number(reduction.largest_mode_residual, 2)}. Computed in ${duration(reduction.wall_time_s)} by version ${reduction.version}.`),
-      h('p', { class: `note ${reduction.stiffening.verdict === 'sound' && indefinite.length === 0 ? '' : 'warning'}` }, reduction.stiffening.message),
+      stiffeningNote(reduction.stiffening, indefinite),
       table({
         caption: 'Reduced and full model',
         rows: reduction.full_model,

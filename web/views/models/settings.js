@@ -2,6 +2,8 @@
 
 import { h, newId } from '../../lib/dom.js';
 import { control, field } from '../../lib/form/fields.js';
+import { unitIn } from '../../lib/form/words.js';
+import { materialChoice } from '../../lib/materials.js';
 import { OF_SPEED } from '../../lib/units.js';
 import { unitSystem } from './unit-system.js';
 
@@ -22,11 +24,15 @@ const WORDS = {
   contact_set: '“Node set of the blade’s tip”', temperatures: '“Temperature”',
 };
 
+/** Fields of a material that belong together, and those that may be left out. */
+const MATERIAL = ['modulus', 'ratio', 'density'];
+const STRENGTHS = ['yields', 'ultimate', 'fatigue', 'source'];
+
 /** One field: `words` is its help, `rule` what its value must be, `unit` stands beside it. */
 function one(name, kind, words, { value, rule, unit = '', extra } = {}) {
   const made = control(kind, {}, value, false, name);
   if (kind === 'numbers') made.control.size = 16;
-  const beside = h('span', { id: newId('unit') }, unit);
+  const beside = h('span', { class: 'unit', id: newId('unit') }, unit);
   const shown = field(name, {}, made.control, { words, extra: [beside, extra] });
   made.control.setAttribute('aria-describedby', `${beside.id} ${made.control.getAttribute('aria-describedby')}`);
   made.control.addEventListener('input', () => shown.complain(null));
@@ -63,19 +69,31 @@ export function settingsFields(name) {
     modulus: one('Young’s modulus E', 'number', '', { rule: POSITIVE }),
     ratio: one('Poisson’s ratio ν', 'number', '', { rule: RATIO, unit: 'no unit' }),
     density: one('Density ρ', 'number', '', { rule: POSITIVE }),
+    yields: one('Yield strength', 'number', '', { rule: POSITIVE }),
+    ultimate: one('Ultimate strength', 'number', '', { rule: POSITIVE }),
+    fatigue: one('Fatigue strength', 'number', 'Amplitude of a fully reversed stress.', { rule: POSITIVE }),
+    source: one('Source of the fatigue strength', 'text', 'Standard or test, number of cycles, surface, temperature.'),
     point: one('Point on the axis', 'numbers', 'Left out: the origin.', { rule: PLACE }),
     direction: one('Direction of the axis', 'numbers', 'Left out: as the file says, or else x, y or z through the origin, whichever fits.', { rule: PLACE, unit: 'any length' }),
     temperature: one('Temperature', 'number', 'At which the wheel runs; only where the file has a material at several temperatures.', { rule: ANY, unit: 'as in the file' }),
   };
   const units = unitSystem(beside);
   beside(units.read());
-  const { name: called, speed, sectors, clamp, contact, clampAt, contactAt, between, nodes, modulus, ratio, density, point, direction, temperature } = fields;
+  const alloys = materialChoice(() => units.read(), ({ youngs_modulus: modulus, poissons_ratio: ratio, density, yield_strength: yields, ultimate_strength: ultimate, fatigue_strength: { amplitude: fatigue, source } }) => {
+    for (const [key, text] of Object.entries({ modulus, ratio, density, yields, ultimate, fatigue, source })) {
+      fields[key].control.value = text;
+      fields[key].complain(null);
+    }
+  });
+  fields.source.element.classList.add('wide');
+  const { name: called, speed, sectors, clamp, contact, clampAt, contactAt, between, nodes, point, direction, temperature } = fields;
   const more = h('details', {}, h('summary', {}, 'Axis of rotation, temperature'), h('div', { class: 'fields' }, [point, direction, temperature].map(({ element }) => element)));
   const element = h('div', {},
     h('div', { class: 'fields' }, [speed, called, sectors, clamp, contact, clampAt, contactAt, between, nodes, units].map((each) => each.element), units.others),
     h('fieldset', {}, h('legend', {}, 'Material'),
-      h('p', { class: 'quiet small' }, 'Left out: that of the file. What is given here replaces it for all elements (*).'),
-      h('div', { class: 'fields' }, [modulus, ratio, density].map((each) => each.element))),
+      h('p', { class: 'quiet small' }, 'Left out: that of the file, which has no strengths. What is given here replaces it for all elements (*); without strengths there is no utilisation.'),
+      alloys,
+      h('div', { class: 'fields' }, [...MATERIAL, ...STRENGTHS].map((key) => fields[key].element))),
     more);
   const choice = { clamp, contact, clampAt, contactAt, between };
   return { element, read, seen, chosen, choose, words, rename, focus: () => speed.control.focus() };
@@ -83,7 +101,7 @@ export function settingsFields(name) {
   /** Settings for a look at the mesh: those that are right so far. */
   function seen() {
     const is = Object.fromEntries(Object.entries(fields).map(([key, each]) => [key, each.peek()]));
-    const whole = ['modulus', 'ratio', 'density'].every((key) => is[key] !== undefined);
+    const whole = MATERIAL.every((key) => is[key] !== undefined);
     return { ...settingsOf(is, whole), top_speed_rad_s: undefined };
   }
 
@@ -101,19 +119,19 @@ export function settingsFields(name) {
   }
 
   /** Units beside the fields that have some. */
-  function beside({ length, force, mass }) {
-    fields.modulus.unit.textContent = `${over(force)}/${over(length)}²`;
-    fields.density.unit.textContent = `${over(mass)}/${over(length)}³`;
-    fields.point.unit.textContent = length;
+  function beside(now) {
+    for (const key of ['modulus', 'yields', 'ultimate', 'fatigue']) fields[key].unit.textContent = unitIn('F/L²', now);
+    fields.density.unit.textContent = unitIn('M/L³', now);
+    fields.point.unit.textContent = now.length;
   }
 
   /** Name and settings, or nothing where a field must be corrected: the first of them has the focus then. */
   function read() {
     const is = Object.fromEntries(Object.entries(fields).map(([key, each]) => [key, each.read()]));
     if (is.speed === undefined) speed.complain('The top speed is needed.');
-    const material = ['modulus', 'ratio', 'density'];
-    const given = material.filter((key) => is[key] !== undefined);
-    if (given.length > 0) material.filter((key) => is[key] === undefined).forEach((key) => fields[key].complain('Give all three, or none.'));
+    const given = [...MATERIAL, ...STRENGTHS].filter((key) => is[key] !== undefined);
+    if (given.length > 0) MATERIAL.filter((key) => is[key] === undefined).forEach((key) => fields[key].complain('Give all three, or none.'));
+    if (is.fatigue !== undefined && !is.source?.trim()) fields.source.complain('A fatigue strength names its source.');
     if (is.point !== undefined && is.direction === undefined) direction.complain('An axis has a direction, too.');
     const wrong = Object.values(fields).find((each) => each.control.getAttribute('aria-invalid') === 'true');
     if (wrong) {
@@ -136,7 +154,7 @@ export function settingsFields(name) {
       contact_at: is.contactAt,
       contact_between: is.between,
       contact_nodes: is.nodes,
-      materials: withMaterial ? { '*': { youngs_modulus: is.modulus, poissons_ratio: is.ratio, density: is.density } } : undefined,
+      materials: withMaterial ? { '*': materialOf(is) } : undefined,
       axis: is.direction && { origin: is.point ?? [0, 0, 0], direction: is.direction },
       temperatures: is.temperature === undefined ? undefined : { '*': is.temperature },
     };
@@ -149,9 +167,12 @@ export function settingsFields(name) {
   }
 }
 
-/** A unit that others are divided by or that is divided, in brackets where it is more than a word. */
-function over(unit) {
-  return /[/·*^ ]/.test(unit) ? `(${unit})` : unit;
+/** The material of the fields, with those strengths that are given. */
+function materialOf({ modulus, ratio, density, yields, ultimate, fatigue, source }) {
+  return {
+    youngs_modulus: modulus, poissons_ratio: ratio, density, yield_strength: yields, ultimate_strength: ultimate,
+    fatigue_strength: fatigue === undefined ? undefined : { amplitude: fatigue, source: source?.trim() },
+  };
 }
 
 /** A message of the service with the names of fields in place of those of settings. */

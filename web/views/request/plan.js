@@ -3,6 +3,7 @@
 import { api, Refusal } from '../../lib/api.js';
 import { debounced, facts, h, replace } from '../../lib/dom.js';
 import { bytes, count, duration, number, rate } from '../../lib/format.js';
+import { wordsOf } from '../../lib/form/words.js';
 import { unread } from '../../lib/problem.js';
 
 /** How long nothing must change before the plan is asked for. */
@@ -78,14 +79,15 @@ function shown(whole) {
   const plan = { ...whole.scene, ...whole };
   const { estimate } = plan;
   const scheme = (plan.point ?? plan.points?.[0] ?? plan.runs?.[0])?.scheme;
-  const off = (plan.effects ?? []).filter((effect) => !effect.on).map((effect) => effect.name.replaceAll('_', ' '));
+  const off = (plan.effects ?? []).filter((effect) => !effect.on).map(({ name }) => (wordsOf(`/scene/${name}`)?.[0] ?? name).toLowerCase());
+  const [time, computing] = [estimate?.wall_time_s, estimate?.computing_time_s].map((range) => between(range, duration));
   return [
     // What keeps one run from being integrated keeps others, too.
     [...new Set([plan.point, ...(plan.runs ?? [])].map((one) => one?.message))].filter(Boolean).map((text) => h('p', { class: 'note warning' }, text)),
     [...(plan.warnings ?? []), ...(plan.compared?.warnings ?? [])].map((text) => h('p', { class: 'note warning' }, text)),
     facts([
-      ['Time', estimate ? between(estimate.wall_time_s, duration) : null],
-      ['Computing time', estimate ? between(estimate.computing_time_s, duration) : null],
+      ['Time', time?.includes(' to ') ? `${time}: the more contact, the longer` : time],
+      ['Computing time', computing === time ? null : computing],
       ['Designs', plan.designs_at_most > plan.designs ? `${plan.designs}, at most ${plan.designs_at_most}` : plan.designs],
       ['Speeds', plan.speeds],
       ['Runs', runs(plan.runs)],

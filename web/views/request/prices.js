@@ -48,7 +48,7 @@ export function prices(path, model, signal) {
         // A scene that makes no sense with it, or without it, has no price.
         if (own.aborted) return;
       }
-      const said = words ? `${effect.on ? '' : 'would cost '}${words}` : effect.adds ?? '';
+      const said = words ? `${effect.on ? 'takes' : 'would take'} ${words}` : '';
       place.hidden = said === '';
       replace(place, said);
       place.title = effect.adds ?? '';
@@ -78,10 +78,11 @@ function changed(request, { name, on }, model) {
   return other;
 }
 
-/** A share of the time, with its sign. */
+/** Least share of the time that is told: plans differ by less from one moment to the next. */
+const TOLD = 0.05;
+
+/** How much longer a job takes with an effect, in words; nothing where that is not sure. */
 function share(part) {
-  const percent = 100 * part;
-  if (Math.abs(percent) < 0.5) return 'no time';
-  if (part > 2) return `${number(1 + part, 2)} times the time`;
-  return `${percent > 0 ? '+' : '−'}${number(Math.abs(percent), 2)} % time`;
+  if (part > 2) return `about ${number(1 + part, 2)} times as long`;
+  return part < TOLD ? '' : `${number(100 * part, part < 0.1 ? 1 : 2)} % longer`;
 }

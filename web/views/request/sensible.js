@@ -1,11 +1,11 @@
-// What is asked of a model that nobody has said anything about: speeds and a casing in proportion to the wheel, as `rubmap demo` has it.
+// What is asked of a model that nobody has said anything about: speeds and a casing in proportion to the wheel.
 
 import { rpm } from '../../lib/format.js';
 
 /** Running clearance over the radius at which the tips lie: 0.2 to 0.4 mm of wheels with a radius of 100 to 200 mm. */
 export const CLEARANCE = 0.002;
-/** Height of a lobe over the clearance: the tips touch at every passage. */
-const LOBE = 1.5;
+/** Height of a lobe over the clearance: every passage pushes the tips, by a little. */
+const LOBE = 1.05;
 /** Speeds of a sweep. */
 const SPEEDS = 40;
 /** Where a sweep begins, over where it ends. */
@@ -31,7 +31,7 @@ export function sceneOf(model) {
     damping: { modal_ratio: 0.005 },
     casing: {
       clearance: { leading: clearance, trailing: clearance },
-      lobes: { count: 2, amplitude: round(LOBE * clearance), width_rad: 0.35 },
+      lobes: { count: 2, amplitude: Number((LOBE * clearance).toPrecision(3)), width_rad: 0.35 },
     },
     contact: {},
   };
@@ -41,10 +41,16 @@ export function sceneOf(model) {
 export function beginning(pointer, model) {
   const radius = model.contact_radius ?? 100;
   const scene = sceneOf(model);
+  const { from, to } = speedsOf(model);
+  // The middle half of what the form asks for.
+  const range = { name: 'Operation', from: Math.round(from + 0.25 * (to - from)), to: Math.round(to - 0.25 * (to - from)), unit: 'rpm', separation_percent: 5 };
   const known = {
     '/scene/casing': scene.casing,
     '/scene/casing/lobes': scene.casing.lobes,
     '/scene/damping': scene.damping,
+    '/operation': { ranges: [range] },
+    '/operation/ranges/-': { ...range, name: 'Another' },
+    '/limits': { clearance_consumption: 1, ...((model.mesh?.sets ?? []).some((set) => set.ultimate && set.fatigue) && { utilisation: 1 }) },
     '/scene/friction': { coefficient: 0.15 },
     '/scene/casing/single_lobes/-': { angle_rad: 0, amplitude: scene.casing.lobes.amplitude, width_rad: 0.35 },
     '/scene/casing/waves/-': { order: 2, amplitude: round(0.5 * scene.casing.lobes.amplitude) },

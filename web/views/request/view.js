@@ -8,17 +8,13 @@ import { problem } from '../../lib/problem.js';
 import { accuracyDial } from './accuracy.js';
 import { casingTable } from './casing.js';
 import { editor } from './editor.js';
+import { proposedName } from './names.js';
 import { planAside } from './plan.js';
 import { prices } from './prices.js';
+import { RARE, sectionsOf } from './sections.js';
 import { beginning } from './sensible.js';
-
-/** In which order requests are asked for: what every one needs, and then what has defaults. */
-const GROUPS = [
-  { title: null, names: ['speeds', 'speed', 'along', 'scene', 'operation', 'limits', 'parameters', 'design', 'severity', 'limit', 'threshold', 'compared_model', 'lobes', 'superharmonics', 'grid'] },
-  { title: 'Recording', names: ['sensors', 'record', 'stress', 'fields'] },
-  { title: 'Name, tags, notes', names: ['name', 'tags', 'notes'] },
-  { title: 'Settings', names: ['budget', 'modes_per_speed', 'integration', 'sweep', 'refine', 'reproducible', 'control_speeds', 'max_engine_order', 'peak_prominence', 'doubled', 'most_points', 'frame_revolutions', 'angle_tolerance_rad'] },
-];
+import { speedsOver } from './speeds.js';
+import { wheelInCasing } from './wheel.js';
 
 /**
  * A form for requests of one kind.
@@ -27,9 +23,14 @@ const GROUPS = [
  * @param {AbortSignal} signal
  */
 export async function requestForm(place, { model, kind, value, words }, signal) {
-  const definitions = (await openapi()).components.schemas;
+  // A section that cannot be read is no reason not to ask.
+  const [contract, section] = await Promise.all([openapi(), api.get(`/v1/models/${model.id}/section`, { signal }).catch(() => null)]);
+  const definitions = contract.components.schemas;
   const draft = draftHere();
-  const begun = draft.kept() ?? value;
+  const nameFor = (request) => proposedName(request, model, kind.path);
+  const begun = draft.kept() ?? { ...value, name: value.name ?? nameFor(value) };
+  const wheel = wheelInCasing(model, section);
+  const campbell = speedsOver(model, signal);
   const plan = kind.plan ? planAside(kind.plan, planned, signal) : null;
   const initial = (pointer) => beginning(pointer, model);
   const cost = kind.priced ? prices(kind.plan, model, signal) : null;
@@ -50,17 +51,22 @@ export async function requestForm(place, { model, kind, value, words }, signal) 
     schema: { $ref: `#/components/schemas/${kind.schema}` },
     definitions, value: begun, initial,
     skip: ['/model', '/accuracy'].slice(0, kind.priced ? 2 : 1),
+    units: model.units, rare: RARE,
     beside: (pointer) => cost?.beside(pointer) ?? table.beside(pointer),
-    groups: GROUPS,
-    open: ['/speeds', '/speed', '/along', '/scene', '/parameters', '/design', '/grid'],
+    sections: sectionsOf({ value: begun, begun: kind.begin(model), units: model.units, wheel: wheel.element, campbell: campbell.element, dial: dial?.element }),
     onChange: () => changed(),
   });
+  let named = nameFor(begun);
   const button = h('button', { type: 'submit', class: 'main' }, 'Start');
-  const element = h('form', { novalidate: true, on: { submit: start } }, dial?.element, fields.element, json.element, told, unsent, h('div', { class: 'row' }, button));
-  replace(place, begun === value ? null : draftNote(draft), words ? h('p', {}, words) : null, h('div', { class: 'columns' }, element, plan?.element));
+  const element = h('form', { novalidate: true, on: { submit: start } }, fields.element, json.element, told, unsent, h('div', { class: 'row' }, button));
+  replace(place, draft.kept() ? draftNote(draft) : null, words ? h('p', {}, words) : null, h('div', { class: 'columns' }, element, plan?.element));
   tell();
 
   function changed(by = null) {
+    // A name that was proposed follows what is asked; one that was written stays.
+    const before = named;
+    named = nameFor(fields.value());
+    if (by !== json && fields.value().name === before) fields.write('/name', named);
     draft.keep(fields.value());
     tell(by);
   }
@@ -68,6 +74,8 @@ export async function requestForm(place, { model, kind, value, words }, signal) 
   function tell(by = null) {
     const now = fields.value();
     if (by !== json) json.show(now);
+    wheel.show(now);
+    campbell.show(now);
     dial?.show(now);
     plan?.refresh(now);
   }

@@ -19,6 +19,7 @@ __all__ = [
     "critical_speeds",
     "envelope",
     "interaction_map",
+    "interference",
     "level",
     "spectrogram",
     "spectrum",
@@ -113,6 +114,25 @@ def campbell(
         )
     ax.set_xlabel("speed of rotation, rpm")
     ax.set_ylabel("frequency, Hz")
+    ax.legend(fontsize="small")
+    return ax
+
+
+def interference(found: pd.DataFrame, ax: Axes | None = None) -> Axes:
+    """Modes over the nodal diameter at one speed and the zig-zag of engine orders, of :meth:`ModalAnalysis.interference`."""
+    ax = _axes(ax)
+    orders = found.attrs["engine_orders"]
+    ax.plot([0, *orders["nodal_diameter"]], [0.0, *orders["frequency_hz"]], color="grey", linewidth=0.8)
+    driven = pd.DataFrame(orders).query("of_lobes")
+    ax.plot(driven["nodal_diameter"], driven["frequency_hz"], "D", color="#d62728", label="engine orders of the lobes")
+    for family in range(1, int(found["family"].max()) + 1):
+        modes = found[found["family"] == family]
+        colour = _COLOURS[(family - 1) % len(_COLOURS)]
+        ax.plot(modes["nodal_diameter"], modes["frequency_hz"], "o", color=colour, label=f"family {family}")
+    ax.set_ylim(0.0, 1.08 * float(found["frequency_hz"].max()))
+    ax.set_xlabel("nodal diameter")
+    ax.set_ylabel("frequency, Hz")
+    ax.set_title(f"{found.attrs['speed_rpm']:,.0f} rpm")
     ax.legend(fontsize="small")
     return ax
 

@@ -197,7 +197,8 @@ class ModalAnalysis(Job):
     def campbell(self) -> xr.Dataset:
         """Natural frequencies.
 
-        Dimensions: ``speed`` (rad/s), ``nodal_diameter``, ``family`` (from 1). Variable: ``frequency``, Hz, in the rotating frame.
+        Dimensions: ``speed`` (rad/s), ``nodal_diameter``, ``family`` (from 1). Variables: ``frequency``, Hz, in the rotating frame; of families that are
+        followed by their shapes ``rank`` and ``assurance``, below 0.75 in the middle of a veering.
         """
         found = self.arrays("campbell")
         shape = found["frequencies_hz"].shape
@@ -205,10 +206,39 @@ class ModalAnalysis(Job):
         coordinates["nodal_diameter"] = ("nodal_diameter", np.arange(shape[1]), {"units": "1"})
         coordinates["family"] = ("family", np.arange(1, shape[2] + 1), {"units": "1"})
         attributes = {"units": "Hz", "long_name": "natural frequency"}
-        variables: dict[str, Any] = {
-            "frequency": (("speed", "nodal_diameter", "family"), found["frequencies_hz"], attributes)
-        }
+        axes = ("speed", "nodal_diameter", "family")
+        variables: dict[str, Any] = {"frequency": (axes, found["frequencies_hz"], attributes)}
+        if "ranks" in found:
+            variables["rank"] = (axes, found["ranks"], {"units": "1", "long_name": "rank of the mode, from 1"})
+            variables["assurance"] = (axes, found["assurance"], {"units": "1", "long_name": "modal assurance"})
         return dataset(variables, coordinates, found)
+
+    def veerings(self) -> pd.DataFrame:
+        """Where followed families cross or veer: speed, least distance, and whether they exchange their shapes."""
+        return _crossings(self.arrays("campbell"), "veerings_")
+
+    def interference(
+        self,
+        speed_rpm: float | None = None,
+        lobes: int | None = None,
+        max_engine_order: int | None = None,
+        range_rpm: tuple[float, float] | None = None,
+    ) -> pd.DataFrame:
+        """Modes of all nodal diameters at a speed, by default the highest of the analysis, each with the nearest engine order of the lobes.
+
+        ``margin_percent`` is the distance of a mode from that order: positive above it. ``met_in_range`` says whether an order meets the mode within
+        the operating range ``range_rpm``. ``attrs["engine_orders"]`` has the zig-zag: engine orders and the nodal diameters that they drive.
+        """
+        first, last = range_rpm if range_rpm is not None else (None, None)
+        asked = {"speed": speed_rpm, "from": first, "to": last, "lobes": lobes, "max_engine_order": max_engine_order}
+        given = {name: value for name, value in asked.items() if value is not None}
+        found = self.arrays("interference", unit="rpm", **given)
+        of_modes = {name: values for name, values in found.items() if not name.startswith("orders_")}
+        frame = table(of_modes, "nodal_diameter")
+        frame.attrs["speed_rpm"] = float(found["speed_rad_s"]) * RPM
+        orders = {name.removeprefix("orders_"): of for name, of in found.items() if name.startswith("orders_")}
+        frame.attrs["engine_orders"] = pd.DataFrame(orders).to_dict("list")
+        return frame
 
     def crossings(self) -> pd.DataFrame:
         """Where superharmonics of the lobes cross natural frequencies: the linear criterion's critical speeds."""

@@ -13,6 +13,7 @@ use crate::resolved::knobs::Modes;
 use crate::resolved::scene::Scene;
 use crate::resolved::sensor::{Place, ResolvedSensor};
 use crate::resolved::speeds::ResolvedSpeeds;
+use rubmap_solid::material::GivenStrengths;
 
 /// Share of the error that is asked for by which a motion may still change where it counts as repeating.
 const SETTLED_SHARE: f64 = 0.1;
@@ -202,7 +203,12 @@ impl ResolvedSweep {
 
     /// Radius about contact nodes within which no stress is claimed, if the sweep asks for stress.
     pub fn stress_outside(&self) -> Option<f64> {
-        self.record.stress.map(|stress| stress.excluded_radius.unwrap_or(0.0))
+        self.record.stress.as_ref().map(|stress| stress.excluded_radius.unwrap_or(0.0))
+    }
+
+    /// Strengths that the sweep gives in place of the model's, by element set.
+    pub fn strengths<'a>(&'a self) -> impl Fn(&str) -> Option<&'a GivenStrengths> {
+        |set| self.record.stress.as_ref()?.strengths.get(set)
     }
 
     /// Whether the rows of the reduction's basis must be stored, must not, or are stored where the sweep reduces.

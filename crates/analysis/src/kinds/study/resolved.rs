@@ -75,7 +75,7 @@ impl StudyRequest {
             accuracy: None,
             budget: None,
             control_speeds: None,
-            record: Record { stress: self.record.stress, ..Record::default() },
+            record: Record { stress: self.record.stress.clone(), ..Record::default() },
             fields: self.fields,
             operation: None,
             limits: None,
