@@ -9,7 +9,7 @@ use rubmap::analysis::monitor::Unwatched;
 use rubmap::analysis::request::auto_or::AutoOr;
 use rubmap::analysis::request::speeds::{SpeedSet, SpeedUnit, Speeds};
 use rubmap::analysis::request::{
-    self, Component, Integration, SchemeChoice, Sensor, SweepDirection, SweepRequest,
+    self, Component, FamiliesBy, Integration, SchemeChoice, Sensor, SweepDirection, SweepRequest,
 };
 use rubmap::analysis::resolved::ResolvedSweep;
 use rubmap::analysis::result::PointStatus;
@@ -76,7 +76,7 @@ impl Scene {
         let stiffening = stiffnesses == 3;
         let modal = ModalWheel::at(&reduced.wheel, SPEED, RotationEffects::stiffening(stiffening))
             .expect("the default impeller is sound");
-        let damping = ModalDamping { modal_ratio: DAMPING, family_ratios: Vec::new() };
+        let damping = ModalDamping { modal_ratio: DAMPING, family_ratios: Vec::new(), ranks: Vec::new() };
         Self { reduced, modal, damping, stiffening, modes }
     }
 
@@ -122,7 +122,11 @@ impl Scene {
             }),
             scene: request::Scene {
                 centrifugal_stiffening: self.stiffening,
-                damping: Some(Damping { modal_ratio: DAMPING, family_ratios: Vec::new() }),
+                damping: Some(Damping {
+                    modal_ratio: DAMPING,
+                    family_ratios: Vec::new(),
+                    families_by: FamiliesBy::default(),
+                }),
                 casing: Some(CasingRequest {
                     clearance,
                     lobes: Some(lobes),
@@ -150,7 +154,7 @@ impl Scene {
             accuracy: None,
             budget: None,
             control_speeds: None,
-            refine: false,
+            refine: Some(false),
             reproducible: false,
             fields: None,
             operation: None,

@@ -10,11 +10,14 @@ const GROUPS: [(&str, &[&str]); 4] = [
     (
         "Working with a service (--server, or RUBMAP_SERVER and RUBMAP_TOKEN)",
         &[
-            "upload", "plan", "sweep", "submit", "watch", "ls", "get", "report", "open", "pause", "continue",
-            "cancel", "rm",
+            "upload", "plan", "sweep", "submit", "watch", "ls", "show", "get", "report", "open", "pause",
+            "continue", "cancel", "rm",
         ],
     ),
-    ("Without a service", &["demo", "study", "case", "fields", "modes", "repeat", "generate", "import"]),
+    (
+        "Without a service",
+        &["demo", "study", "case", "fields", "modes", "repeat", "generate", "import", "init"],
+    ),
     ("Running a service", &["serve", "worker", "migrate", "copy", "token", "backup", "check"]),
     ("This program", &["completions", "man", "help"]),
 ];

@@ -17,7 +17,6 @@ mod man;
 mod modes;
 mod progress;
 mod repeat;
-mod report;
 mod request;
 mod serve;
 mod session;
@@ -52,6 +51,8 @@ enum Command {
     /// Send a model package to the service.
     #[command(after_help = ending::CODES)]
     Upload(shell::UploadArgs),
+    /// Print a request to start from, in YAML.
+    Init(shell::InitArgs),
     /// Say what a request would do and cost.
     #[command(after_help = ending::CODES)]
     Plan(shell::PlanArgs),
@@ -67,6 +68,9 @@ enum Command {
     /// List jobs or models.
     #[command(after_help = ending::CODES)]
     Ls(shell::LsArgs),
+    /// Print a job: its state, its verdict and its critical speeds.
+    #[command(after_help = ending::CODES)]
+    Show(shell::ShowArgs),
     /// Download a result, in any of its forms.
     #[command(after_help = ending::CODES)]
     Get(shell::GetArgs),
@@ -103,7 +107,7 @@ enum Command {
     Repeat(repeat::RepeatArgs),
     /// Write a job as one page of HTML.
     #[command(after_help = ending::CODES)]
-    Report(report::ReportArgs),
+    Report(shell::ReportArgs),
     /// Run the HTTP service.
     Serve(serve::ServeArgs),
     #[command(flatten)]
@@ -158,6 +162,7 @@ impl Cli {
             Command::Submit(args) => return verb::run(&args),
             Command::Watch(args) => return verb::run(&args),
             Command::Ls(args) => return verb::run(&args),
+            Command::Show(args) => return verb::run(&args),
             Command::Get(args) => return verb::run(&args),
             Command::Open(args) => return verb::run(&args),
             Command::Cancel(args) => return verb::run(&args),
@@ -178,6 +183,7 @@ impl Cli {
             Command::Backup(args) => keeping::backup(args)?,
             Command::Generate(args) => generate::generate(args)?,
             Command::Import(command) => import::import(command)?,
+            Command::Init(args) => shell::init(&args)?,
             Command::Completions(args) => man::completions(&args, Self::command())?,
             Command::Man(args) => man::man(&args, Self::command())?,
         }

@@ -112,6 +112,6 @@ impl ShownVerdict {
 }
 
 /// Number with three significant digits.
-fn number(value: f64) -> String {
+pub(super) fn number(value: f64) -> String {
     format!("{value:.2e}").parse::<f64>().unwrap_or(value).to_string()
 }

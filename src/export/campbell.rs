@@ -2,7 +2,7 @@
 
 use super::Export;
 use super::array::Array;
-use crate::analysis::result::{Campbell, WaveTables};
+use crate::analysis::result::{Campbell, FollowedFamilies, WaveTables};
 
 impl Export for Campbell {
     /// A line per speed, nodal diameter and family.
@@ -25,6 +25,13 @@ impl Export for Campbell {
             Array::whole("family", places.iter().map(|place| place.2 as u32 + 1)),
             of("frequency_hz".to_owned(), &self.frequencies_hz),
         ];
+        if let Some(FollowedFamilies { ranks, assurance, .. }) = &self.followed {
+            let rank = |&(speed, diameter, family): &(usize, usize, usize)| {
+                ranks.get(speed)?.get(diameter)?.get(family).copied()
+            };
+            columns.push(Array::some_whole("rank", places.iter().map(rank)));
+            columns.push(of("assurance".to_owned(), assurance));
+        }
         if let Some(WaveTables { forward_hz, backward_hz }) = &self.waves {
             columns.push(of("forward_hz".to_owned(), forward_hz));
             columns.push(of("backward_hz".to_owned(), backward_hz));
@@ -44,6 +51,21 @@ impl Export for Campbell {
             Array::whole("superharmonics", absolute.iter().map(|one| one.superharmonic)),
             Array::cube("absolute_frequencies_hz", &flat).in_parts(absolute.len()),
         ];
+        if let Some(FollowedFamilies { ranks, assurance, veerings }) = &self.followed {
+            let real = |ranks: &Vec<u32>| ranks.iter().copied().map(f64::from).collect();
+            let rows = |rows: &Vec<Vec<u32>>| rows.iter().map(real).collect();
+            arrays.push(Array::cube("ranks", &ranks.iter().map(rows).collect::<Vec<_>>()));
+            arrays.push(Array::cube("assurance", assurance));
+            arrays.extend([
+                Array::reals("veerings_speed_rad_s", veerings.iter().map(|found| found.speed_rad_s)),
+                Array::reals("veerings_frequency_hz", veerings.iter().map(|found| found.frequency_hz)),
+                Array::reals("veerings_distance_hz", veerings.iter().map(|found| found.distance_hz)),
+                Array::whole("veerings_nodal_diameter", veerings.iter().map(|found| found.nodal_diameter)),
+                Array::whole("veerings_lower_family", veerings.iter().map(|found| found.families[0])),
+                Array::whole("veerings_upper_family", veerings.iter().map(|found| found.families[1])),
+                Array::words("veerings_course", veerings.iter().map(|found| found.course)),
+            ]);
+        }
         if let Some(WaveTables { forward_hz, backward_hz }) = &self.waves {
             arrays.push(Array::cube("forward_hz", forward_hz));
             arrays.push(Array::cube("backward_hz", backward_hz));

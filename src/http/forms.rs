@@ -99,6 +99,23 @@ impl<T: Export + Serialize + Send + 'static> Forms<T> {
     }
 }
 
+impl<T: Export + Serialize + Send + 'static> Forms<T> {
+    /// Answers with what `made` makes of a document that was computed at the end of a job.
+    pub(super) async fn made_of<D: DeserializeOwned>(
+        self,
+        state: &AppState,
+        download: Download,
+        job: &Job,
+        document: Document<'static>,
+        made: impl FnOnce(D) -> Result<T, Problem> + Send + 'static,
+    ) -> Result<Response, Problem> {
+        let bytes = READ_MEMORY * stored_bytes(state, job, document).await?;
+        let text = read(state, job.id, document);
+        let read = move || made(serde_json::from_str(&text()?)?);
+        self.answer(state, download, lasting(job), bytes, read).await
+    }
+}
+
 impl<T: Export + Serialize + DeserializeOwned + Send + 'static> Forms<T> {
     /// Lets `change` put a document into another order before it is written.
     pub(super) fn changed_by(self, change: impl FnOnce(&mut T) + Send + 'static) -> Self {

@@ -11,7 +11,7 @@ use utoipa::{PartialSchema, ToSchema};
 use super::problem::Problem;
 use crate::analysis::kinds::kind::Recorded;
 use crate::analysis::request::HistoriesRequest;
-use crate::analysis::result::{Chosen, ReductionReport};
+use crate::analysis::result::{Chosen, ReductionReport, VerdictWord};
 use crate::kinds::{self, JobKind};
 use crate::store::jobs::{Job, JobHead, JobId, SpeedCounts};
 use crate::store::status::JobStatus;
@@ -61,6 +61,9 @@ pub(super) struct JobBody {
     /// Reason why the job failed.
     #[serde(skip_serializing_if = "Option::is_none")]
     error: Option<Problem>,
+    /// Verdict on a finished sweep when it ended, in one word; `GET /v1/jobs/{id}/verdict` explains it. Absent for jobs of earlier versions.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    verdict: Option<VerdictWord>,
     /// Links to the job itself and to its results.
     links: Vec<Link>,
 }
@@ -129,7 +132,7 @@ pub(super) struct Link {
     href: String,
     /// Relation of the linked thing: `self`, `interaction-map`, `critical-speeds`, `wheel-critical-speeds`, `verdict`, `forces`,
     /// `spectra`
-    /// (with a `{index}` to fill in), `campbell`, `branches`, `run-ups`, `spectrogram` (of the first run), `campaign`,
+    /// (with a `{index}` to fill in), `campbell`, `interference`, `branches`, `run-ups`, `spectrogram` (of the first run), `campaign`,
     /// `work-precision`, `histories`, `report`, `archive` or `model`; where it is recorded, and not in lists of jobs, `stress` and
     /// `fields`.
     rel: &'static str,
@@ -156,6 +159,7 @@ impl From<JobHead> for JobBody {
             finished_at: job.finished_at,
             updated_at: job.updated_at,
             error: job.failure.as_ref().map(Problem::from),
+            verdict: job.verdict.filter(|_| job.status == JobStatus::Successful),
         }
     }
 }

@@ -23,6 +23,7 @@ mod histories;
 mod host;
 mod hosts;
 mod idempotency;
+mod interference;
 mod job_body;
 mod jobs;
 mod kinds;

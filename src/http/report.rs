@@ -17,7 +17,9 @@ use crate::analysis::kinds::document::Document;
 use crate::analysis::kinds::modal_analysis::{CAMPBELL, MODAL_ANALYSIS};
 use crate::analysis::kinds::sweep::{CRITICAL_SPEEDS, ERRORS, HISTORIES};
 use crate::analysis::resolved::ResolvedSweep;
-use crate::analysis::result::{Campbell, CriticalSpeeds, InteractionMap, SpeedHistories, SpeedSpectra};
+use crate::analysis::result::{
+    Campbell, CriticalSpeeds, InteractionMap, SpeedHistories, SpeedSpectra, Strengths,
+};
 use crate::analysis::run::{self, ModelFacts, VERSION};
 use crate::kinds::JobKind;
 use crate::plot::report::{self, Head, Sweep};
@@ -168,7 +170,7 @@ impl Found<'_> {
                     forces: forces.as_ref(),
                     histories: &histories,
                     campbell: campbell.as_ref(),
-                    strengths: facts.mesh.as_ref().map_or(&[], |mesh| &mesh.sets),
+                    strengths: &Strengths::of_sweep(request, facts),
                     surfaces: pictures.as_deref().unwrap_or_default(),
                 };
                 Ok(report::sweep(&head, &found))

@@ -67,7 +67,12 @@ async fn conclude(
     let all = points.clone();
     let compute = move || run::critical_speeds(&reduced, &settings, &points, estimate.as_ref(), &monitor);
     let mut tables = engine.computing.run(&job.watch, compute).await??;
-    let plan = engine.store.job(job.id).await?.and_then(|job| job.plan);
+    let stored = engine.store.job(job.id).await?;
+    if let Some(facts) = stored.as_ref().and_then(|job| job.facts.as_ref()) {
+        let verdict = run::judge(request, &facts.units, &all, errors.as_ref()).verdict;
+        patiently(&job.watch, || engine.store.record_verdict(job.id, verdict)).await?;
+    }
+    let plan = stored.and_then(|job| job.plan);
     tables.iter_mut().for_each(|table| table.plan.clone_from(&plan));
     let mut documents = (0..)
         .zip(&tables)

@@ -132,6 +132,7 @@ async fn every_result_comes_in_every_form() {
         format!("{sweep}/wear/3"),
         format!("{modal}/campbell"),
         format!("{modal}/campbell?frame=fixed"),
+        format!("{modal}/interference?lobes=3&from=100&to=200"),
         format!("{study}/work-precision?speed=1&quantity=history"),
         format!("{study}/work-precision?over=step"),
         format!("{study}/histories?speed=1&sensor=1"),

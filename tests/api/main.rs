@@ -20,6 +20,7 @@ mod formats;
 mod from_mesh;
 mod generation;
 mod idempotency;
+mod interference;
 mod jobs;
 mod keeping;
 mod kill;

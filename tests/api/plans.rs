@@ -63,6 +63,8 @@ async fn a_plan_starts_nothing_and_foretells_the_sweep() {
         let time = &point["computing_time_s"];
         assert!(time["free"].as_f64() > Some(0.0) && time["contact"].as_f64() >= time["free"].as_f64());
         assert!(point["memory_bytes"].as_u64() > Some(1000));
+        // Lobes of 0.4 over a clearance that falls to 0.25.
+        assert!((point["interference"].as_f64().unwrap() - 0.15).abs() < 1e-3, "{point}");
     }
     // The results have the planned cost beside the cost that was spent.
     let critical = api.get(&format!("/v1/jobs/{id}/critical-speeds")).await.body;
@@ -74,6 +76,41 @@ async fn a_plan_starts_nothing_and_foretells_the_sweep() {
     assert!((map["spent"]["computing_time_s"].as_f64().unwrap() - times.sum::<f64>()).abs() < 1e-9);
     // Time from the first to the last speed is another thing, and two workers make it shorter.
     assert!(map["spent"].get("wall_time_s").is_none() && map["plan"]["computing_time_s"].is_object());
+    app.stop().await;
+}
+
+/// Peaks are refined by default where there are speeds enough to show them, and where speeds can be added.
+#[tokio::test]
+async fn a_plan_bounds_the_speeds_that_are_added() {
+    let app = TestApp::start().await;
+    let api = &app.api;
+    let model = api.model(model::package(1.0)).await;
+    let planned = async |change: &dyn Fn(&mut Value)| {
+        let mut request = sweep_of(&model);
+        change(&mut request);
+        api.post("/v1/sweeps/plan", &request).await.body
+    };
+    let speeds = |count: u32| move |request: &mut Value| request["speeds"]["count"] = count.into();
+    for (count, added) in [(19, Value::Null), (20, json!(50)), (60, json!(60))] {
+        let plan = planned(&speeds(count)).await;
+        assert_eq!((&plan["speeds"], &plan["added_speeds_at_most"]), (&json!(count), &added), "{plan}");
+        assert_eq!(plan["settings"]["refine"], added != Value::Null);
+    }
+    for (field, value) in
+        [("refine", json!(false)), ("sweep", json!("up")), ("budget", json!({"seconds": 60.0}))]
+    {
+        let change = |request: &mut Value| {
+            speeds(30)(request);
+            request[field] = value.clone();
+            if field == "budget" {
+                request.as_object_mut().unwrap().remove("modes_per_speed");
+            }
+        };
+        let plan = planned(&change).await;
+        assert_eq!((&plan["speeds"], &plan["added_speeds_at_most"]), (&json!(30), &Value::Null), "{plan}");
+    }
+    let limited = planned(&|request| request["limits"] = json!({"tip_motion": 1.0})).await;
+    assert_eq!(limited["settings"]["control_speeds"], 5);
     app.stop().await;
 }
 

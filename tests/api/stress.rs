@@ -97,6 +97,30 @@ async fn a_sweep_tells_stress_margin_and_validity() {
         assert_eq!(with["responses"], without["responses"]);
         assert!(without.get("stress").is_none() && without["validity"]["verdict"].is_string());
     }
+    // Strengths that the request gives count, whatever the model has.
+    let strengths = json!({"WHEEL": {"yield_strength": 828.0, "ultimate_strength": 895.0,
+        "fatigue_strength": {"amplitude": 500.0, "source": "a handbook"}}});
+    let judged = points(api, &rubbing(&model, Some(json!({"strengths": strengths})))).await;
+    for (bare, judged) in found.iter().zip(&judged) {
+        assert_eq!(bare["stress"]["largest"], judged["stress"]["largest"]);
+        let cycle = &judged["stress"]["cycles"][0];
+        let [alternating, mean, used] =
+            ["alternating", "mean", "utilisation"].map(|name| cycle[name].as_f64().unwrap());
+        assert!((used - alternating / 500.0 - mean.max(0.0) / 895.0).abs() < 1e-12);
+        assert!(bare["stress"]["cycles"][0].get("utilisation").is_none());
+    }
+    for (given, pointer) in [
+        (json!({"BLADE": {}}), "/record/stress/strengths/BLADE"),
+        (json!({"WHEEL": {"yield_strength": -1.0}}), "/record/stress/strengths/WHEEL/yield_strength"),
+        (
+            json!({"WHEEL": {"ultimate_strength": 1.0, "yield_strength": 2.0}}),
+            "/record/stress/strengths/WHEEL/yield_strength",
+        ),
+    ] {
+        let refused = api.post("/v1/sweeps", &rubbing(&model, Some(json!({"strengths": given})))).await;
+        assert_eq!(refused.status, 422, "{}", refused.body);
+        assert_eq!(refused.text("/errors/0/pointer"), pointer);
+    }
     // The files give the same numbers, and from another radius fewer places.
     let bases = folder.path().join("bases");
     let names = files_in(&bases.join(&files_in(&bases)[0]));

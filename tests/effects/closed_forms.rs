@@ -169,7 +169,7 @@ fn a_driven_oscillator_has_its_amplitude_and_phase() {
         gyroscopic: None,
     };
     let mut scene = Scene::free(one_node(1, vec![harmonic]), Vec::new());
-    scene.damping = Some(ModalDamping { modal_ratio: zeta, family_ratios: Vec::new() });
+    scene.damping = Some(ModalDamping { modal_ratio: zeta, family_ratios: Vec::new(), ranks: Vec::new() });
     scene.excitation = vec![EngineOrderExcitation {
         order,
         directions: vec![Direction { node: 0, components: [0.0, 1.0, 0.0] }],

@@ -67,6 +67,7 @@ fn scene(seed: u64) -> Scene {
     scene.damping = dice.maybe(0.8, |dice| ModalDamping {
         modal_ratio: dice.between(0.0, 0.1),
         family_ratios: vec![dice.between(0.0, 0.1); 2],
+        ranks: Vec::new(),
     });
     scene.casing = Some(Casing {
         clearance: (0..nodes).map(|_| dice.between(0.1, 0.3)).collect(),

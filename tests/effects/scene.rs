@@ -178,7 +178,7 @@ impl Scene {
         ];
         Self {
             wheel,
-            damping: Some(ModalDamping { modal_ratio: 0.03, family_ratios: vec![0.02] }),
+            damping: Some(ModalDamping { modal_ratio: 0.03, family_ratios: vec![0.02], ranks: Vec::new() }),
             casing: Some(Casing {
                 clearance: vec![0.3, 0.26],
                 restriction: Some(

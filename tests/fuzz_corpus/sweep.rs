@@ -349,7 +349,7 @@ fn summaries_survive(request: &ResolvedSweep, results: &[SpeedResult]) {
         survives_json(&table);
     }
     let mut refined = SweepRequest::from(request.clone());
-    refined.refine = refined.sweep == SweepDirection::Independent;
+    refined.refine = Some(refined.sweep == SweepDirection::Independent);
     let Some(more) = refine(&ResolvedSweep::stored(refined, 0).unwrap(), &points) else {
         return;
     };

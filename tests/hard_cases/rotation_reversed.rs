@@ -130,7 +130,7 @@ fn turns_backwards(scheme: Scheme, sectors: usize) {
             SensorRow { direction: Direction { node, components }, sector: (sectors - s) % sectors }
         })
         .collect();
-    let damping = ModalDamping { modal_ratio: DAMPING, family_ratios: Vec::new() };
+    let damping = ModalDamping { modal_ratio: DAMPING, family_ratios: Vec::new(), ranks: Vec::new() };
     let run = Simulation {
         wheel: &modal,
         contact_nodes: &turned.contact,

@@ -81,7 +81,8 @@ impl Scene {
     }
 
     pub(crate) fn run(&self, scheme: Scheme, steps: usize) -> Run {
-        let damping = ModalDamping { modal_ratio: self.damping_ratio, family_ratios: Vec::new() };
+        let damping =
+            ModalDamping { modal_ratio: self.damping_ratio, family_ratios: Vec::new(), ranks: Vec::new() };
         Simulation {
             wheel: &self.wheel,
             contact_nodes: &self.contact,

@@ -48,7 +48,7 @@ fn agree_by(
     };
     let steps =
         (steps_factor * smallest_stable_steps(modal.largest_frequency(), speed) as f64).ceil() as usize;
-    let damping = ModalDamping { modal_ratio: damping_ratio, family_ratios: Vec::new() };
+    let damping = ModalDamping { modal_ratio: damping_ratio, family_ratios: Vec::new(), ranks: Vec::new() };
     let watched: Vec<(usize, usize, usize)> = (0..recipe.sectors)
         .flat_map(|s| (0..recipe.contact_nodes).flat_map(move |k| (0..3).map(move |d| (s, k, d))))
         .collect();

@@ -64,7 +64,7 @@ impl Scene {
     }
 
     fn run(&self, scheme: Scheme, steps: usize, interval: usize, detail: Option<Detail>) -> Run {
-        let damping = ModalDamping { modal_ratio: DAMPING, family_ratios: Vec::new() };
+        let damping = ModalDamping { modal_ratio: DAMPING, family_ratios: Vec::new(), ranks: Vec::new() };
         Simulation {
             wheel: &self.modal,
             contact_nodes: &self.reduced.contact,

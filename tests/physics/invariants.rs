@@ -51,7 +51,8 @@ impl Scene {
         let smallest = smallest_stable_steps(modal.largest_frequency(), self.speed) as f64;
         let samples = 64;
         let steps = ((self.steps_factor * smallest).max(720.0) as usize).next_multiple_of(samples);
-        let damping = ModalDamping { modal_ratio: self.damping_ratio, family_ratios: Vec::new() };
+        let damping =
+            ModalDamping { modal_ratio: self.damping_ratio, family_ratios: Vec::new(), ranks: Vec::new() };
         Simulation {
             wheel: &modal,
             contact_nodes: &self.reduced.contact,

@@ -190,7 +190,7 @@ fn rows_of_a_contact_node_read_what_it_reads() {
     let restriction = Lobes { count: 2, amplitude: 0.425, width_rad: 0.35, phase_rad: 0.0 };
     let casing =
         Casing { clearance: vec![0.25; 3], restriction: Some(restriction.into()), ramp_revolutions: 1.0 };
-    let damping = ModalDamping { modal_ratio: 0.05, family_ratios: Vec::new() };
+    let damping = ModalDamping { modal_ratio: 0.05, family_ratios: Vec::new(), ranks: Vec::new() };
     let components = [0.3, -1.0, 0.5];
     let sensor = |node| SensorRow { direction: Direction { node, components }, sector: 2 };
     for scheme in [Scheme::MasslessBoundary { kept_modes: 4 }, Scheme::ExactModal] {

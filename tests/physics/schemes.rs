@@ -72,7 +72,8 @@ impl Scene {
 
     /// Radial displacement of the first node of sector 0, `steps` a multiple of the samples.
     fn tip(&self, scheme: Scheme, steps: usize) -> Vec<f64> {
-        let damping = ModalDamping { modal_ratio: self.damping_ratio, family_ratios: Vec::new() };
+        let damping =
+            ModalDamping { modal_ratio: self.damping_ratio, family_ratios: Vec::new(), ranks: Vec::new() };
         let sensor = SensorRow { direction: Direction { node: 0, components: [1.0, 0.0, 0.0] }, sector: 0 };
         let run = Simulation {
             wheel: &self.wheel,

@@ -40,3 +40,21 @@ fn yaml_and_json_ask_for_the_same() {
     assert_eq!(changed["settings"], settings);
     assert_ne!(shell.json("plan request.yaml --json")["settings"], settings);
 }
+
+/// Request that `init` prints: the service plans it as it is.
+#[test]
+fn a_starter_is_a_request() {
+    let (shell, _program) = Shell::with_service();
+    shell.done("upload springs.zip --name wheel");
+    let at_rest = "--set /scene/centrifugal_stiffening=false";
+    for (kind, about, of_springs) in [("sweep", "operation", at_rest), ("modal-analysis", "families", "")] {
+        let starter = shell.done(&format!("init {kind}"));
+        assert!(starter.starts_with("# ") && starter.contains(about), "{starter}");
+        shell.write("starter.yaml", &starter);
+        let small = "--set /modes_per_speed=3";
+        let plan =
+            shell.json(&format!("plan starter.yaml --kind {kind} --model wheel --json {small} {of_springs}"));
+        assert!(plan["speeds"].as_u64().is_some_and(|speeds| speeds > 30), "{plan}");
+    }
+    assert_eq!(shell.run("init no-such-kind").code, 2);
+}

@@ -12,7 +12,9 @@ fn from_a_package_to_its_critical_speeds() {
     let again = shell.run("upload springs.zip --json");
     let body: serde_json::Value = serde_json::from_str(&again.out).unwrap();
     assert_eq!((&body["id"], &body["name"]), (&model.into(), &"wheel".into()));
-    assert!(again.err.contains("had it already"), "{again:?}");
+    assert!(again.err.contains("had it already") && !again.err.contains("keeps"), "{again:?}");
+    let renamed = shell.run("upload springs.zip --name rotor");
+    assert!(renamed.err.contains("keeps the name \"wheel\""), "{renamed:?}");
     assert!(shell.done("ls --models --tag rig").contains(model));
 
     shell.write_sweep();
@@ -48,8 +50,33 @@ fn from_a_package_to_its_critical_speeds() {
     assert!(read(&shell.path("map.svg")).contains("<svg "), "the name says the form");
     shell.done("get first spectra/3 -o -");
     shell.done("get wheel section -o section.png");
-    assert_eq!(shell.done(&format!("report {job} --out page.html")), "page.html");
+    assert_eq!(shell.done("report first -o page.html"), "page.html");
     assert!(read(&shell.path("page.html")).contains("<html"));
+    for file in ["first report -o again.HTML", "first archive -o first.zip", "first forces -o forces.CSV"] {
+        shell.done(&format!("get {file}"));
+    }
+    assert!(read(&shell.path("forces.CSV")).starts_with("index,"));
+    // No form ends like these; nothing is written.
+    for (words, endings) in [
+        ("interaction-map -o map.pdf", ".json, .csv, .npz, .svg, .png"),
+        ("interaction-map -o map.html", ".json, .csv"),
+        ("report -o page.pdf", "report comes as html"),
+    ] {
+        let refused = shell.run(&format!("get first {words}"));
+        let file = words.split_whitespace().last().unwrap();
+        assert!(refused.code == 1 && refused.err.contains(endings), "{refused:?}");
+        assert!(refused.err.contains(file) && !shell.path(file).exists(), "{refused:?}");
+    }
+    shell.done("get first interaction-map -o map.pdf --format svg");
+    shell.done("get first interaction-map -o map.txt format=json");
+
+    // What is shown is what the service says.
+    let shown = shell.done("show first");
+    let speeds = shell.json("get first critical-speeds/wheel");
+    for speed in speeds["critical_speeds"].as_array().unwrap() {
+        let rpm = speed["speed_rad_s"].as_f64().unwrap() * 60.0 / std::f64::consts::TAU;
+        assert!(shown.contains(&format!("\n{rpm:>12.0}  ")), "{shown}");
+    }
     assert_eq!(shell.done("open first"), format!("{}/#/jobs/{job}", shell.server));
 
     let cancelled = shell.run("cancel first");

@@ -42,9 +42,26 @@ fn a_sweep_ends_with_its_verdict_and_can_fail_on_it() {
     ] {
         assert_eq!(shell.run(words).code, code, "{words}");
     }
+    // One word beside each job.
+    let listed = shell.done("ls");
+    let word = |name: &str| {
+        let line = listed.lines().find(|line| line.ends_with(&format!(" {name}"))).unwrap();
+        line.split("%").nth(1).unwrap().split_whitespace().next().unwrap().to_owned()
+    };
+    assert_eq!((word("strict").as_str(), word("open").as_str()), ("act", "undecided"), "{listed}");
+    let jobs = shell.json("ls --json --name strict");
+    assert_eq!(jobs["jobs"][0]["verdict"], "act");
+    assert_eq!(shell.json("watch open --json")["jobs"][0]["verdict"], "undecided");
+    let watched = shell.done("watch strict open");
+    let ends: Vec<&str> = watched.lines().map(|line| &line[36..]).collect();
+    assert_eq!(ends, ["  successful  act", "  successful  undecided"]);
     // The same text, and the document.
     let text = shell.done("get strict verdict --format text");
     assert!(strict.err.contains(&text), "{text}");
+    let shown = shell.done("show strict");
+    for part in [text.as_str(), "sweep \"strict\", ", "successful at 100 %, 6 of 6 speeds", "results: "] {
+        assert!(shown.contains(part), "{part}: {shown}");
+    }
     let document = shell.json("get strict verdict");
     assert_eq!(document["verdict"], "act");
     assert!(text.starts_with(document["sentence"].as_str().unwrap()));

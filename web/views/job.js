@@ -30,7 +30,10 @@ const TABS = {
     ['stress', 'Stress', () => import('./job/stress.js')],
     ['fields', 'Wheel in 3D', () => import('./job/fields.js')],
   ],
-  modal_analysis: [['campbell', 'Campbell', () => import('./job/campbell.js')]],
+  modal_analysis: [
+    ['campbell', 'Campbell', () => import('./job/campbell.js')],
+    ['interference', 'Interference', () => import('./job/interference.js')],
+  ],
   model_generation: [],
   study: [
     ['study', 'Work and precision', () => import('./job/study.js')],

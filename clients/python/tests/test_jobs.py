@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import pickle
 import subprocess
 import sys
@@ -18,7 +19,11 @@ import pytest
 from conftest import sweep_of
 
 import rubmap
+from rubmap.progress import progress
 from rubmap.service import Service
+
+#: Id of a job that no service has.
+JOB = "00000000-0000-7000-8000-000000000001"
 
 
 def test_a_plan_starts_nothing(client: rubmap.Client, model: rubmap.Model) -> None:
@@ -26,6 +31,45 @@ def test_a_plan_starts_nothing(client: rubmap.Client, model: rubmap.Model) -> No
     plan = client.sweep(sweep_of(model.id)).plan()
     assert {effect["name"] for effect in plan["effects"] if effect["on"]} >= {"contact", "casing"}
     assert len(client.jobs()) == before
+
+
+def test_a_plan_prints_as_a_table_and_is_a_dictionary(client: rubmap.Client, model: rubmap.Model) -> None:
+    plan = client.sweep(sweep_of(model.id)).plan()
+    lines = dict(line.split(maxsplit=1) for line in str(plan).splitlines())
+    assert lines["speeds"].startswith("6, ") and "friction" in lines["off"] and "unknowns" in lines["reduction"]
+    assert type(plan.raw) is dict and json.loads(json.dumps(plan)) == plan.raw
+    shown = plan._repr_html_()
+    assert shown.count("<tr>") == len(str(plan).splitlines()) and "<td" in shown
+
+
+def test_progress_where_nobody_watches_is_some_lines(
+    capsys: pytest.CaptureFixture[str], client: rubmap.Client, model: rubmap.Model
+) -> None:
+    with progress("sweep", True) as lines:
+        for done in range(100):
+            lines.show({"progress": done, "status": "running", "phase": "speeds"})
+        lines.show({"progress": 100, "status": "successful"})
+    said = capsys.readouterr().err.splitlines()
+    assert [line.split("%")[0] for line in said] == [f"sweep: {done:3} " for done in range(0, 101, 10)]
+    assert "speeds" in said[3] and "successful" in said[-1]
+    client.sweep(sweep_of(model.id, record={})).submit().wait()
+    said = capsys.readouterr().err.splitlines()
+    assert 1 <= len(said) <= 12 and all(line.startswith("sweep: ") for line in said), said
+    with progress("sweep", False) as nothing:
+        nothing.show({"progress": 1, "status": "running"})
+    assert capsys.readouterr().err == ""
+
+
+def test_jobs_and_models_show_themselves_in_notebooks(swept: rubmap.Sweep, model: rubmap.Model) -> None:
+    shown = swept._repr_html_()
+    assert "successful, 100 %" in shown and f"/#/jobs/{swept.id}" in shown and ">undecided</span>" in shown
+    assert "for tests" in model._repr_html_() and model.id in model._repr_html_()
+    # A service that is gone is not waited for, and a name is text.
+    gone = rubmap.Sweep(Service("http://127.0.0.1:9"), {}, JOB)
+    assert gone._repr_html_() == f"&lt;rubmap sweep {JOB}&gt;"
+    assert "submitted" in rubmap.Sweep(Service("http://127.0.0.1:9"), {})._repr_html_()
+    named = mocked(lambda _: httpx.Response(200, json={"status": "running", "progress": 1, "name": "<b>"}))
+    assert "&lt;b&gt;" in rubmap.Sweep(named.service, {}, JOB)._repr_html_()
 
 
 def test_a_refusal_says_where(client: rubmap.Client, model: rubmap.Model) -> None:
@@ -55,8 +99,12 @@ def test_jobs_are_found_again(client: rubmap.Client, swept: rubmap.Sweep, model:
     listed = client.jobs(kind="sweep", model=model.id)
     assert swept.id in {job.id for job in listed} and listed[0].request["model"] == model.id
     assert len(client.jobs(limit=1)) == 1
-    with pytest.raises(rubmap.Refusal, match="no such job"):
+    client.job(swept.id[:30])
+    with pytest.raises(LookupError, match="none of the jobs"):
         client.job("../models")
+    with pytest.raises(LookupError, match="may be"):
+        client.job(swept.id[:1])
+    assert client.model(model.id[:10]).id == client.model("for tests").id == model.id
     assert model.id in {each.id for each in client.models(name="for tests")}
     with pytest.raises(ValueError, match="submitted already"):
         swept.submit()
@@ -164,13 +212,13 @@ def test_what_stands_between_is_put_up_with() -> None:
             return httpx.Response(502, text="<html>")
         if request.url.path.endswith("/events"):
             return httpx.Response(200, text="")
-        return httpx.Response(200, json={"id": "1", "kind": "sweep", "status": "successful", "progress": 100})
+        return httpx.Response(200, json={"id": JOB, "kind": "sweep", "status": "successful", "progress": 100})
 
-    job = mocked(answer).job("1")
+    job = mocked(answer).job(JOB)
     asked.clear()
     asked.append("")
     job.wait(progress=False, timeout=3.0)
-    assert asked[1:] == ["/v1/jobs/1/events", "/v1/jobs/1"]
+    assert asked[1:] == [f"/v1/jobs/{JOB}/events", f"/v1/jobs/{JOB}"]
 
 
 def test_a_deletion_whose_answer_is_lost_is_done() -> None:

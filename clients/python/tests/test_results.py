@@ -62,7 +62,7 @@ def test_tables_are_those_of_the_json(swept: rubmap.Sweep) -> None:
     assert "settings" in wheel.attrs and "version" in wheel.attrs
     assert list(swept.critical_speeds(sensor=0).columns[:3]) == ["index", "speed_rad_s", "speed_rpm"]
     points = swept.points()
-    assert len(points) == 6 and "settling.verdict" in points
+    assert len(points) == 6 and "steady_state" in points and "linear_theory" in points
     plot.critical_speeds(wheel)
     for sensor in (0, 1):
         said = [point["responses"][sensor]["rms"] for point in swept.json("interaction-map")["points"]]
@@ -70,6 +70,11 @@ def test_tables_are_those_of_the_json(swept: rubmap.Sweep) -> None:
     assert plot.level(points).get_ylabel() == "level, mm rms"
     with pytest.raises(ValueError, match="half_peak_to_peak"):
         plot.level(points, quantity="peak")
+    # The orders of a map are most of what moves, and no more.
+    of_map = np.asarray(plot.level(swept.interaction_map()).lines[0].get_ydata())
+    assert np.all(of_map <= points["response.rms"] * (1 + 1e-9)) and np.all(of_map > 0.9 * points["response.rms"])
+    with pytest.raises(ValueError, match=r"points\(\)"):
+        plot.level(swept.interaction_map(), quantity="half_peak_to_peak")
 
 
 def test_a_verdict_prints_as_a_table(client: rubmap.Client, model: rubmap.Model) -> None:
@@ -82,6 +87,8 @@ def test_a_verdict_prints_as_a_table(client: rubmap.Client, model: rubmap.Model)
     assert " ".join(lines[1].split()) == "worst (rpm) where value against its limit"
     assert len(lines) == 2 + len(found.worst) and " of 1e-06 mm " in lines[2] and "in cruise, -" in lines[2]
     assert found.settings["operation"] == operation and found.ranges[0]["name"] == "cruise"
+    shown = found._repr_html_()
+    assert ">act</span>" in shown and "(18,000 to 24,000 rpm)" in shown and shown.count("<tr>") == 1 + len(found.worst)
 
 
 def test_a_sweep_without_limits_is_undecided(swept: rubmap.Sweep) -> None:
@@ -141,6 +148,16 @@ def test_modes_and_campbell_agree(client: rubmap.Client, swept: rubmap.Sweep, mo
     crossings = analysis.crossings()
     assert {"speed_rad_s", "frequency_hz", "nodal_diameter"} <= set(crossings.columns)
     plot.campbell(campbell, lobes=2, crossings=crossings)
+    assert (campbell["rank"].sel(speed=0.0) == campbell["family"]).all() and (campbell["assurance"] > 0.0).all()
+    assert {"speed_rpm", "distance_hz", "course"} <= set(analysis.veerings().columns)
+    interference = analysis.interference(speed_rpm=26000, range_rpm=(20000, 22000))
+    top = campbell["frequency"].isel(speed=-1)
+    places = zip(interference["nodal_diameter"], interference["family"], strict=True)
+    expected = [float(top.sel(nodal_diameter=diameter, family=family)) for diameter, family in places]
+    np.testing.assert_allclose(interference["frequency_hz"], expected, rtol=1e-12)
+    np.testing.assert_allclose(interference.attrs["speed_rpm"], 26000)
+    assert interference.attrs["engine_orders"]["nodal_diameter"][:2] == [1, 2]
+    plot.interference(interference)
     assert 3 in {reduction["modes_per_speed"] for reduction in model.reductions}
     mesh = model.mesh(sector=0)
     assert mesh["position"].shape == (len(mesh["node"]), 3) and (mesh["contact"] > 0).sum() == 10

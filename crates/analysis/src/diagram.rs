@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use crate::families::Families;
 use crate::result::WaveTables;
 use rubmap_numerics::sector_fourier::harmonic_count;
 use rubmap_wheel::dynamics::error::ModelError;
@@ -12,14 +13,15 @@ use rubmap_wheel::response::campbell::{Crossing, DrivenCrossing, crossings, driv
 use rubmap_wheel::response::coincidence::{Coincidence, coincidences};
 use rubmap_wheel::response::waves::{Branch, Frequencies, Table, Wave, Waves};
 
-/// Frequencies of the first families over ascending speeds.
+/// Frequencies over ascending speeds by rank, and their crossings by family.
 pub(super) struct FrequencyDiagram<'a> {
     wheel: &'a ReducedWheel,
     effects: RotationEffects,
-    families: usize,
+    /// Number of families whose crossings are sought.
+    count: usize,
     /// Rotational speeds, rad/s.
     pub(super) speeds: Vec<f64>,
-    /// Frequencies without Coriolis forces, `[speed][nodal diameter][family]`, Hz.
+    /// Frequencies without Coriolis forces, `[speed][nodal diameter][rank]`, Hz.
     pub(super) frequencies_hz: Table,
     /// Frequencies of waves with Coriolis forces, if those are among the effects.
     pub(super) waves: Option<WaveTables>,
@@ -27,9 +29,9 @@ pub(super) struct FrequencyDiagram<'a> {
 
 impl<'a> FrequencyDiagram<'a> {
     /// Diagram without speeds.
-    pub(super) fn new(wheel: &'a ReducedWheel, effects: RotationEffects, families: usize) -> Self {
+    pub(super) fn new(wheel: &'a ReducedWheel, effects: RotationEffects, count: usize) -> Self {
         let waves = effects.coriolis.then(WaveTables::default);
-        Self { wheel, effects, families, speeds: Vec::new(), frequencies_hz: Table::new(), waves }
+        Self { wheel, effects, count, speeds: Vec::new(), frequencies_hz: Table::new(), waves }
     }
 
     /// Adds the frequencies at one speed, or nothing where the model fails.
@@ -39,11 +41,11 @@ impl<'a> FrequencyDiagram<'a> {
         for i in 0..harmonic_count(self.wheel.sectors) {
             let stiffening = self.effects.stiffening;
             let omega = natural_frequencies(&self.wheel.harmonics[i], speed_rad_s, stiffening)?;
-            row.push(self.lowest(&omega));
+            row.push(in_hz(&omega));
             if self.waves.is_some() {
                 let waves = wave_frequencies(self.wheel, i, speed_rad_s, stiffening)?;
-                forward.push(self.lowest(&waves.forward));
-                backward.push(self.lowest(&waves.backward));
+                forward.push(in_hz(&waves.forward));
+                backward.push(in_hz(&waves.backward));
             }
         }
         self.speeds.push(speed_rad_s);
@@ -55,25 +57,55 @@ impl<'a> FrequencyDiagram<'a> {
         Ok(())
     }
 
-    fn lowest(&self, omega: &[f64]) -> Vec<f64> {
-        omega.iter().take(self.families).map(|w| w / TAU).collect()
-    }
-
     /// Crossings of the linear criterion.
-    pub(super) fn crossings(&self, superharmonics: &[u32]) -> Vec<Crossing> {
-        self.with_waves(|waves| crossings(waves, &self.speeds, self.families, superharmonics))
+    pub(super) fn crossings(&self, families: &Families<'_>, superharmonics: &[u32]) -> Vec<Crossing> {
+        let ranks = families.ranks(self.count);
+        let all = self.with_waves(|waves| crossings(waves, &self.speeds, ranks, superharmonics));
+        let named = all.into_iter().filter_map(|found| {
+            let Crossing { nodal_diameter, speed_rad_s, family: rank, .. } = found;
+            let family = self.family(families, nodal_diameter, speed_rad_s, Wave::Backward, rank)?;
+            Some(Crossing { family, ..found })
+        });
+        named.collect()
     }
 
     /// Crossings that excitations with `orders` periods around the circumference can drive.
-    pub(super) fn driven_crossings(&self, orders: &[u32]) -> Vec<DrivenCrossing> {
-        let sectors = self.wheel.sectors as u32;
-        self.with_waves(|waves| driven_crossings(waves, &self.speeds, self.families, orders, sectors))
+    pub(super) fn driven_crossings(&self, families: &Families<'_>, orders: &[u32]) -> Vec<DrivenCrossing> {
+        let (ranks, sectors) = (families.ranks(self.count), self.wheel.sectors as u32);
+        let all = self.with_waves(|waves| driven_crossings(waves, &self.speeds, ranks, orders, sectors));
+        let named = all.into_iter().filter_map(|found| {
+            let DrivenCrossing { nodal_diameter, speed_rad_s, family: rank, .. } = found;
+            let wave = found.wave.unwrap_or(Wave::Backward);
+            let family = self.family(families, nodal_diameter, speed_rad_s, wave, rank)?;
+            Some(DrivenCrossing { family, ..found })
+        });
+        named.collect()
     }
 
     /// Coincidences with the waves of a casing.
-    pub(super) fn coincidences(&self, casing: &[(u32, f64)]) -> Vec<Coincidence> {
-        let sectors = self.wheel.sectors as u32;
-        self.with_waves(|waves| coincidences(waves, &self.speeds, self.families, casing, sectors))
+    pub(super) fn coincidences(&self, families: &Families<'_>, casing: &[(u32, f64)]) -> Vec<Coincidence> {
+        let (ranks, sectors) = (families.ranks(self.count), self.wheel.sectors as u32);
+        let all = self.with_waves(|waves| coincidences(waves, &self.speeds, ranks, casing, sectors));
+        let named = all.into_iter().filter_map(|found| {
+            let Coincidence { nodal_diameter, speed_rad_s, family: rank, .. } = found;
+            let wave = found.wave(sectors);
+            let family = self.family(families, nodal_diameter, speed_rad_s, wave, rank)?;
+            Some(Coincidence { family, ..found })
+        });
+        named.collect()
+    }
+
+    /// Family of a rank, both from 1, if it is among those whose crossings are sought.
+    fn family(
+        &self,
+        families: &Families<'_>,
+        nodal_diameter: u32,
+        speed: f64,
+        wave: Wave,
+        rank: u32,
+    ) -> Option<u32> {
+        let family = families.family(nodal_diameter as usize, speed, wave, rank as usize - 1)?;
+        (family < self.count).then_some(family as u32 + 1)
     }
 
     fn with_waves<T>(&self, use_them: impl FnOnce(&Waves<'_, WheelFrequencies<'_>>) -> T) -> T {
@@ -92,6 +124,10 @@ impl<'a> FrequencyDiagram<'a> {
             }
         }
     }
+}
+
+fn in_hz(omega: &[f64]) -> Vec<f64> {
+    omega.iter().map(|w| w / TAU).collect()
 }
 
 /// Reduced wheel as a source of frequencies in Hz: of waves of one direction, or without Coriolis forces.

@@ -23,6 +23,8 @@ pub mod effects;
 pub mod end_state;
 pub mod error;
 pub mod euler_load;
+mod families;
+pub mod family_track;
 pub mod fields;
 mod gauge;
 mod histories;

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use crate::euler_load::EulerLoad;
+use crate::family_track::FamilyTracks;
 use crate::result::{PreliminaryStiffening, ReductionReport, Strengths};
 use crate::stiffening::{preliminary_stiffening, report_with_spin, with_spin};
 use crate::stress::ReducedStress;
@@ -46,6 +47,9 @@ pub struct ReducedSector {
     /// Thickness of the blade at its tip, [`MeshFacts::tip_thickness`].
     #[serde(skip)]
     pub tip_thickness: Option<f64>,
+    /// Modal families over speed.
+    #[serde(skip)]
+    pub families: FamilyTracks,
 }
 
 impl ReducedSector {

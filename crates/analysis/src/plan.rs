@@ -13,7 +13,8 @@ use crate::effects::symmetry::repeats::repeats;
 use crate::effects::symmetry::request::Symmetry;
 use crate::effects::table::planned;
 use crate::model::{ModelFacts, ReducedSector};
-use crate::request::{HistorySpeeds, Recorded, SweepDirection};
+use crate::refine::most_added;
+use crate::request::{FamiliesBy, HistorySpeeds, Recorded, SweepDirection};
 use crate::resolve::recorded::{lines, revolutions};
 use crate::resolved::{ResolvedCaseStudy, ResolvedModalAnalysis, ResolvedSweep, Scene, TrialRequest};
 use crate::result::{
@@ -24,7 +25,8 @@ use crate::speed_scene::SpeedScene;
 use crate::steady::{self, revolutions_taken};
 use crate::stepping::Stepping;
 use rubmap_numerics::sector_fourier::harmonic_count;
-use rubmap_wheel::dynamics::casing::RestrictionTable;
+use rubmap_wheel::dynamics::casing::{Casing, RestrictionTable};
+use rubmap_wheel::dynamics::families::{FamilyWalk, grid};
 use rubmap_wheel::dynamics::modal_wheel::{ModalWheel, RotationEffects};
 use rubmap_wheel::revision::VERSION;
 
@@ -61,6 +63,7 @@ pub(crate) fn plan_sweep(
             .map(|_| stress_bytes(facts, reduced, request.modes_per_speed(), places)),
         placed_sensors: Vec::new(),
         speeds: speeds.len() as u32,
+        added_speeds_at_most: request.refine.then(|| most_added(request.speeds.asked()) as u32),
         workers: workers as u32,
         machine: None,
         estimate: reduced.and_then(|reduced| {
@@ -121,7 +124,16 @@ pub(crate) fn plan_modal_analysis(
         let mut diagram = FrequencyDiagram::new(&reduced.wheel, effects, request.families as usize);
         let start = Instant::now();
         diagram.push(speeds[speeds.len() / 2]).ok()?;
-        Some(start.elapsed().as_secs_f64())
+        let frequencies = start.elapsed().as_secs_f64() * speeds.len() as f64;
+        if request.families_by == FamiliesBy::Rank {
+            return Some(frequencies);
+        }
+        let start = Instant::now();
+        for nodal_diameter in 0..reduced.wheel.harmonics.len() {
+            FamilyWalk::new(&reduced.wheel, nodal_diameter, true).ok()?;
+        }
+        let steps = grid(&reduced.wheel, true, speeds.last().copied()?).len() + speeds.len();
+        Some(frequencies + start.elapsed().as_secs_f64() * steps as f64)
     };
     let scene = Scene {
         centrifugal_stiffening: facts.has_stiffening(),
@@ -137,7 +149,7 @@ pub(crate) fn plan_modal_analysis(
         basis_bytes_at_most: basis_bytes(facts, reduced, request.modes_per_speed(), request.fields()),
         speeds: speeds.len() as u32,
         nodal_diameters: harmonic_count(facts.sectors as usize) as u32,
-        computing_time_s: reduced.and_then(one).map(|seconds| seconds * speeds.len() as f64),
+        computing_time_s: reduced.and_then(one),
         choice: None,
         warnings: warnings(&scene, facts, reduced),
         settings: request.clone().into(),
@@ -279,13 +291,15 @@ fn plan_point(
         };
         let casing = scene.casing(clearance, request.integration.ramp_revolutions)?;
         scene.initial(casing.as_ref())?;
-        Ok(scene)
+        let interference = casing.as_ref().filter(|_| request.scene.contact.is_some());
+        Ok((scene, interference.and_then(Casing::interference)))
     });
     let set_up = start.elapsed().as_secs_f64();
     let planned = PlannedPoint {
         index: index as u32,
         speed_rad_s,
         message: None,
+        interference: None,
         integrated_unknowns: 0,
         scheme: None,
         steps_per_revolution: 0,
@@ -293,8 +307,8 @@ fn plan_point(
         computing_time_s: None,
         memory_bytes: 0,
     };
-    let scene = match ready {
-        Ok(scene) => scene,
+    let (scene, interference) = match ready {
+        Ok(ready) => ready,
         Err(reason) => return PlannedPoint { message: Some(reason.to_string()), ..planned },
     };
     let SpeedScene { wheel, stepping, .. } = &scene;
@@ -310,6 +324,7 @@ fn plan_point(
     let spectra = windowed as f64 * calibration.spectra_seconds(size, request.sensors.len());
     let stress = calibration.stress_seconds(stress_numbers(places, modes(wheel)));
     PlannedPoint {
+        interference,
         integrated_unknowns: unknowns as u32,
         steps_per_revolution: stepping.discretisation.per_revolution as u32,
         steps: most,
@@ -465,6 +480,7 @@ mod tests {
             index,
             speed_rad_s,
             message: None,
+            interference: None,
             integrated_unknowns: 10,
             scheme: None,
             steps_per_revolution: steps as u32,

@@ -4,6 +4,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use crate::error::AnalysisError;
+use crate::family_track::FamilyTracks;
 use crate::model::ReducedSector;
 use crate::monitor::Monitor;
 use crate::result::{FrequencyDifference, LargestDifference, ReductionReport};
@@ -48,6 +49,7 @@ pub fn prepare(
         euler_load: None,
         has_basis: false,
         tip_thickness: None,
+        families: FamilyTracks::default(),
     })
 }
 

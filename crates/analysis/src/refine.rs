@@ -3,6 +3,7 @@
 use crate::resolved::ResolvedSweep;
 use crate::response_curve::ResponseCurve;
 use crate::result::{Point, Refinement, Unresolvable, Unresolved};
+use crate::verdict::Span;
 use rubmap_wheel::response::critical_speed::{ON_BRANCH, Resolution, Wanted, peaks};
 
 /// Smallest limit of added speeds. A sweep gets at most as many added speeds as it had at first, or this many if those were fewer: a rough
@@ -27,8 +28,13 @@ impl Refinement {
     }
 }
 
-/// Adds one more round of speeds to the request: the middles of the intervals beside the unresolved peaks of any sensor, and the expected
-/// maxima of solved responses. None if there is nothing to add, or no more may be added. `points` are those of all speeds; their order
+/// Largest number of speeds that a refinement adds to so many.
+pub(crate) fn most_added(asked: usize) -> usize {
+    asked.max(LEAST_MOST_ADDED)
+}
+
+/// Adds one more round of speeds to the request: the middles of the intervals beside the unresolved peaks of the wheel and of any sensor, and the
+/// expected maxima of solved responses. None if there is nothing to add, or no more may be added. `points` are those of all speeds; their order
 /// makes no difference.
 pub fn refine(request: &ResolvedSweep, points: &[Point]) -> Option<ResolvedSweep> {
     if !request.refine {
@@ -36,10 +42,16 @@ pub fn refine(request: &ResolvedSweep, points: &[Point]) -> Option<ResolvedSweep
     }
     let speeds = request.speeds.rad_s();
     let asked = request.speeds.asked();
-    let most = (asked + asked.max(LEAST_MOST_ADDED)).saturating_sub(speeds.len());
+    let most = (asked + most_added(asked)).saturating_sub(speeds.len());
     let mut wanted = wanted(request, speeds, points);
-    // Peaks that are known worst go first where not all can; the sort is stable.
-    wanted.sort_by(|a, b| (b.width / b.speed).total_cmp(&(a.width / a.speed)));
+    // Where not all can be added, those in the operating ranges go first, then peaks that are known worst; the sort is stable.
+    let spans: Vec<Span> =
+        request.operation.iter().flat_map(|operation| &operation.ranges).map(Span::of).collect();
+    let elsewhere = |speed: f64| !spans.iter().any(|span| span.reaches(speed));
+    wanted.sort_by(|a, b| {
+        let wider = (b.width / b.speed).total_cmp(&(a.width / a.speed));
+        elsewhere(a.speed).cmp(&elsewhere(b.speed)).then(wider)
+    });
     wanted.truncate(most.min(request.speeds.lists().room()));
     let mut more: Vec<f64> = wanted.into_iter().map(|each| each.speed).collect();
     more.sort_by(f64::total_cmp);
@@ -51,12 +63,16 @@ pub fn refine(request: &ResolvedSweep, points: &[Point]) -> Option<ResolvedSweep
     Some(ResolvedSweep { speeds, ..request.clone() })
 }
 
-/// Critical speeds with the index of their sensor and their resolution.
-fn resolutions(request: &ResolvedSweep, speeds: &[f64], points: &[Point]) -> Vec<(usize, f64, Resolution)> {
+/// Critical speeds with the index of their sensor, none for those of the wheel, and their resolution.
+fn resolutions(
+    request: &ResolvedSweep,
+    speeds: &[f64],
+    points: &[Point],
+) -> Vec<(Option<u32>, f64, Resolution)> {
     let curve = ResponseCurve::of(speeds, points);
+    let of_sensors = (0..request.sensors.len()).map(|sensor| (Some(sensor as u32), curve.level(sensor)));
     let mut found = Vec::new();
-    for sensor in 0..request.sensors.len() {
-        let level = curve.level(sensor);
+    for (sensor, level) in [(None, curve.tip_level())].into_iter().chain(of_sensors) {
         for peak in peaks(&level, request.peak_prominence) {
             let resolution = Resolution::of(curve.of_values(&level), &peak);
             found.push((sensor, curve.speeds_rad_s[peak.index], resolution));
@@ -89,11 +105,7 @@ fn unresolved(request: &ResolvedSweep, speeds: &[f64], points: &[Point]) -> Vec<
     let resolutions = resolutions(request, speeds, points).into_iter();
     let unresolved = resolutions.filter(|(_, _, resolution)| !resolution.resolved);
     unresolved
-        .map(|(sensor, speed_rad_s, resolution)| Unresolved {
-            sensor: sensor as u32,
-            speed_rad_s,
-            reason: why(&resolution),
-        })
+        .map(|(sensor, speed_rad_s, resolution)| Unresolved { sensor, speed_rad_s, reason: why(&resolution) })
         .collect()
 }
 
@@ -189,15 +201,18 @@ mod tests {
     #[test]
     fn the_ends_of_the_range_are_left_alone_and_failures_are_approached() {
         let (_, refinement) = refined(request(5), &|speed| [speed, 2000.0 - speed]);
-        let at_end =
-            |sensor, speed_rad_s| Unresolved { sensor, speed_rad_s, reason: Unresolvable::EndOfRange };
+        let at_end = |sensor, speed_rad_s| Unresolved {
+            sensor: Some(sensor),
+            speed_rad_s,
+            reason: Unresolvable::EndOfRange,
+        };
         let unresolved = vec![at_end(0, 1100.0), at_end(1, 900.0)];
         assert_eq!(refinement, Refinement { added: 0, rounds: 0, complete: false, unresolved });
         // The response grows until runs fail.
         let levels = |speed: f64| [if speed < 1033.3 { 1.0 / (1034.0 - speed) } else { f64::NAN }, 1.0];
         let (found, refinement) = refined(request(5), &levels);
         let reasons: Vec<_> = refinement.unresolved.iter().map(|peak| (peak.sensor, peak.reason)).collect();
-        assert_eq!(reasons, [(0, Unresolvable::BesideMissing)], "{refinement:?}");
+        assert_eq!(reasons, [(Some(0), Unresolvable::BesideMissing)], "{refinement:?}");
         assert!(!refinement.complete);
         let speeds = found.speeds.ascending();
         let first = speeds.partition_point(|&speed| speed < 1033.3);
@@ -220,6 +235,23 @@ mod tests {
         let many = ResolvedSweep { speeds: speeds(range), ..request(2) };
         let (found, _) = refined(many, &rough);
         assert_eq!(found.speeds.rad_s().len(), MAX_SPEEDS);
+    }
+
+    #[test]
+    fn operating_ranges_go_first() {
+        let rough = |speed: f64| {
+            let bits = speed.to_bits().wrapping_mul(0x9e37_79b9_7f4a_7c15);
+            [(bits >> 40) as f64 / f64::from(1 << 24), 1.0]
+        };
+        let range = json!({"ranges": [{"name": "r", "from": 1000.0, "to": 1020.0, "unit": "rad_s"}]});
+        let mut asked = request(6);
+        asked.operation = serde_json::from_value(range).unwrap();
+        let inside = |request: &ResolvedSweep| {
+            let added = &request.speeds.rad_s()[6..];
+            added.iter().filter(|speed| (1000.0..=1020.0).contains(*speed)).count()
+        };
+        let (within, without) = (refined(asked, &rough).0, refined(request(6), &rough).0);
+        assert!(inside(&within) > inside(&without), "{} {}", inside(&within), inside(&without));
     }
 
     #[test]

@@ -41,4 +41,9 @@ impl<'a> ResponseCurve<'a> {
     pub(super) fn level(&self, sensor: usize) -> Vec<Option<f64>> {
         self.points.iter().map(|point| point.map(|point| point.responses[sensor].rms)).collect()
     }
+
+    /// Level of the tip that moves most, at each speed: root mean square about the mean.
+    pub(super) fn tip_level(&self) -> Vec<Option<f64>> {
+        self.points.iter().map(|point| Some(point.as_ref()?.tip?.rms)).collect()
+    }
 }

@@ -75,7 +75,7 @@ pub(super) fn judge_run(point: &mut Point, run: &Run, scene: &SpeedScene<'_>) {
             .and_then(|states| {
                 let course =
                     Course { harmonics: &reduced.wheel.harmonics, wheel, states: &states, stiffening };
-                stress_of(stress, &course).map_err(|error| error.to_string())
+                stress_of(stress, &course, request.strengths()).map_err(|error| error.to_string())
             });
         match found {
             Ok(found) => point.stress = found,

@@ -163,7 +163,7 @@ impl<'a> SpeedScene<'a> {
         let Self { sector, request, wheel, stepping } = self;
         let contact_nodes = &sector.wheel.contact[..];
         self.check()?;
-        let damping = modal_damping(request);
+        let damping = modal_damping(request, sector, wheel)?;
         let clearance = running_clearance(sector, request, wheel.speed_rad_s)?;
         let casing = self.casing(clearance, ramp_revolutions)?;
         let surroundings = Surroundings { contact_nodes, sectors: wheel.around(), ramp_revolutions };

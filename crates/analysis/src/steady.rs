@@ -1,7 +1,7 @@
 //! Steady response of a speed: marched to, or solved for.
 
 use crate::effects::casing::shape::Shape;
-use crate::effects::damping::convert::modal_damping;
+use crate::effects::damping::convert::ratios;
 use crate::effects::symmetry::repeats::repeats as scene_repeats;
 use crate::effects::symmetry::request::Symmetry;
 use crate::peak_to_peak::half_peak_to_peak;
@@ -82,7 +82,7 @@ fn goes_on(request: &ResolvedSweep) -> Option<&'static str> {
 
 /// Reason why the motion of a scene can never repeat; none if it may.
 fn keeps_moving(request: &ResolvedSweep, run: &Run) -> Option<&'static str> {
-    let damping = modal_damping(request);
+    let damping = ratios(&request.scene);
     let ratios =
         damping.iter().flat_map(|damping| damping.family_ratios.iter().chain([&damping.modal_ratio]));
     let undamped = damping.is_none() || ratios.into_iter().any(|&ratio| ratio == 0.0);

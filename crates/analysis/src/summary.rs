@@ -6,6 +6,7 @@ use std::f64::consts::TAU;
 use crate::diagram::FrequencyDiagram;
 use crate::effects::flexible_casing::convert::flexible_casing;
 use crate::error::AnalysisError;
+use crate::families::Families;
 use crate::model::ReducedSector;
 use crate::monitor::Monitor;
 use crate::resolved::{ResolvedSensor, ResolvedSweep};
@@ -247,9 +248,11 @@ fn predict(
         flexible_casing(casing).waves.iter().map(|wave| (wave.nodal_diameter, wave.omega / TAU)).collect()
     });
     let casing: Vec<(u32, f64)> = casing.unwrap_or_default();
+    let top = speeds.last().copied().unwrap_or(0.0);
+    let families = Families::followed(&reduced.wheel, effects, &[], top, monitor)?;
     Ok(Prediction {
-        linear: diagram.crossings(&PREDICTED_SUPERHARMONICS),
-        driven: diagram.driven_crossings(&orders),
-        coincidences: diagram.coincidences(&casing),
+        linear: diagram.crossings(&families, &PREDICTED_SUPERHARMONICS),
+        driven: diagram.driven_crossings(&families, &orders),
+        coincidences: diagram.coincidences(&families, &casing),
     })
 }

@@ -2,6 +2,7 @@
 
 use crate::model::ModelFacts;
 use crate::resolved::ResolvedSweep;
+use crate::result::Strengths;
 use crate::result::point::Point;
 use crate::result::sweep_stress::{SpeedStress, SweepStress};
 use rubmap_wheel::revision::VERSION;
@@ -10,7 +11,7 @@ use rubmap_wheel::revision::VERSION;
 pub fn sweep_stress(request: &ResolvedSweep, facts: &ModelFacts, points: &[Point]) -> SweepStress {
     SweepStress {
         speeds: points.iter().filter_map(SpeedStress::of).collect(),
-        strengths: facts.mesh.as_ref().map_or_else(Vec::new, |mesh| mesh.sets.clone()),
+        strengths: Strengths::of_sweep(request, facts),
         units: facts.units.clone(),
         settings: request.clone().into(),
         version: VERSION.to_owned(),

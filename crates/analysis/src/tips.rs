@@ -71,7 +71,7 @@ pub(super) fn wheel_peaks(
     errors: Option<&ErrorEstimate>,
 ) -> Vec<WheelCriticalSpeed> {
     let curve = ResponseCurve::of(request.speeds.rad_s(), points);
-    let level: Vec<Option<f64>> = curve.points.iter().map(|point| Some(point.as_ref()?.tip?.rms)).collect();
+    let level = curve.tip_level();
     let tips = || curve.points.iter().flatten().filter_map(|point| point.tip);
     // One scale for all.
     let severity: fn(&TipResponse) -> f64 = if tips().all(|tip| tip.over_clearance.is_some()) {

@@ -1,5 +1,6 @@
 //! Campbell diagram in the rotating frame.
 
+use super::axis::{label, significant};
 use super::cells::{range, rpm};
 use super::drawing::Drawing;
 use super::layer::{Curve, Mark, Marks, Stroke};
@@ -7,7 +8,7 @@ use super::sketch::{Axis, Panel, Sketch, Stand};
 use super::style::{Colour, Dash, Look, Pen, Symbol};
 use super::svg::{Element, group, line, text};
 use super::{heading, marks};
-use rubmap_analysis::result::{Campbell, Table, Wave};
+use rubmap_analysis::result::{Campbell, Course, Table, Veering, Wave};
 
 /// Highest engine order that is drawn: higher ones crowd the corner of slow speeds, so their rays and driven crossings are left out.
 const HIGHEST_ORDER: u32 = 30;
@@ -36,6 +37,7 @@ pub fn campbell(campbell: &Campbell) -> Drawing<'_> {
     if drawn_orders(campbell) > 0 && campbell.settings.lobes > 1 {
         panel.sample(ray_pen(false).sample(), "other engine orders");
     }
+    veerings(campbell, &mut panel);
     crossings(campbell, &mut panel);
     let numbers = numbers(campbell, &panel);
     panel.push(numbers);
@@ -46,8 +48,9 @@ pub fn campbell(campbell: &Campbell) -> Drawing<'_> {
 pub(super) fn begin(kind: &'static str, title: &str, campbell: &Campbell) -> Sketch<'static> {
     let settings = &campbell.settings;
     let origin = heading::origin(&settings.model, &campbell.version);
+    let by = if campbell.followed.is_some() { "shape" } else { "rank" };
     let words = format!(
-        "{} modes per speed · {} lobes · {origin}",
+        "{} modes per speed · {} lobes · families by {by} · {origin}",
         campbell.reduction.modes_per_speed, settings.lobes
     );
     let warning = campbell.reduction.stiffening.verdict.warning().map(str::to_owned);
@@ -86,17 +89,45 @@ fn curves(campbell: &Campbell, panel: &mut Panel) {
         let pen = Pen::new(Colour::ordinal(i, harmonics), Dash::Solid, 1.8);
         panel.sample(pen.sample(), &format!("nodal diameter {i}"));
     }
-    let grey = |dash, width| Pen::new(Colour::of("#444444"), dash, width).sample();
     for family in 0..families.min(4) {
-        panel.sample(grey(Dash::nth(family), 1.8), &format!("family {}", family + 1));
+        let pen = Pen::new(Colour::neutral("#444444"), Dash::nth(family), 1.8);
+        explained(panel, pen, &format!("family {}", family + 1));
     }
     if campbell.waves.is_some() {
-        panel.sample(grey(Dash::Solid, width(Some(Wave::Forward))), "forward waves");
-        panel.sample(grey(Dash::Solid, width(Some(Wave::Backward))), "backward waves");
+        for (wave, words) in [(Wave::Forward, "forward waves"), (Wave::Backward, "backward waves")] {
+            explained(panel, Pen::new(Colour::neutral("#444444"), Dash::Solid, width(Some(wave))), words);
+        }
     }
     if harmonics > 0 {
         panel.note("numbers at the lines: nodal diameters");
     }
+}
+
+/// Adds a pen to the key of the drawing, and to the legend of the figure by a curve without points.
+fn explained(panel: &mut Panel, pen: Pen, words: &str) {
+    panel.sample(pen.sample(), words);
+    panel.push(Curve::new(words, [None, None], pen));
+}
+
+/// Adds the places where followed families veer or cross.
+fn veerings(campbell: &Campbell, panel: &mut Panel) {
+    let all = campbell.followed.iter().flat_map(|followed| &followed.veerings);
+    let marks = all.map(|found| {
+        let Veering { nodal_diameter: i, families: [a, b], speed_rad_s, frequency_hz, .. } = *found;
+        let apart = format!("{} Hz apart", significant(found.distance_hz));
+        let course = match found.course {
+            Course::Crosses => "cross".to_owned(),
+            Course::Exchanges => format!("veer, {apart}, and exchange their shapes"),
+            Course::Stays => format!("veer, {apart}, and stay on their branches"),
+        };
+        let place = format!("{} rpm, {} Hz", label(rpm(speed_rad_s), 0), significant(frequency_hz));
+        Mark::new(
+            (rpm(speed_rad_s), frequency_hz),
+            format!("nodal diameter {i}: families {a} and {b} {course}: {place}"),
+        )
+    });
+    let look = Look::open(Symbol::Square, (5.0, 11.0), Colour::neutral("#444444"));
+    panel.marks("families veer or cross", Marks::new("families veer or cross", look, marks));
 }
 
 /// Highest engine order that has a ray: that of the highest crossing, at most [`HIGHEST_ORDER`].
@@ -189,13 +220,18 @@ fn crossings(campbell: &Campbell, panel: &mut Panel) {
     let few = campbell.driven_crossings.iter().filter(|crossing| crossing.engine_order <= HIGHEST_ORDER);
     let driven = few.map(|found| {
         let mark = Mark::new((rpm(found.speed_rad_s), found.frequency_hz), marks::driven_words(found));
-        mark.label(marks::pair(found))
+        mark.label(format!(
+            "EO {}, i {}, {} rpm",
+            found.engine_order,
+            found.nodal_diameter,
+            label(rpm(found.speed_rad_s), 0)
+        ))
     });
     let ring = Look::open(Symbol::Circle, (4.5, 10.0), Colour::neutral("black"));
     let linear = Marks::new("linear (i, j, n)", ring, linear.filter(inside));
     let diamond = Look::filled(Symbol::Diamond, (4.4, 10.0), Colour::warning());
-    let driven = Marks::new(&format!("driven, k ≤ {HIGHEST_ORDER} (i, j)"), diamond, driven.filter(inside));
-    panel.marks(&format!("driven, k ≤ {HIGHEST_ORDER}: (i, j)"), driven);
+    let driven = Marks::new(&format!("driven, k ≤ {HIGHEST_ORDER}"), diamond, driven.filter(inside));
+    panel.marks(&format!("driven, EO k ≤ {HIGHEST_ORDER}, on i"), driven);
     panel.marks("linear criterion (i, j, n)", linear);
 }
 

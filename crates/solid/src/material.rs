@@ -27,7 +27,30 @@ pub struct Material {
     pub fatigue_strength: Option<FatigueStrength>,
 }
 
+/// Strengths of a material, as far as they are known, in the model's unit of stress.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[serde(deny_unknown_fields)]
+pub struct GivenStrengths {
+    /// Yield strength.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub yield_strength: Option<f64>,
+    /// Ultimate strength.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ultimate_strength: Option<f64>,
+    /// Fatigue strength.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fatigue_strength: Option<FatigueStrength>,
+}
+
 impl Material {
+    /// Material with these strengths in place of its own.
+    #[must_use]
+    pub fn with_strengths(&self, given: &GivenStrengths) -> Self {
+        let GivenStrengths { yield_strength, ultimate_strength, fatigue_strength } = given.clone();
+        Self { yield_strength, ultimate_strength, fatigue_strength, ..*self }
+    }
+
     /// Lamé's constants λ and μ, `σ = λ tr(ε) 1 + 2μ ε`.
     pub fn lame_constants(&self) -> Lame {
         lame_constants(self.youngs_modulus, self.poissons_ratio)

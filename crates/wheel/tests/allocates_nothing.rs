@@ -66,7 +66,7 @@ fn allocations(scheme: Scheme, coriolis: bool, effects: Effects<'_>, revolutions
         restriction: Some(Lobes { count: 2, amplitude: 0.5, width_rad: 0.4, phase_rad: 0.1 }.into()),
         ramp_revolutions: 0.5,
     };
-    let damping = ModalDamping { modal_ratio: 0.01, family_ratios: vec![0.005] };
+    let damping = ModalDamping { modal_ratio: 0.01, family_ratios: vec![0.005], ranks: Vec::new() };
     let sensors = [SensorRow { direction: Direction { node: 0, components: [1.0, 0.0, 0.0] }, sector: 3 }];
     let simulation = Simulation {
         wheel: &wheel,

@@ -4,6 +4,7 @@ use anyhow::Context;
 use serde::Deserialize;
 
 use super::problem::Problem;
+use crate::analysis::result::VerdictWord;
 use crate::store::status::JobStatus;
 
 /// Model, as far as it is used.
@@ -35,6 +36,9 @@ pub(in crate::cli) struct Job {
     pub(in crate::cli) speeds: SpeedCounts,
     #[serde(default)]
     pub(in crate::cli) created_at: String,
+    /// Verdict on a finished sweep; services of earlier versions do not tell it.
+    #[serde(default)]
+    pub(in crate::cli) verdict: Option<VerdictWord>,
     error: Option<Problem>,
     links: Vec<Link>,
 }

@@ -32,6 +32,11 @@ pub(in crate::cli) struct UploadLabels {
 }
 
 impl UploadLabels {
+    /// Whether any label is given.
+    pub(in crate::cli) fn are_given(&self) -> bool {
+        !self.query().is_empty()
+    }
+
     fn query(&self) -> Vec<(&'static str, String)> {
         let tags = Some(self.tags.join(",")).filter(|tags| !tags.is_empty());
         let labels = [("name", self.name.clone()), ("tags", tags), ("notes", self.notes.clone())];

@@ -27,8 +27,8 @@ pub(in crate::cli) struct DemoArgs {
     /// JSON file with the body of POST /v1/sweeps for the package, whose `model` may be left out, such as an edited sweep-request.json
     #[arg(long, requires = "package", conflicts_with_all = ["speeds", "revolutions"])]
     pub(super) request: Option<PathBuf>,
-    /// Speeds of the sweep, evenly spaced from 12,000 to 36,000 rpm, or over the range chosen for a package
-    #[arg(long, default_value_t = 120, value_parser = clap::value_parser!(u32).range(2..=10_000))]
+    /// Speeds of the sweep, evenly spaced from 12,000 to 28,000 rpm, or over the range chosen for a package
+    #[arg(long, default_value_t = 100, value_parser = clap::value_parser!(u32).range(2..=10_000))]
     pub(super) speeds: u32,
     /// Revolutions simulated at each speed, of which the last two fifths make the spectra; or "auto": until the motion repeats, and at
     /// most 100

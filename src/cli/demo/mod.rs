@@ -43,7 +43,8 @@ async fn play(args: &DemoArgs, client: &Client, package: &Path) -> anyhow::Resul
     let out = &args.out;
     let results = results::download(client, &modal_analysis, &sweep, out).await?;
     narrate(&format!(
-        "\n{}\n{}",
+        "\n{}\n\n{}\n{}",
+        results.verdict,
         report::credentials(&results.map),
         report::critical_speeds(&results.critical)
     ))?;

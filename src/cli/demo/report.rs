@@ -180,8 +180,8 @@ fn nearest_driven(speed: &CriticalSpeed, driven: &[DrivenCrossing]) -> String {
 pub(super) fn own_places(out: &Path, request: &Path, package: &Path) -> String {
     let folder = out.display();
     format!(
-        "Look at   {folder}/interaction-map.svg, interaction-map-frequency.svg, campbell.svg
-Read      {folder}/interaction-map.json, critical-speeds.json, campbell.json
+        "Look at   {folder}/report.html, interaction-map.svg, interaction-map-frequency.svg, campbell.svg
+Read      {folder}/verdict.json, interaction-map.json, critical-speeds.json, campbell.json
 Edit      {}, and again: rubmap demo --package {} --request {} --out {folder}
 Ask       rubmap serve --data {folder}/data
 ",
@@ -204,10 +204,11 @@ pub(super) fn places(out: &Path, map: &str, study: bool) -> String {
         )
     };
     format!(
-        "Look at   {folder}/interaction-map.svg            amplitude over speed and engine order
+        "Look at   {folder}/report.html                    verdict, levels and limits, map, all on one page
+          {folder}/interaction-map.svg            amplitude over speed and engine order
           {folder}/interaction-map-frequency.svg  the same over speed and frequency
           {folder}/campbell.svg                   natural frequencies over speed{look}
-Read      {folder}/interaction-map.json, critical-speeds.json, campbell.json
+Read      {folder}/verdict.json, interaction-map.json, critical-speeds.json, campbell.json
 Ask       rubmap serve --data {folder}/data
           curl 'http://127.0.0.1:8080{map}?sensor=1'   the trailing edge
 Upload    {folder}/impeller.zip or a package of your own{next}\n"

@@ -5,12 +5,14 @@ use std::path::Path;
 use crate::analysis::result::{Campbell, CriticalSpeeds, InteractionMap};
 use crate::cli::client::{Client, Job};
 use crate::cli::session::save;
+use crate::cli::verdict::ShownVerdict;
 use crate::plot::{self, LevelColour, VerticalAxis, Window};
 
 /// Results of a modal analysis and a sweep.
 pub(super) struct Results {
     pub(super) map: InteractionMap,
     pub(super) critical: CriticalSpeeds,
+    pub(super) verdict: ShownVerdict,
 }
 
 /// Downloads results and drawings into the folder.
@@ -26,6 +28,8 @@ pub(super) async fn download(
         client.download(sweep.link("interaction-map")?, &out.join("interaction-map.json")).await?;
     let critical: CriticalSpeeds =
         client.download(sweep.link("critical-speeds")?, &out.join("critical-speeds.json")).await?;
+    let verdict = client.download(sweep.link("verdict")?, &out.join("verdict.json")).await?;
+    client.save(sweep.link("report")?, &out.join("report.html")).await?;
     let draw = |axis| {
         plot::interaction_map(
             &map,
@@ -39,5 +43,5 @@ pub(super) async fn download(
     save(&out.join("interaction-map.svg"), &draw(VerticalAxis::EngineOrder).svg())?;
     save(&out.join("interaction-map-frequency.svg"), &draw(VerticalAxis::Frequency).svg())?;
     save(&out.join("campbell.svg"), &plot::campbell(&campbell).svg())?;
-    Ok(Results { map, critical })
+    Ok(Results { map, critical, verdict })
 }

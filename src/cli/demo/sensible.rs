@@ -14,8 +14,8 @@ use crate::analysis::run::ModelFacts;
 /// what machines have.
 const CLEARANCE: f64 = 0.002;
 
-/// Height of a lobe over the clearance: half of it stands inside the tips at rest, so that they touch twice a revolution.
-const LOBE: f64 = 1.5;
+/// Height of a lobe over the clearance: a tenth of the clearance stands inside the tips at rest, so that they touch twice a revolution.
+const LOBE: f64 = 1.1;
 
 /// Number of lobes of an ovalised casing.
 const LOBES: u32 = 2;
@@ -75,9 +75,6 @@ pub(super) fn sweep(
     let amplitude = round(LOBE * clearance);
     let [from, to] = [range.from_rad_s, range.to_rad_s].map(whole_rpm);
     let stiffening = facts.has_stiffening();
-    let last = facts.contact_nodes.saturating_sub(1);
-    let sensor = |node: u32| json!({"contact_node": node, "sector": 0, "component": "radial"});
-    let sensors = if last == 0 { json!([sensor(0)]) } else { json!([sensor(0), sensor(last)]) };
     let request = json!({
         "speeds": {"from": from, "to": to, "count": speeds, "unit": "rpm"},
         "scene": {
@@ -90,7 +87,6 @@ pub(super) fn sweep(
             "contact": {},
         },
         "integration": integration(revolutions),
-        "sensors": sensors,
         "max_engine_order": 24,
     });
     let unit = &facts.units.length;
@@ -180,8 +176,7 @@ mod tests {
         assert_eq!((range.from_rad_s, range.to_rad_s), (1000.0, 3000.0));
         let (request, words) = sweep(&facts, 123.4, &range, 10, AutoOr::Fixed(20));
         assert_eq!(request["scene"]["casing"]["clearance"]["leading"], 0.25);
-        assert_eq!(request["scene"]["casing"]["lobes"]["amplitude"], 0.38);
-        assert_eq!(request["sensors"][1]["contact_node"], 3);
+        assert_eq!(request["scene"]["casing"]["lobes"]["amplitude"], 0.28);
         assert!(words.contains("9549 to 28647 rpm") && words.contains("0.25 mm: 0.2 %"), "{words}");
         assert_eq!(lobes_of(&request), LOBES);
         assert_eq!(request["integration"]["revolutions"], 20);

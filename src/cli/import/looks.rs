@@ -57,7 +57,7 @@ fn role(role: MeshRole) -> String {
         MeshRole::Low => "low face",
         MeshRole::High => "high face",
         MeshRole::Clamp => "clamp",
-        MeshRole::Contact => "tip",
+        MeshRole::Contact => "contact",
     }
     .to_owned()
 }

@@ -1,4 +1,4 @@
-//! Impeller and scene that the demo shows: a generated impeller in the casing that the paper would give it.
+//! Impeller that commands make where none is given, in the casing that the paper would give it.
 
 use std::fs::File;
 use std::io::BufWriter;
@@ -8,12 +8,26 @@ use anyhow::Context;
 use serde_json::{Value, json};
 
 use crate::cli::stdout::narrate;
-use crate::impeller::{ImpellerParameters, PaperCasing, generate};
+use crate::impeller::{ImpellerParameters, Material, PaperCasing, generate};
+use rubmap_solid::material::FatigueStrength;
+
+/// Impeller of the default size with the strengths of its titanium: of annealed Ti-6Al-4V, the least that its standard allows, and a fatigue
+/// strength that handbooks give for polished specimens.
+fn parameters() -> ImpellerParameters {
+    let source = "Ti-6Al-4V, annealed: typical of polished specimens at R = -1 and 1e7 cycles";
+    let material = Material {
+        yield_strength: Some(828.0),
+        ultimate_strength: Some(895.0),
+        fatigue_strength: Some(FatigueStrength { amplitude: 500.0, source: source.to_owned() }),
+        ..Material::default()
+    };
+    ImpellerParameters { material, ..ImpellerParameters::default() }
+}
 
 /// Makes the impeller and leaves its package in the out folder.
 pub(in crate::cli) fn make_package(out: &Path) -> anyhow::Result<PathBuf> {
     let path = out.join("impeller.zip");
-    let package = generate(&ImpellerParameters::default())?;
+    let package = generate(&parameters())?;
     let file = File::create(&path).with_context(|| format!("cannot create {}", path.display()))?;
     crate::package::write(&package, BufWriter::new(file))
         .with_context(|| format!("cannot write {}", path.display()))?;

@@ -18,13 +18,16 @@ const OF_MODELS: [&str; 3] = ["mesh", "modes", "section"];
 /// Forms of files whose names end with them.
 const FORMS: [&str; 8] = ["json", "csv", "npz", "svg", "png", "vtu", "vtp", "pvd"];
 
+/// Results that come in one form, and how the names of their files end.
+const OF_ONE_FORM: [(&str, &str); 2] = [("report", "html"), ("archive", "zip")];
+
 /// Result to download, and where it goes.
 #[derive(Debug, Args)]
 pub(in crate::cli) struct GetArgs {
     /// Job, or model for its mesh, modes and section: an id, the beginning of it, or a name
     #[arg(value_name = "JOB")]
     whose: String,
-    /// Result, as its path ends: verdict, interaction-map, critical-speeds, critical-speeds/wheel, spectra/20, campbell, forces, stress, histories,
+    /// Result, as its path ends: verdict, interaction-map, critical-speeds, critical-speeds/wheel, spectra/20, campbell, interference, forces, stress, histories,
     /// fields, wear/0, work-precision, report, archive; of a model mesh, modes, section
     #[arg(value_parser = result)]
     result: String,
@@ -52,7 +55,7 @@ impl Verb for GetArgs {
             _ => Target::Stdout,
         };
         let mut query = self.parameters.clone();
-        query.extend(self.form(&target).map(|form| ("format".to_owned(), form)));
+        query.extend(self.form(&target)?.map(|form| ("format".to_owned(), form)));
         let of_model = OF_MODELS.contains(&self.result.as_str());
         if self.result == "verdict" && self.format.as_deref() == Some("text") {
             return self.verdict(client, &target).await;
@@ -77,14 +80,32 @@ impl Verb for GetArgs {
 }
 
 impl GetArgs {
-    /// Form that is asked for.
-    fn form(&self, target: &Target) -> Option<String> {
-        let ending = match target {
-            Target::File(file) => file.extension().and_then(|ending| ending.to_str()),
-            Target::Stdout => None,
-        };
-        let named = || ending.filter(|ending| FORMS.contains(ending)).map(ToOwned::to_owned);
-        self.format.clone().or_else(named)
+    /// Form that is asked for: by `--format`, or by the end of the file's name.
+    ///
+    /// # Errors
+    /// File whose name ends like those of no form.
+    fn form(&self, target: &Target) -> anyhow::Result<Option<String>> {
+        let Target::File(file) = target else { return Ok(self.format.clone()) };
+        let ending = file.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase());
+        match ending {
+            _ if self.format.is_some() => Ok(self.format.clone()),
+            _ if self.parameters.iter().any(|(name, _)| name == "format") => Ok(None),
+            None => Ok(None),
+            Some(ending) if OF_ONE_FORM.contains(&(&self.result, &ending)) => Ok(None),
+            Some(ending) if FORMS.contains(&ending.as_str()) => Ok(Some(ending)),
+            Some(ending) => {
+                let (file, result) = (file.display(), &self.result);
+                match OF_ONE_FORM.iter().find(|(of, _)| of == result) {
+                    Some((_, form)) => {
+                        bail!("{file}: {result} comes as {form}: let the name end with .{form}")
+                    }
+                    None => bail!(
+                        "{file}: no result comes as {ending}; let the name end with .{}, or name the form with --format",
+                        FORMS.join(", .")
+                    ),
+                }
+            }
+        }
     }
 
     /// Prints a verdict as text.

@@ -5,6 +5,7 @@ use serde_json::{Value, json};
 
 use super::find;
 use super::kind::kind;
+use crate::analysis::result::VerdictWord;
 use crate::cli::client::{Answer, Client, Job, Model, ServerArgs};
 use crate::cli::size::size;
 use crate::cli::stdout::{print, print_json};
@@ -131,7 +132,9 @@ impl LsArgs {
 fn job_line(job: &Job) -> String {
     let (kind, status) = (job.kind.replace('_', "-"), job.status.as_str());
     let name = job.name.as_deref().unwrap_or_default();
-    format!("{}  {kind:<16} {status:<10} {:>3} %  {}  {name}", job.id, job.progress, minute(&job.created_at))
+    let verdict = job.verdict.map_or("", VerdictWord::as_str);
+    let (progress, created) = (job.progress, minute(&job.created_at));
+    format!("{}  {kind:<16} {status:<10} {progress:>3} %  {verdict:<9}  {created}  {name}", job.id)
 }
 
 fn model_line(model: &Model) -> String {

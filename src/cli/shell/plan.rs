@@ -78,7 +78,11 @@ static IN_WORDS: [(&str, InWords); 8] = [
 fn sweep(plan: &SweepPlan) -> String {
     let mut words = effects(&plan.effects);
     // Writing to a string cannot fail, here and below.
-    let _ = writeln!(words, "speeds      {}, {} side by side", plan.speeds, plan.workers);
+    let more = match plan.added_speeds_at_most {
+        Some(most) => format!(", at most {most} more about peaks (`refine`)"),
+        None => String::new(),
+    };
+    let _ = writeln!(words, "speeds      {}{more}, {} side by side", plan.speeds, plan.workers);
     times_of(&mut words, plan.machine.as_ref());
     reduction(&mut words, plan.reduction, plan.reduced_unknowns_at_most);
     if let Some(estimate) = &plan.estimate {
@@ -92,6 +96,13 @@ fn sweep(plan: &SweepPlan) -> String {
         if let Some(message) = &point.message {
             let _ = writeln!(words, "not         {:.2} rad/s: {message}", point.speed_rad_s);
         }
+    }
+    let inside = plan.points.iter().filter_map(|point| point.interference).reduce(f64::max);
+    if let Some(inside) = inside {
+        let _ = writeln!(
+            words,
+            "casing      at most {inside:.3e} inside the tips at rest, in the model's unit of length"
+        );
     }
     for sensor in &plan.placed_sensors {
         let _ = writeln!(words, "sensor {:<4} node {} at {:?}", sensor.sensor, sensor.node, sensor.position);

@@ -39,8 +39,14 @@ impl Verb for UploadArgs {
             model.name,
             model.sectors,
             model.contact_nodes,
-            if new { "" } else { "; the service had it already, and keeps what it is called" }
+            if new { "" } else { "; the service had it already" }
         ));
+        if !new && self.labels.are_given() {
+            client.terminal.say(&format!(
+                "the model keeps the name {:?}, its tags and its notes: an upload changes no labels of a known model",
+                model.name
+            ));
+        }
         for warning in model.body["warnings"].as_array().into_iter().flatten().filter_map(Value::as_str) {
             client.terminal.say(&format!("WARNING: {warning}"));
         }

@@ -45,7 +45,7 @@ impl Verb for WatchArgs {
             let bodies: Vec<&Value> = jobs.iter().map(|job| &job.body).collect();
             print_json(&json!({"jobs": bodies}))?;
         } else {
-            jobs.iter().try_for_each(|job| print(&format!("{}  {}", job.id, job.status.as_str())))?;
+            jobs.iter().try_for_each(|job| print(&line(job)))?;
         }
         worst(&jobs)?;
         let mut gated = Ok(());
@@ -79,6 +79,12 @@ async fn follow_one(client: &Client, id: &str) -> anyhow::Result<Answer<Job>> {
     let job = client.job(id).await?;
     let name = job.name.as_deref().unwrap_or(&job.kind).replace('_', " ");
     follow_any(client, id, &name).await
+}
+
+/// Line of a job that has ended: its id, its status, and the verdict on a sweep.
+fn line(job: &Job) -> String {
+    let verdict = job.verdict.map_or_else(String::new, |verdict| format!("  {verdict}"));
+    format!("{}  {}{verdict}", job.id, job.status.as_str())
 }
 
 /// Error if a job has failed; if none has, error if one was cancelled.

@@ -11,7 +11,7 @@ use crate::analysis::kinds::modal_analysis::CAMPBELL;
 use crate::analysis::kinds::sweep::{CRITICAL_SPEEDS, ERRORS, HISTORIES};
 use crate::analysis::kinds::{branches, run_up};
 use crate::analysis::resolved::ResolvedSweep;
-use crate::analysis::result::{Chosen, PointStatus, SpeedResult, Trial};
+use crate::analysis::result::{Chosen, PointStatus, SpeedResult, Trial, VerdictWord};
 use crate::analysis::run::{Calibration, Estimate, ReducedSector};
 use crate::kinds::JobKind;
 use crate::store::dialect::Dialect;
@@ -294,6 +294,9 @@ async fn a_job_from_its_beginning_to_its_end() {
         store.keep_document(job, Document::part(HISTORIES, 3), "[\"ü\"]").await.unwrap();
         store.keep_document(job, Document::part(HISTORIES, 3), "[]").await.unwrap();
         let documents = [(ERRORS, "[1]".to_owned()), (Document::part(CRITICAL_SPEEDS, 1), "[2]".to_owned())];
+        assert_eq!(store.job(job).await.unwrap().unwrap().verdict, None);
+        store.record_verdict(job, VerdictWord::Undecided).await.unwrap();
+        store.record_verdict(job, VerdictWord::Act).await.unwrap();
         assert!(store.complete_job(job, &documents, None).await.unwrap());
         assert!(!store.complete_job(job, &documents, None).await.unwrap());
         let listed = store.documents(job).await.unwrap();
@@ -308,6 +311,9 @@ async fn a_job_from_its_beginning_to_its_end() {
         let done = store.job(job).await.unwrap().unwrap();
         assert_eq!((done.status, done.progress, done.phase.as_str()), (JobStatus::Successful, 100, ""));
         assert!(done.finished_at.is_some() && done.stored_bytes > 12);
+        let listed = store.jobs(JobFilter::default(), 9).await.unwrap();
+        let of_job = listed.iter().find(|head| head.id == job).unwrap();
+        assert_eq!([done.verdict, of_job.verdict], [Some(VerdictWord::Act); 2]);
         assert_eq!(store.dismiss_job(job).await.unwrap(), Some(JobStatus::Successful));
         assert_eq!(store.dismiss_job(JobId::new()).await.unwrap(), None);
 

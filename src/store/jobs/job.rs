@@ -8,7 +8,7 @@ use uuid::Uuid;
 
 use crate::analysis::error::Violation;
 use crate::analysis::kinds::kind::ResolvedJob;
-use crate::analysis::result::Chosen;
+use crate::analysis::result::{Chosen, VerdictWord};
 use crate::analysis::run::{Estimate, ModelFacts};
 use crate::kinds::JobKind;
 use crate::store::labels::Labels;
@@ -113,6 +113,8 @@ pub struct JobHead {
     pub stored_bytes: u64,
     /// Failure of the job, if it failed.
     pub failure: Option<Failure>,
+    /// Verdict on a finished sweep, as it was when the job ended; `None` for jobs of earlier versions.
+    pub verdict: Option<VerdictWord>,
     /// Time at which the job was accepted, RFC 3339.
     pub created_at: String,
     /// Time at which computing began, RFC 3339.

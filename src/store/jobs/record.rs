@@ -1,7 +1,7 @@
 //! Records of a job while it runs: progress, choice and plan.
 
 use super::job::JobId;
-use crate::analysis::result::Chosen;
+use crate::analysis::result::{Chosen, VerdictWord};
 use crate::analysis::run::Estimate;
 use crate::store::error::StoreError;
 use crate::store::handle::Store;
@@ -33,6 +33,17 @@ impl Store {
             .execute(&mut *write)
             .await?;
         write.commit_job(id).await
+    }
+
+    /// Stores the verdict on a sweep that is about to end.
+    pub async fn record_verdict(&self, id: JobId, verdict: VerdictWord) -> Result<(), StoreError> {
+        let mut write = self.write().await?;
+        sqlx::query("update jobs set verdict = $1 where id = $2")
+            .bind(verdict.as_str())
+            .bind(id.to_string())
+            .execute(&mut *write)
+            .await?;
+        write.commit().await
     }
 
     /// Stores the expected cost of a sweep; the first estimate stays.

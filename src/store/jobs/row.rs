@@ -6,6 +6,7 @@ use sqlx::any::AnyRow;
 use super::job::{Job, JobHead, JobId, Posted, SpeedCounts};
 use super::kept;
 use crate::analysis::kinds::kind::{ResolvedJob, Units};
+use crate::analysis::result::VerdictWord;
 use crate::kinds::JobKind;
 use crate::store::error::StoreError;
 use crate::store::labels;
@@ -28,7 +29,7 @@ pub(super) fn read_id(text: &str) -> Result<JobId, StoreError> {
 }
 
 /// Columns that [`read_head`] reads.
-pub(super) const HEAD: &str = "id, owner, kind, status, model, progress, phase, speeds, finished, diverged, failed, stored_bytes, error,
+pub(super) const HEAD: &str = "id, owner, kind, status, model, progress, phase, speeds, finished, diverged, failed, stored_bytes, error, verdict,
     created_at, started_at, finished_at, updated_at, name, tags, notes";
 
 pub(super) fn read_head(row: &AnyRow) -> Result<JobHead, StoreError> {
@@ -57,6 +58,7 @@ pub(super) fn read_head(row: &AnyRow) -> Result<JobHead, StoreError> {
         },
         stored_bytes: row.try_get::<i64, _>("stored_bytes")?.unsigned_abs(),
         failure: row.try_get::<Option<&str>, _>("error")?.map(serde_json::from_str).transpose()?,
+        verdict: row.try_get::<Option<&str>, _>("verdict")?.map(verdict).transpose()?,
         created_at: row.try_get("created_at")?,
         started_at: row.try_get("started_at")?,
         finished_at: row.try_get("finished_at")?,
@@ -67,6 +69,12 @@ pub(super) fn read_head(row: &AnyRow) -> Result<JobHead, StoreError> {
 /// Kind that a column holds.
 fn kind(name: &str) -> Result<JobKind, StoreError> {
     JobKind::named(name).ok_or_else(|| StoreError::Unknown { column: "jobs.kind", value: name.to_owned() })
+}
+
+/// Verdict that a column holds.
+fn verdict(word: &str) -> Result<VerdictWord, StoreError> {
+    let unknown = || StoreError::Unknown { column: "jobs.verdict", value: word.to_owned() };
+    VerdictWord::named(word).ok_or_else(unknown)
 }
 
 /// Request as it was posted; earlier versions did not keep it, but what they resolved can often be posted.

@@ -140,7 +140,11 @@ impl Recipe {
         Case {
             wheel,
             contact_nodes,
-            damping: self.damping.map(|modal_ratio| ModalDamping { modal_ratio, family_ratios: vec![0.01] }),
+            damping: self.damping.map(|modal_ratio| ModalDamping {
+                modal_ratio,
+                family_ratios: vec![0.01],
+                ranks: Vec::new(),
+            }),
             casing: Casing {
                 clearance,
                 restriction: Some(

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import json
 import os
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import islice
 from pathlib import Path
 from typing import Any, Self, cast
-from urllib.parse import quote
 
 from .contract import (
     BranchesRequest,
@@ -34,6 +34,10 @@ from .service import Service, plain
 _KINDS: dict[str, type[Job]] = {
     kind.kind: kind for kind in (Sweep, ModalAnalysis, Study, CaseStudy, Branches, RunUps, Campaign, ModelGeneration)
 }
+
+#: Whole ids of models and jobs.
+_MODEL_ID = re.compile(r"[0-9a-f]{64}")
+_JOB_ID = re.compile(r"[0-9a-f]{8}(-[0-9a-f]{4}){3}-[0-9a-f]{12}")
 
 
 class Client:
@@ -228,8 +232,13 @@ class Client:
         return ModelGeneration(self.service, cast(Mapping[str, Any], request))
 
     def model(self, id: str) -> Model:
-        """A model by its id."""
-        return Model(self.service, self.service.get(f"/v1/models/{quote(id, safe='')}"))
+        """A model by its id, the beginning of its id, or its name.
+
+        Raises:
+            LookupError: no model is called so, or several are.
+        """
+        whole = id if _MODEL_ID.fullmatch(id) else self._find("models", id)
+        return Model(self.service, self.service.get(f"/v1/models/{whole}"))
 
     def models(self, limit: int | None = None, **query: Any) -> list[Model]:
         """Models, newest first, ``limit`` at most; ``name`` and ``tag`` choose among them."""
@@ -274,8 +283,13 @@ class Client:
         return Campaign(self.service, cast(Mapping[str, Any], request))
 
     def job(self, id: str) -> Job:
-        """A job by its id, as :class:`Sweep`, :class:`ModalAnalysis`, :class:`Study`, :class:`CaseStudy`, :class:`Branches`, :class:`RunUps`, :class:`Campaign` or :class:`ModelGeneration`."""
-        return self._job(self.service.get(f"/v1/jobs/{quote(id, safe='')}"))
+        """A job by its id, the beginning of its id, or its name, as :class:`Sweep`, :class:`ModalAnalysis`, :class:`Study`, :class:`CaseStudy`, :class:`Branches`, :class:`RunUps`, :class:`Campaign` or :class:`ModelGeneration`.
+
+        Raises:
+            LookupError: no job is called so, or several are.
+        """
+        whole = id if _JOB_ID.fullmatch(id) else self._find("jobs", id)
+        return self._job(self.service.get(f"/v1/jobs/{whole}"))
 
     def jobs(self, limit: int | None = None, **query: Any) -> list[Job]:
         """Jobs, newest first, ``limit`` at most; ``kind``, ``status``, ``model``, ``name`` and ``tag`` choose among them."""
@@ -284,6 +298,19 @@ class Client:
     def _job(self, found: Mapping[str, Any]) -> Job:
         kind = _KINDS.get(found["kind"]) or _later_kind(found)
         return kind(self.service, asked_of(found, kind.path), found["id"])
+
+    def _find(self, what: str, called: str) -> str:
+        """Id of the one model or job whose id begins so, or which has this name."""
+        matches = [
+            found["id"]
+            for found in self._all(what, {})
+            if called and (found["id"].startswith(called) or found.get("name") == called)
+        ]
+        if len(matches) == 1:
+            return str(matches[0])
+        if not matches:
+            raise LookupError(f"none of the {what} has an id that begins with {called!r}, or this name")
+        raise LookupError(f"{called!r} may be {len(matches)} of the {what}: {', '.join(matches[:5])}")
 
     def _all(self, what: str, query: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
         page = self.service.get(f"/v1/{what}", limit=500, **query)

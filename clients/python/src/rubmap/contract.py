@@ -1731,6 +1731,7 @@ class JobBody(TypedDict):
     stored_bytes: int
     tags: list[str]
     updated_at: str
+    verdict: NotRequired[VerdictWord]
 
 
 class JobList(TypedDict):

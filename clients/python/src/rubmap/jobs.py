@@ -9,14 +9,17 @@ import time
 import uuid
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
+from html import escape
 from pathlib import Path
 from typing import Any, ClassVar, Self
 
 import httpx
-from tqdm.auto import tqdm
 
 from .download import Arrays, arrays, download
-from .errors import JobFailed, Refusal, Unreachable
+from .errors import JobFailed, Refusal, RubmapError, Unreachable
+from .notebook import badge, rows
+from .plan import Plan
+from .progress import progress as shown
 from .service import AGAIN, Service
 
 _ENDED = ("successful", "failed", "dismissed")
@@ -26,6 +29,9 @@ _POLL = 1.0
 
 #: Seconds after which events that say nothing, not even that the connection lives (every 15 s), are asked for again.
 _SILENCE = 20.0
+
+#: Seconds that a notebook waits for a job that it shows.
+_GLANCE = 3.0
 
 
 class Job:
@@ -70,14 +76,32 @@ class Job:
         self.id = str(self._service.post(self.path, self.request, self._key)["id"])
         return self
 
-    def plan(self) -> dict[str, Any]:
-        """What it would do and cost, without starting anything: time, memory, steps, effects on and off, warnings.
+    def _repr_html_(self) -> str:
+        """The job as it is now, for notebooks; as it is called where nobody answers soon."""
+        if self.id is None:
+            return escape(repr(self))
+        try:
+            state = self._service.look(self._own(), _GLANCE)
+        except (httpx.TransportError, RubmapError):
+            return escape(repr(self))
+        told = {
+            "kind": self.kind.replace("_", " "),
+            "name": state.get("name"),
+            "status": f"{state['status']}, {state['progress']} %",
+            "phase": state.get("phase"),
+            "id": self.id,
+        }
+        verdict = f"<p>{badge(state['verdict'])}</p>" if "verdict" in state else ""
+        page = escape(f"{self._service.url}/#/jobs/{self.id}")
+        return f'{verdict}{rows((name, str(value)) for name, value in told.items() if value)}<p><a href="{page}">open in the browser</a></p>'
+
+    def plan(self) -> Plan:
+        """What it would do and cost, without starting anything: time, memory, steps, effects on and off, warnings. Prints as a table.
 
         Raises:
             Refusal: the request is not complete or not possible.
         """
-        found: dict[str, Any] = self._service.ask(f"{self.path}/plan", self.request)
-        return found
+        return Plan(self._service.ask(f"{self.path}/plan", self.request))
 
     @property
     def state(self) -> dict[str, Any]:
@@ -94,7 +118,7 @@ class Job:
         """Waits until it has its result.
 
         Args:
-            progress: whether a bar shows how far it is.
+            progress: whether a bar shows how far it is; where there is no terminal and no notebook, a line for every tenth of the work.
             timeout: seconds after which nobody waits any more.
 
         Raises:
@@ -104,11 +128,9 @@ class Job:
         """
         self._own()
         end = None if timeout is None else time.monotonic() + timeout
-        bars = "{desc}: {percentage:3.0f} %|{bar}| {elapsed}{postfix}"
-        with tqdm(total=100, bar_format=bars, disable=not progress, desc=self.kind) as bar:
+        with shown(self.kind, progress) as bar:
             for state in self._changes(end):
-                bar.set_postfix_str(str(state.get("phase") or state["status"]))
-                bar.update(state["progress"] - bar.n)
+                bar.show(state)
                 if state["status"] in _ENDED:
                     if state["status"] != "successful":
                         raise JobFailed(state)

@@ -10,6 +10,7 @@ import tempfile
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+from importlib import metadata
 from pathlib import Path
 
 from .client import Client
@@ -24,17 +25,19 @@ def local(binary: str | os.PathLike[str] | None = None, data: str | os.PathLike[
     """Starts the program on a free port of this machine, and stops it at the end of the block.
 
     Args:
-        binary: the program; by default ``RUBMAP_BINARY`` of the environment, or ``rubmap`` of the PATH.
+        binary: the program; by default ``RUBMAP_BINARY`` of the environment, the one that was installed with this client, or ``rubmap`` of the
+            PATH.
         data: folder that keeps models and results; by default a temporary one, which is deleted.
 
     Raises:
         RubmapError: there is no such program, or it did not start; its log says why.
     """
-    named = os.path.expanduser(binary or os.environ.get("RUBMAP_BINARY") or "rubmap")
+    named = os.path.expanduser(binary or os.environ.get("RUBMAP_BINARY") or _installed() or "rubmap")
     program = shutil.which(named)
     if program is None:
         raise RubmapError(
-            f"there is no program {named} that can be run: name it, or set RUBMAP_BINARY (cargo build --release makes target/release/rubmap)"
+            f"there is no program {named} that can be run: name it, set RUBMAP_BINARY (cargo build --release makes target/release/rubmap), "
+            "or install a wheel that carries it (clients/python/wheel makes one)"
         )
     with tempfile.TemporaryDirectory(prefix="rubmap-") as folder:
         log = Path(folder) / "service.log"
@@ -58,6 +61,16 @@ def local(binary: str | os.PathLike[str] | None = None, data: str | os.PathLike[
             except subprocess.TimeoutExpired:
                 process.kill()
                 process.wait()
+
+
+def _installed() -> Path | None:
+    """The program that the wheel of this client carried, wherever it was installed."""
+    try:
+        files = metadata.files("rubmap") or []
+    except metadata.PackageNotFoundError:
+        return None
+    programs = (Path(str(file.locate())) for file in files if file.name in ("rubmap", "rubmap.exe"))
+    return next((program for program in programs if program.is_file()), None)
 
 
 def _address(process: subprocess.Popen[bytes], log: Path) -> str:

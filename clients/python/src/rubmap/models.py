@@ -10,6 +10,7 @@ from typing import Any
 import pandas as pd
 
 from .download import Arrays, arrays, download
+from .notebook import rows
 from .service import Service
 
 
@@ -29,6 +30,16 @@ class Model:
 
     def __repr__(self) -> str:
         return f"<rubmap model {self.id[:12]} {self.facts['name']!r}, {self.facts['sectors']} sectors>"
+
+    def _repr_html_(self) -> str:
+        told = {
+            "model": self.facts["name"],
+            "sectors": self.facts["sectors"],
+            "contact nodes": self.facts["contact_nodes"],
+            "units": ", ".join(self.units.values()),
+            "id": self.id,
+        }
+        return rows((name, str(value)) for name, value in told.items())
 
     @property
     def units(self) -> dict[str, str]:

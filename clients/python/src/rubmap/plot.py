@@ -19,6 +19,7 @@ __all__ = [
     "critical_speeds",
     "envelope",
     "interaction_map",
+    "interference",
     "level",
     "spectrogram",
     "spectrum",
@@ -61,9 +62,11 @@ def interaction_map(
     return ax
 
 
-def level(points: pd.DataFrame, ax: Axes | None = None, quantity: str = "rms") -> Axes:
-    """Level over speed, of :meth:`Sweep.points`: ``rms``, ``half_peak_to_peak`` or another part of the sensor's response."""
+def level(found: pd.DataFrame | xr.Dataset, ax: Axes | None = None, quantity: str = "rms") -> Axes:
+    """Level over speed: ``rms``, ``half_peak_to_peak`` or another part of the sensor's response, of :meth:`Sweep.points`; of
+    :meth:`Sweep.interaction_map` the ``rms`` of the engine orders that it has, without the mean."""
     ax = _axes(ax)
+    points = _level_of_map(found, quantity) if isinstance(found, xr.Dataset) else found
     there = [column.removeprefix("response.") for column in points.columns if column.startswith("response.")]
     if there and quantity not in there:
         raise ValueError(f"a response has no {quantity}; it has {', '.join(there)}")
@@ -73,6 +76,18 @@ def level(points: pd.DataFrame, ax: Axes | None = None, quantity: str = "rms") -
     ax.set_ylabel(f"level, {points.attrs['unit']} {quantity.replace('_', ' ')}")
     ax.set_ylim(bottom=0.0)
     return ax
+
+
+def _level_of_map(found: xr.Dataset, quantity: str) -> pd.DataFrame:
+    """Root mean square of the lines of a map, which are amplitudes of single-sided spectra, as points have it."""
+    if quantity != "rms":
+        raise ValueError(f"an interaction map has no {quantity}, only rms; Sweep.points() has it")
+    amplitude = found["amplitude"].transpose("speed", "engine_order").to_numpy()
+    moving = amplitude[:, found["engine_order"].to_numpy() > 0.0]
+    rms = np.sqrt(np.sum(moving**2, axis=1) / 2.0)
+    points = pd.DataFrame({"speed_rpm": found["speed_rpm"].to_numpy(), "response.rms": rms})
+    points.attrs["unit"] = found["amplitude"].attrs["units"]
+    return points
 
 
 def campbell(
@@ -99,6 +114,25 @@ def campbell(
         )
     ax.set_xlabel("speed of rotation, rpm")
     ax.set_ylabel("frequency, Hz")
+    ax.legend(fontsize="small")
+    return ax
+
+
+def interference(found: pd.DataFrame, ax: Axes | None = None) -> Axes:
+    """Modes over the nodal diameter at one speed and the zig-zag of engine orders, of :meth:`ModalAnalysis.interference`."""
+    ax = _axes(ax)
+    orders = found.attrs["engine_orders"]
+    ax.plot([0, *orders["nodal_diameter"]], [0.0, *orders["frequency_hz"]], color="grey", linewidth=0.8)
+    driven = pd.DataFrame(orders).query("of_lobes")
+    ax.plot(driven["nodal_diameter"], driven["frequency_hz"], "D", color="#d62728", label="engine orders of the lobes")
+    for family in range(1, int(found["family"].max()) + 1):
+        modes = found[found["family"] == family]
+        colour = _COLOURS[(family - 1) % len(_COLOURS)]
+        ax.plot(modes["nodal_diameter"], modes["frequency_hz"], "o", color=colour, label=f"family {family}")
+    ax.set_ylim(0.0, 1.08 * float(found["frequency_hz"].max()))
+    ax.set_xlabel("nodal diameter")
+    ax.set_ylabel("frequency, Hz")
+    ax.set_title(f"{found.attrs['speed_rpm']:,.0f} rpm")
     ax.legend(fontsize="small")
     return ax
 

@@ -13,7 +13,7 @@ import xarray as xr
 from .contract import HistoriesRequest
 from .download import Arrays
 from .jobs import Job
-from .tables import RPM, credentials, dataset, sensor_unit, sensors, speed_axis, table, units
+from .tables import RPM, credentials, dataset, plain_name, sensor_unit, sensors, speed_axis, table, units
 from .verdict import Verdict
 
 
@@ -71,7 +71,7 @@ class Sweep(_Recorded):
         """The interaction map of a sensor, also while the job runs.
 
         Dimensions: ``speed`` (rad/s; also ``speed_rpm`` and ``index`` in the request) and ``engine_order``. Variables: ``amplitude`` (speed, engine_order), in the
-        model's unit of length; ``status``, ``utilisation``, ``largest_von_mises`` (the model's unit of stress), ``validity`` by speed. The coordinate
+        model's unit of length; ``status``, ``utilisation``, ``largest_von_mises`` (the model's unit of stress), ``linear_theory`` (whether it holds) by speed. The coordinate
         ``frequency`` (speed, engine_order) is in Hz, in the rotating frame. Speeds ascend, whatever their order in the request.
 
         Args:
@@ -100,11 +100,11 @@ class Sweep(_Recorded):
             ("validity", {}),
         ):
             if name in found:
-                variables[name] = ("speed", found[name], attributes)
+                variables[plain_name(name)] = ("speed", found[name], attributes)
         return dataset(variables, coordinates, found).assign_attrs(sensor=sensors(found)[0]).sortby("speed")
 
     def points(self, sensor: int | None = None) -> pd.DataFrame:
-        """What is known of every speed: response, settling, errors, energy, contact, wall time; a row a speed, ascending; nested names
+        """What is known of every speed: response, steady state, whether linear theory holds, errors, energy, contact, wall time; a row a speed, ascending; nested names
         are joined by dots.
 
         ``response.rms`` and what else begins so is of the sensor, the first if none is said, in the unit of ``attrs["unit"]``.
@@ -113,6 +113,7 @@ class Sweep(_Recorded):
         frame = pd.json_normalize([_with_response(point, sensor or 0) for point in found["points"]])
         if frame.empty:
             frame = pd.DataFrame(columns=["index", "speed_rad_s", "status"])
+        frame = frame.rename(columns=plain_name)
         frame = frame.sort_values("speed_rad_s", ignore_index=True)
         unit = _unit(found["sensor"], found["units"])
         frame.attrs.update(unit=unit, units=found["units"], version=found["version"])
@@ -196,7 +197,8 @@ class ModalAnalysis(Job):
     def campbell(self) -> xr.Dataset:
         """Natural frequencies.
 
-        Dimensions: ``speed`` (rad/s), ``nodal_diameter``, ``family`` (from 1). Variable: ``frequency``, Hz, in the rotating frame.
+        Dimensions: ``speed`` (rad/s), ``nodal_diameter``, ``family`` (from 1). Variables: ``frequency``, Hz, in the rotating frame; of families that are
+        followed by their shapes ``rank`` and ``assurance``, below 0.75 in the middle of a veering.
         """
         found = self.arrays("campbell")
         shape = found["frequencies_hz"].shape
@@ -204,10 +206,39 @@ class ModalAnalysis(Job):
         coordinates["nodal_diameter"] = ("nodal_diameter", np.arange(shape[1]), {"units": "1"})
         coordinates["family"] = ("family", np.arange(1, shape[2] + 1), {"units": "1"})
         attributes = {"units": "Hz", "long_name": "natural frequency"}
-        variables: dict[str, Any] = {
-            "frequency": (("speed", "nodal_diameter", "family"), found["frequencies_hz"], attributes)
-        }
+        axes = ("speed", "nodal_diameter", "family")
+        variables: dict[str, Any] = {"frequency": (axes, found["frequencies_hz"], attributes)}
+        if "ranks" in found:
+            variables["rank"] = (axes, found["ranks"], {"units": "1", "long_name": "rank of the mode, from 1"})
+            variables["assurance"] = (axes, found["assurance"], {"units": "1", "long_name": "modal assurance"})
         return dataset(variables, coordinates, found)
+
+    def veerings(self) -> pd.DataFrame:
+        """Where followed families cross or veer: speed, least distance, and whether they exchange their shapes."""
+        return _crossings(self.arrays("campbell"), "veerings_")
+
+    def interference(
+        self,
+        speed_rpm: float | None = None,
+        lobes: int | None = None,
+        max_engine_order: int | None = None,
+        range_rpm: tuple[float, float] | None = None,
+    ) -> pd.DataFrame:
+        """Modes of all nodal diameters at a speed, by default the highest of the analysis, each with the nearest engine order of the lobes.
+
+        ``margin_percent`` is the distance of a mode from that order: positive above it. ``met_in_range`` says whether an order meets the mode within
+        the operating range ``range_rpm``. ``attrs["engine_orders"]`` has the zig-zag: engine orders and the nodal diameters that they drive.
+        """
+        first, last = range_rpm if range_rpm is not None else (None, None)
+        asked = {"speed": speed_rpm, "from": first, "to": last, "lobes": lobes, "max_engine_order": max_engine_order}
+        given = {name: value for name, value in asked.items() if value is not None}
+        found = self.arrays("interference", unit="rpm", **given)
+        of_modes = {name: values for name, values in found.items() if not name.startswith("orders_")}
+        frame = table(of_modes, "nodal_diameter")
+        frame.attrs["speed_rpm"] = float(found["speed_rad_s"]) * RPM
+        orders = {name.removeprefix("orders_"): of for name, of in found.items() if name.startswith("orders_")}
+        frame.attrs["engine_orders"] = pd.DataFrame(orders).to_dict("list")
+        return frame
 
     def crossings(self) -> pd.DataFrame:
         """Where superharmonics of the lobes cross natural frequencies: the linear criterion's critical speeds."""

@@ -19,6 +19,20 @@ RPM = 60.0 / (2.0 * np.pi)
 _CREDENTIALS = ("settings", "units", "version", "point", "strengths")
 
 
+#: Words of the contract, and what columns are called in their place.
+_PLAIN = {"validity": "linear_theory", "settling": "steady_state"}
+
+
+def plain_name(name: str) -> str:
+    """The name of a column in plain words: ``validity`` of the contract, and what begins so, is ``linear_theory``, ``settling`` is
+    ``steady_state``; the verdict of both stands under the word itself."""
+    for word, plain in _PLAIN.items():
+        rest = name.removeprefix(word)
+        if rest != name and rest[:1] in ("", ".", "_"):
+            return plain if rest == ".verdict" else plain + rest
+    return name
+
+
 def credentials(found: Arrays) -> dict[str, Any]:
     """Settings, units and version of the code, as attributes: texts, as files of numpy and netCDF take them."""
     return {name: str(found[name]) for name in _CREDENTIALS if name in found}
@@ -43,7 +57,7 @@ def speed_axis(speeds_rad_s: npt.NDArray[Any], indices: npt.NDArray[Any] | None 
 def table(found: Arrays, length_of: str) -> pd.DataFrame:
     """The columns as long as the one named so, one row an entry; credentials are in ``attrs``."""
     length = len(found[length_of])
-    columns = {name: values for name, values in found.items() if values.ndim == 1 and len(values) == length}
+    columns = {plain_name(name): values for name, values in found.items() if values.ndim == 1 and len(values) == length}
     # An empty table has its columns, too, but for those of another dimension that is empty as well.
     for other in ("missing", "sensors", "speeds_rad_s", "speed_indices"):
         columns.pop(other, None)

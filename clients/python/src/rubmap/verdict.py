@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from html import escape
 from typing import Any
 
+from .notebook import badge, table
 from .tables import RPM
 
 #: What limits are called, and which of the model's units they have.
@@ -14,6 +16,7 @@ _LIMITS = {
     "utilisation": ("utilisation", None),
     "node_force": ("contact force on a node", "force"),
 }
+_HEAD = ("worst (rpm)", "where", "value", "against its limit")
 _POSITIONS = {"inside": "in", "within_separation": "near", "outside": "outside"}
 
 
@@ -50,11 +53,23 @@ class Verdict:
         lines = [self.sentence]
         rows = [row for speed in self.worst for row in self._rows(speed)]
         if rows:
-            rows.insert(0, ("worst (rpm)", "where", "value", "against its limit"))
+            rows.insert(0, _HEAD)
         lines += [f"{rpm:>12}  {place:<28}  {value:<44}  {limit}".rstrip() for rpm, place, value, limit in rows]
-        if self.word == "undecided":
-            lines += [f"to decide: {open['remedy']} ({open['finding']})" for open in self.would_decide]
-        return "\n".join(lines)
+        return "\n".join(lines + self._remedies())
+
+    def _repr_html_(self) -> str:
+        rows = [row for speed in self.worst for row in self._rows(speed)]
+        worst = table(_HEAD, rows) if rows else ""
+        remedies = "".join(f"<li>{escape(words)}</li>" for words in self._remedies())
+        return f"<p>{badge(self.word)} {escape(self.sentence)}</p>{worst}" + (
+            f"<ul>{remedies}</ul>" if remedies else ""
+        )
+
+    def _remedies(self) -> list[str]:
+        """What would decide an undecided verdict."""
+        if self.word != "undecided":
+            return []
+        return [f"to decide: {open['remedy']} ({open['finding']})" for open in self.would_decide]
 
     def _rows(self, speed: Mapping[str, Any]) -> Iterator[tuple[str, str, str, str]]:
         """A row per limit of a speed."""

@@ -33,7 +33,7 @@ pub fn control_requests(
         points.iter().filter(|point| point.status == PointStatus::Completed).collect();
     ascending.sort_by(|a, b| a.speed_rad_s.total_cmp(&b.speed_rad_s));
     let wanted = request.control_speeds().min(ascending.len());
-    let level = |point: &&Point| Some(point.responses.iter().map(|r| r.rms).fold(0.0, f64::max));
+    let level = |point: &&Point| Some(point.tip?.rms);
     let mut prominent = peaks(&ascending.iter().map(level).collect::<Vec<_>>(), 0.0);
     prominent.sort_by(|a, b| b.prominence.total_cmp(&a.prominence).then(a.index.cmp(&b.index)));
     let mut chosen: Vec<usize> = prominent.iter().take(wanted / 2).map(|peak| peak.index).collect();

@@ -114,7 +114,7 @@ impl Wheel {
             ),
             ramp_revolutions: 0.5,
         });
-        let damping = ModalDamping { modal_ratio: 0.05, family_ratios: Vec::new() };
+        let damping = ModalDamping { modal_ratio: 0.05, family_ratios: Vec::new(), ranks: Vec::new() };
         let sensor = SensorRow { direction: Direction { node: 0, components: [1.0, 0.0, 0.0] }, sector: 0 };
         let sensors = vec![sensor; spectra.sensors];
         let simulation = Simulation {

@@ -2,6 +2,7 @@
 
 pub mod accuracy;
 pub mod auto_or;
+pub mod families;
 pub mod integration;
 pub(crate) mod omit;
 pub mod operation;
@@ -25,6 +26,7 @@ pub use crate::kinds::run_up::request::{
 pub use crate::kinds::study::request::{Grid, StudyIntegration, StudyRecord, StudyRequest};
 pub use accuracy::{Accuracy, AccuracyOf, Budget};
 pub use auto_or::AutoOr;
+pub use families::FamiliesBy;
 pub use integration::{Integration, SchemeChoice, SteadyChoice};
 pub use operation::{Limits, OperatingRange, Operation};
 pub use record::{HistoriesRequest, HistorySpeeds, Record, Recorded, RecordedQuantity, StressRequest};

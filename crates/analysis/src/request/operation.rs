@@ -46,7 +46,7 @@ pub struct Limits {
     /// Half the peak-to-peak displacement that the tip that moves most may have, in the model's unit of length.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tip_motion: Option<f64>,
-    /// Utilisation of the material, of which nothing is left at 1; needs `record.stress` and strengths in the model.
+    /// Utilisation of the material, of which nothing is left at 1; asks for `record.stress`, and needs strengths in the model.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub utilisation: Option<f64>,
     /// Largest contact force on one node of one blade, in the model's unit of force, as a mean over the interval between two samples.

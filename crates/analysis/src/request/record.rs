@@ -1,5 +1,8 @@
 //! Requests for recordings beside spectra.
 
+use std::collections::BTreeMap;
+
+use rubmap_solid::material::GivenStrengths;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 /// Recordings of a sweep beside spectra.
@@ -18,7 +21,7 @@ pub struct Record {
 }
 
 /// Stress of every speed; `{}` asks for it.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
 pub struct StressRequest {
@@ -26,6 +29,9 @@ pub struct StressRequest {
     /// stress is claimed. Default: the mean distance of neighbouring contact nodes; a model with one contact node has no default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub excluded_radius: Option<f64>,
+    /// Strengths of materials by the name of their element set, in place of those that the model has.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub strengths: BTreeMap<String, GivenStrengths>,
 }
 
 impl Record {

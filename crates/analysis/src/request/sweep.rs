@@ -31,7 +31,7 @@ pub struct SweepRequest {
     /// Time integration.
     #[serde(default)]
     pub integration: Integration,
-    /// Sensors at which the response is recorded; default: radial at the first and the last contact node of sector 0.
+    /// Sensors at which the response is recorded; default: along the contact normal at the first and the last contact node of sector 0.
     #[serde(default)]
     #[cfg_attr(feature = "schema", schema(max_items = 1_000))]
     pub sensors: Vec<Sensor>,
@@ -47,12 +47,14 @@ pub struct SweepRequest {
     /// State that each speed starts from.
     #[serde(default, skip_serializing_if = "SweepDirection::is_independent")]
     pub sweep: SweepDirection,
-    /// Whether speeds are added around critical speeds, of any sensor, until the response on both sides of every peak is
-    /// resolved: when all speeds are finished, the intervals beside a peak that is not `resolved` are halved, again and
-    /// again. At most as many speeds are added as were asked for, or 50 if those were fewer. They follow the others in
-    /// `speeds`, one list a round. An end of the range is not refined, and no sweep up or down.
-    #[serde(default, skip_serializing_if = "is_false")]
-    pub refine: bool,
+    /// Whether speeds are added around critical speeds, of the wheel and of any sensor, until the response on both sides of
+    /// every peak is resolved: when all speeds are finished, the intervals beside a peak that is not `resolved` are halved,
+    /// again and again. At most as many speeds are added as were asked for, or 50 if those were fewer, in operating ranges
+    /// before elsewhere. They follow the
+    /// others in `speeds`, one list a round. An end of the range is not refined, and no sweep up or down. Default: true
+    /// from 20 speeds on; false for fewer, for a sweep up or down, and where a `budget` is to be kept.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub refine: Option<bool>,
     /// Whether all speeds are computed on processors with one kind of vector instructions, that of the processor that begins, whichever machines take
     /// part: another kind may round differently. Speeds of a sweep up or down always are.
     #[serde(default, skip_serializing_if = "is_false")]
@@ -64,7 +66,7 @@ pub struct SweepRequest {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub budget: Option<Budget>,
     /// Number of speeds that are simulated again at a finer setting once all are finished, to estimate the error of every speed from; default: 5 with
-    /// `accuracy` or `budget`, otherwise 0. Fewer if the sweep has fewer; none in a sweep up or down.
+    /// `accuracy`, `budget` or `limits`, otherwise 0. Fewer if the sweep has fewer; none in a sweep up or down.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schema(maximum = 100))]
     pub control_speeds: Option<u32>,

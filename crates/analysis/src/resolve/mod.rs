@@ -41,7 +41,6 @@ pub fn resolve_sweep(request: SweepRequest, facts: &ModelFacts) -> Result<Resolv
         "/peak_prominence",
         "a share of the largest response, between 0 and 1",
     );
-    operation::check_operation(&mut found, &sweep);
     check_steps(&mut found, &sweep);
     check_ramp(&mut found, &sweep);
     effects::check_after_integration(&mut found, &sweep, facts);
@@ -49,6 +48,11 @@ pub fn resolve_sweep(request: SweepRequest, facts: &ModelFacts) -> Result<Resolv
         sweep.sensors = default_sensors(facts);
     }
     check_sensors(&mut found, &sweep.sensors, facts);
+    // A limit of the utilisation says that stress is wanted.
+    if sweep.limits.is_some_and(|limits| limits.utilisation.is_some()) && facts.mesh.is_some() {
+        sweep.record.stress.get_or_insert_default();
+    }
+    operation::check_operation(&mut found, &sweep);
     if let Some(stress) = &mut sweep.record.stress {
         recorded::resolve_stress(&mut found, stress, "/record/stress", facts);
     }
@@ -135,7 +139,7 @@ pub(crate) fn check_knobs(found: &mut Findings, request: &SweepRequest) {
         "an error is told from chance by comparing parts of the window: at least two revolutions",
     );
     found.require(
-        request.budget.is_none() || !request.refine,
+        request.budget.is_none() || request.refine != Some(true),
         "/refine",
         "how many speeds are added is not known beforehand, and a budget cannot be kept: set this to false, or ask for an accuracy",
     );
@@ -347,7 +351,7 @@ pub(crate) fn check_memory(found: &mut Findings, request: &ResolvedSweep, facts:
 }
 
 pub(crate) fn default_sensors(facts: &ModelFacts) -> Vec<ResolvedSensor> {
-    let along = Along::Component(Component::Radial);
+    let along = Along::Component(Component::Normal);
     let at = |contact_node| ResolvedSensor { place: Place::Contact(contact_node), sector: 0, along };
     match facts.contact_nodes {
         0 | 1 => vec![at(0)],

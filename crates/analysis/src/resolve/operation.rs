@@ -29,7 +29,7 @@ pub(super) fn check_operation(found: &mut Findings, sweep: &ResolvedSweep) {
     found.require(
         asked.utilisation.is_none() || sweep.record.stress.is_some(),
         "/limits/utilisation",
-        "utilisation is known where stress is recorded: ask for it by \"record\": {\"stress\": {}}, or leave this limit away",
+        "utilisation needs stress, and the model has no mesh to compute it from: leave this limit away",
     );
 }
 

@@ -35,7 +35,7 @@ impl PlainSweep {
             max_engine_order: self.max_engine_order,
             peak_prominence: default_peak_prominence(),
             sweep: SweepDirection::Independent,
-            refine: false,
+            refine: Some(false),
             reproducible: false,
             accuracy: None,
             budget: None,

@@ -1,6 +1,6 @@
 //! Recording of a sweep, checked against the sweep.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::discretisation::most_samples;
 use crate::model::ModelFacts;
@@ -8,11 +8,17 @@ use crate::request::{AutoOr, HistoriesRequest, HistorySpeeds, Recorded, Recorded
 use crate::resolve::findings::Findings;
 use crate::resolved::ResolvedSweep;
 use rubmap_numerics::sector_fourier::harmonic_count;
+use rubmap_solid::material::GivenStrengths;
 use rubmap_wheel::dynamics::integrate::Revolutions;
 
 /// Most numbers of the histories of one speed, and most speeds with histories: they are stored as text.
 const MOST_NUMBERS: usize = 1 << 23;
 const MOST_SPEEDS: usize = 100;
+
+/// Most element sets with strengths, most of them that a message names, and longest source.
+const MOST_SETS: usize = 1000;
+const MOST_NAMED: usize = 10;
+const LONGEST_SOURCE: usize = 200;
 
 /// Indices of the speeds of which histories are asked for.
 pub(crate) fn wanted(request: &HistoriesRequest, critical: &BTreeSet<u32>) -> Vec<u32> {
@@ -121,6 +127,7 @@ pub(crate) fn resolve_stress(
         pointer,
         "this model has no mesh: stress needs elements and materials, which a package gives as `mesh`",
     );
+    check_strengths(found, &request.strengths, pointer, facts);
     let at = format!("{pointer}/excluded_radius");
     let usual = facts.contact_spacing.map(|spacing| EXCLUDED_SPACINGS * spacing);
     request.excluded_radius = request.excluded_radius.or(usual);
@@ -134,6 +141,56 @@ pub(crate) fn resolve_stress(
             "say how far from its only contact node stress may be claimed: about two elements",
         ),
     }
+}
+
+/// Checks strengths given by the names of element sets.
+fn check_strengths(
+    found: &mut Findings,
+    given: &BTreeMap<String, GivenStrengths>,
+    pointer: &str,
+    facts: &ModelFacts,
+) {
+    let known: Vec<&str> =
+        facts.mesh.iter().flat_map(|mesh| &mesh.sets).map(|set| set.set.as_str()).collect();
+    for (name, strengths) in given.iter().take(MOST_SETS) {
+        let at = format!("{pointer}/strengths/{}", name.replace('~', "~0").replace('/', "~1"));
+        if !known.is_empty() && !known.contains(&name.as_str()) {
+            let first: Vec<&str> = known.iter().copied().take(MOST_NAMED).collect();
+            found.require(false, &at, format!("the mesh has no such set; it has {}", first.join(", ")));
+        }
+        let GivenStrengths { yield_strength, ultimate_strength, fatigue_strength } = strengths;
+        let fatigue = fatigue_strength.as_ref().map(|fatigue| fatigue.amplitude);
+        for (field, value) in [
+            ("yield_strength", *yield_strength),
+            ("ultimate_strength", *ultimate_strength),
+            ("fatigue_strength/amplitude", fatigue),
+        ] {
+            found.require(
+                value.is_none_or(|value| value > 0.0 && value.is_finite()),
+                &format!("{at}/{field}"),
+                "a strength is a finite stress above 0",
+            );
+        }
+        for (field, value) in [("yield_strength", *yield_strength), ("fatigue_strength/amplitude", fatigue)] {
+            found.require(
+                value.zip(*ultimate_strength).is_none_or(|(value, ultimate)| value <= ultimate),
+                &format!("{at}/{field}"),
+                "nothing is stronger than the ultimate strength",
+            );
+        }
+        found.require(
+            fatigue_strength
+                .as_ref()
+                .is_none_or(|fatigue| (1..=LONGEST_SOURCE).contains(&fatigue.source.trim().chars().count())),
+            &format!("{at}/fatigue_strength/source"),
+            format!("say in 1 to {LONGEST_SOURCE} characters where the strength is from: a handbook, a test"),
+        );
+    }
+    found.require(
+        given.len() <= MOST_SETS,
+        &format!("{pointer}/strengths"),
+        format!("at most {MOST_SETS} sets"),
+    );
 }
 
 /// Revolutions to be recorded: those asked for, otherwise the window, or only the last revolution where states are recorded, which are

@@ -13,12 +13,16 @@ use crate::resolved::knobs::Modes;
 use crate::resolved::scene::Scene;
 use crate::resolved::sensor::{Place, ResolvedSensor};
 use crate::resolved::speeds::ResolvedSpeeds;
+use rubmap_solid::material::GivenStrengths;
 
 /// Share of the error that is asked for by which a motion may still change where it counts as repeating.
 const SETTLED_SHARE: f64 = 0.1;
 
-/// Default number of control runs where the service chooses the knobs.
+/// Default number of control runs where the service chooses the knobs, and where limits are judged.
 const DEFAULT_CONTROL_SPEEDS: u32 = 5;
+
+/// Fewest speeds that are refined by default: fewer do not show which peaks there are.
+const FEWEST_REFINED: usize = 20;
 
 /// Sweep that was checked against its model; written as [`SweepRequest`].
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -48,6 +52,8 @@ impl ResolvedSweep {
     /// violations where it says too much or too little, or nothing that is a speed.
     pub(crate) fn of(asked: SweepRequest, rounds: u32, refuse: &mut dyn FnMut(Violation)) -> Self {
         let modes = Modes::of(asked.modes_per_speed, asked.accuracy, asked.budget);
+        let independent = asked.sweep == SweepDirection::Independent;
+        let controlled = independent && (matches!(modes, Modes::Sought(_)) || asked.limits.is_some());
         let speeds = ResolvedSpeeds::of(asked.speeds, rounds).unwrap_or_else(|violations| {
             violations.into_iter().for_each(&mut *refuse);
             ResolvedSpeeds::none()
@@ -62,6 +68,7 @@ impl ResolvedSweep {
             None => asked.integration.settled_to,
         };
         let integration = Integration { settled_to, ..asked.integration };
+        let refined = independent && asked.budget.is_none() && speeds.asked() >= FEWEST_REFINED;
         Self {
             model: asked.model,
             modes,
@@ -72,9 +79,13 @@ impl ResolvedSweep {
             max_engine_order: asked.max_engine_order,
             peak_prominence: asked.peak_prominence,
             sweep: asked.sweep,
-            refine: asked.refine,
+            refine: asked.refine.unwrap_or(refined),
             reproducible: asked.reproducible,
-            control_speeds: asked.control_speeds.unwrap_or(default_controls(modes, asked.sweep)),
+            control_speeds: asked.control_speeds.unwrap_or(if controlled {
+                DEFAULT_CONTROL_SPEEDS
+            } else {
+                0
+            }),
             record: asked.record,
             fields: asked.fields,
             operation: asked.operation,
@@ -86,8 +97,13 @@ impl ResolvedSweep {
     ///
     /// # Errors
     /// Violations, if the sweep was never resolved.
-    pub fn stored(written: SweepRequest, rounds: u32) -> Result<Self, Vec<Violation>> {
+    pub fn stored(mut written: SweepRequest, rounds: u32) -> Result<Self, Vec<Violation>> {
         let mut found = Vec::new();
+        // Earlier versions left defaults away, which have changed since.
+        written.refine.get_or_insert(false);
+        if written.accuracy.is_none() && written.budget.is_none() {
+            written.control_speeds.get_or_insert(0);
+        }
         let resolved = Self::of(written, rounds, &mut |violation| found.push(violation));
         if found.is_empty() { Ok(resolved) } else { Err(found) }
     }
@@ -187,7 +203,12 @@ impl ResolvedSweep {
 
     /// Radius about contact nodes within which no stress is claimed, if the sweep asks for stress.
     pub fn stress_outside(&self) -> Option<f64> {
-        self.record.stress.map(|stress| stress.excluded_radius.unwrap_or(0.0))
+        self.record.stress.as_ref().map(|stress| stress.excluded_radius.unwrap_or(0.0))
+    }
+
+    /// Strengths that the sweep gives in place of the model's, by element set.
+    pub fn strengths<'a>(&'a self) -> impl Fn(&str) -> Option<&'a GivenStrengths> {
+        |set| self.record.stress.as_ref()?.strengths.get(set)
     }
 
     /// Whether the rows of the reduction's basis must be stored, must not, or are stored where the sweep reduces.
@@ -248,17 +269,9 @@ impl ResolvedSweep {
     }
 }
 
-fn default_controls(modes: Modes, sweep: SweepDirection) -> u32 {
-    match (modes, sweep) {
-        (Modes::Sought(_), SweepDirection::Independent) => DEFAULT_CONTROL_SPEEDS,
-        _ => 0,
-    }
-}
-
 impl From<ResolvedSweep> for SweepRequest {
     fn from(sweep: ResolvedSweep) -> Self {
         let (modes_per_speed, accuracy, budget) = sweep.modes.fields();
-        let usual = default_controls(sweep.modes, sweep.sweep);
         Self {
             model: sweep.model,
             modes_per_speed,
@@ -269,11 +282,11 @@ impl From<ResolvedSweep> for SweepRequest {
             max_engine_order: sweep.max_engine_order,
             peak_prominence: sweep.peak_prominence,
             sweep: sweep.sweep,
-            refine: sweep.refine,
+            refine: Some(sweep.refine),
             reproducible: sweep.reproducible,
             accuracy,
             budget,
-            control_speeds: Some(sweep.control_speeds).filter(|&speeds| speeds != usual),
+            control_speeds: Some(sweep.control_speeds),
             record: sweep.record,
             fields: sweep.fields,
             operation: sweep.operation,

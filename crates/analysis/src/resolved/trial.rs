@@ -25,7 +25,7 @@ impl TrialRequest {
     /// Adds stress where `request` asks for it.
     #[must_use]
     pub(crate) fn with_stress_of(mut self, request: &ResolvedSweep) -> Self {
-        self.sweep.record.stress = request.record.stress;
+        self.sweep.record.stress = request.record.stress.clone();
         self
     }
 

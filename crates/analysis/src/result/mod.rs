@@ -29,7 +29,10 @@ pub use crate::kinds::campaign::result::{
     DifferenceVerdict, LimitsMet, ParameterSensitivity, Sensitivities, ThresholdShare, severity_column,
     severity_unit,
 };
-pub use crate::kinds::modal_analysis::result::{AbsoluteFrequencies, Campbell, WaveTables};
+pub use crate::kinds::modal_analysis::interference::{
+    AskedInterference, FoldedOrder, Interference, InterferingMode, NearestOrder,
+};
+pub use crate::kinds::modal_analysis::result::{AbsoluteFrequencies, Campbell, FollowedFamilies, WaveTables};
 pub use crate::kinds::run_up::result::{
     LargestOfRun, PassingRate, PlannedRunUp, RunUp, RunUpEnd, RunUpFrame, RunUpLeg, RunUpPlan, RunUps,
     Spectrogram,
@@ -81,4 +84,5 @@ pub use rubmap_wheel::response::coincidence::Coincidence;
 pub use rubmap_wheel::response::settling::{Settling, Verdict};
 pub use rubmap_wheel::response::side_bands::SideBands;
 pub use rubmap_wheel::response::symmetry_breaking::SymmetryBreaking;
+pub use rubmap_wheel::response::veerings::{Course, Veering};
 pub use rubmap_wheel::response::waves::{Table, Wave};

@@ -40,6 +40,9 @@ pub struct SweepPlan {
     pub placed_sensors: Vec<PlacedSensor>,
     /// Number of speeds to simulate, those of the request.
     pub speeds: u32,
+    /// Largest number of speeds that `refine` adds to them; absent without it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub added_speeds_at_most: Option<u32>,
     /// Threads that compute speeds side by side, on all machines; one where each speed starts from the end of another.
     pub workers: u32,
     /// Machine whose steps were measured for the times of this plan.
@@ -145,6 +148,10 @@ pub struct PlannedPoint {
     /// Reason for which this speed cannot be integrated; all numbers but the speed are then absent or 0.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub message: Option<String>,
+    /// Largest length by which the casing stands inside a tip at rest, in the model's unit of length: that far contact bends the blades, even where
+    /// nothing vibrates. Absent where the casing stands clear of the tips.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub interference: Option<f64>,
     /// Real unknowns that are integrated.
     pub integrated_unknowns: u32,
     /// Scheme and step, and the reason that set them.

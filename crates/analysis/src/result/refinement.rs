@@ -10,9 +10,9 @@ pub struct Refinement {
     pub added: u32,
     /// Number of rounds in which speeds were added.
     pub rounds: u32,
-    /// Whether every critical speed, of any sensor, is resolved. False while the job runs.
+    /// Whether every critical speed, of the wheel and of any sensor, is resolved. False while the job runs.
     pub complete: bool,
-    /// Critical speeds that are not resolved, sensor by sensor in ascending speed; left out while the job runs.
+    /// Critical speeds that are not resolved, those of the wheel first, then sensor by sensor, in ascending speed; left out while the job runs.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub unresolved: Vec<Unresolved>,
 }
@@ -21,8 +21,9 @@ pub struct Refinement {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Unresolved {
-    /// Index of the sensor in the request.
-    pub sensor: u32,
+    /// Index of the sensor in the request; absent for a critical speed of the wheel.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sensor: Option<u32>,
     /// Ω of the peak, rad/s.
     pub speed_rad_s: f64,
     /// Reason for which the critical speed stays unresolved.

@@ -2,6 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::model::ModelFacts;
+use crate::resolved::ResolvedSweep;
+use rubmap_solid::material::{FatigueStrength, GivenStrengths, Material};
 use rubmap_solid::mesh::{ElementSet, SectorMesh};
 use rubmap_wheel::dynamics::sector::Units;
 
@@ -140,14 +143,38 @@ pub struct Strengths {
 impl Strengths {
     /// Reads the strengths of all element sets of a mesh.
     pub fn of(mesh: &SectorMesh) -> Vec<Self> {
-        let strengths = |set: &ElementSet| Self {
-            set: set.name.clone(),
-            fatigue: set.material.fatigue_strength.as_ref().map(|fatigue| fatigue.amplitude),
-            ultimate: set.material.ultimate_strength,
-            yield_: set.material.yield_strength,
-            source: set.material.fatigue_strength.as_ref().map(|fatigue| fatigue.source.clone()),
+        let of_set = |set: &ElementSet| {
+            let Material { yield_strength, ultimate_strength, fatigue_strength, .. } = &set.material;
+            Self::named(&set.name, *yield_strength, *ultimate_strength, fatigue_strength.as_ref())
         };
-        mesh.sets.iter().map(strengths).collect()
+        mesh.sets.iter().map(of_set).collect()
+    }
+
+    /// Strengths by which a sweep is judged: those that it gives itself in place of the model's.
+    pub fn of_sweep(request: &ResolvedSweep, facts: &ModelFacts) -> Vec<Self> {
+        let given = request.strengths();
+        let of_set = |set: &Self| match given(&set.set) {
+            None => set.clone(),
+            Some(GivenStrengths { yield_strength, ultimate_strength, fatigue_strength }) => {
+                Self::named(&set.set, *yield_strength, *ultimate_strength, fatigue_strength.as_ref())
+            }
+        };
+        facts.mesh.iter().flat_map(|mesh| &mesh.sets).map(of_set).collect()
+    }
+
+    fn named(
+        set: &str,
+        yield_: Option<f64>,
+        ultimate: Option<f64>,
+        fatigue: Option<&FatigueStrength>,
+    ) -> Self {
+        Self {
+            set: set.to_owned(),
+            fatigue: fatigue.map(|fatigue| fatigue.amplitude),
+            ultimate,
+            yield_,
+            source: fatigue.map(|fatigue| fatigue.source.clone()),
+        }
     }
 }
 
@@ -172,7 +199,6 @@ pub fn drawn_stress_unit(units: &Units) -> (String, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use rubmap_solid::material::{FatigueStrength, Material};
 
     #[test]
     fn ranks_keep_the_order_of_what_is_alike() {

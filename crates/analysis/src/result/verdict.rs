@@ -61,6 +61,11 @@ impl VerdictWord {
             Self::Act => "act",
         }
     }
+
+    /// Verdict of this name; `None` if there is no such verdict.
+    pub fn named(name: &str) -> Option<Self> {
+        [Self::Clear, Self::Watch, Self::Undecided, Self::Act].into_iter().find(|word| word.as_str() == name)
+    }
 }
 
 impl fmt::Display for VerdictWord {

@@ -207,7 +207,7 @@ fn stress_of_a_forced_response_converges_with_the_modes_kept() {
             let modal = ModalWheel { speed_rad_s: 0.0, sectors: SECTORS, repeats: 1, harmonics: Vec::new() };
             let course =
                 Course { harmonics: &wheel.harmonics, wheel: &modal, states: &states, stiffening: true };
-            let found = stress_of(&stress, &course).unwrap().unwrap();
+            let found = stress_of(&stress, &course, |_| None).unwrap().unwrap();
             println!("followed {} of {}", found.followed_nodes, stress.places());
             assert!((found.largest.von_mises - largest).abs() < 1e-4 * largest);
             // A zero mean at every place: alternating up to the same, as far as the sign follows.

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use rubmap_solid::frame::{AxisFrame, distance};
 use rubmap_solid::material::Material;
-use rubmap_solid::mesh::SectorMesh;
+use rubmap_solid::mesh::{ElementSet, SectorMesh};
 use rubmap_solid::stress::NodalStress;
 
 /// Node of the sector with stress.
@@ -14,10 +14,8 @@ pub(super) struct Place {
     pub(super) node: u64,
     /// Position of the node.
     pub(super) position: [f64; 3],
-    /// Weakest in fatigue of the element sets around the node.
-    pub(super) set: usize,
-    /// Least yield strength of the element sets around the node.
-    pub(super) yield_strength: Option<f64>,
+    /// Element sets around the node, ascending.
+    pub(super) sets: Vec<usize>,
     /// Distance from the nearest contact node, those of the neighbouring blades included.
     pub(super) from_contact: f64,
 }
@@ -46,21 +44,27 @@ pub(super) fn places(mesh: &SectorMesh, operator: &NodalStress, contact: &[u64])
     let contact: Vec<[f64; 3]> = own.iter().flat_map(turned).collect();
     let place = |&node: &u32| {
         let position = mesh.nodes[node as usize];
-        let material = |&set: &usize| &mesh.sets[set].material;
-        let around = &sets[node as usize];
-        let weakest = around.iter().min_by(|a, b| borne(material(a)).total_cmp(&borne(material(b))));
         Place {
             node: mesh.node_ids[node as usize],
             position,
-            set: weakest.copied().unwrap_or(0),
-            yield_strength: around
-                .iter()
-                .filter_map(|set| material(set).yield_strength)
-                .min_by(f64::total_cmp),
+            sets: sets[node as usize].iter().copied().collect(),
             from_contact: contact.iter().map(|&at| distance(at, position)).fold(f64::INFINITY, f64::min),
         }
     };
     operator.places().iter().map(place).collect()
+}
+
+impl Place {
+    /// Weakest in fatigue of the element sets around the node.
+    pub(super) fn weakest(&self, sets: &[ElementSet]) -> usize {
+        let borne = |set: &usize| borne(&sets[*set].material);
+        self.sets.iter().copied().min_by(|a, b| borne(a).total_cmp(&borne(b))).unwrap_or(0)
+    }
+
+    /// Least yield strength of the element sets around the node.
+    pub(super) fn yield_strength(&self, sets: &[ElementSet]) -> Option<f64> {
+        self.sets.iter().filter_map(|&set| sets[set].material.yield_strength).min_by(f64::total_cmp)
+    }
 }
 
 /// Fatigue strength by which materials are ordered from the weakest; infinite without one, so that those come last.

@@ -12,6 +12,8 @@ use super::measure::von_mises;
 use super::reduced::ReducedStress;
 use super::trajectory::paths;
 use crate::result::stress::{LeadingPlace, PointStress, StressCycle, StressPeak};
+use rubmap_solid::material::GivenStrengths;
+use rubmap_solid::mesh::ElementSet;
 use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
 use rubmap_wheel::dynamics::reduction::ReducedHarmonic;
 use rubmap_wheel::dynamics::states::WheelStates;
@@ -32,21 +34,28 @@ pub(crate) struct Course<'a> {
     pub(crate) stiffening: bool,
 }
 
-/// Finds the largest stress of a speed and its most utilised places; none where every node is left out. Exact: a place is skipped only if a
+/// Finds the largest stress of a speed and its most utilised places, by the model's strengths or those `given` for a set; none where every node is
+/// left out. Exact: a place is skipped only if a
 /// bound rules it out. On the calling thread; deterministic.
 ///
 /// # Errors
 /// Eigenvalue iteration that fails, or bound that is not finite.
-pub(crate) fn stress_of(
+pub(crate) fn stress_of<'a>(
     stress: &ReducedStress,
     course: &Course<'_>,
+    given: impl Fn(&str) -> Option<&'a GivenStrengths>,
 ) -> Result<Option<PointStress>, StressError> {
     if stress.places() == 0 {
         return Ok(None);
     }
+    let with_strengths = |set: &ElementSet| match given(&set.name) {
+        Some(given) => ElementSet { material: set.material.with_strengths(given), ..set.clone() },
+        None => set.clone(),
+    };
+    let sets: Vec<ElementSet> = stress.sets.iter().map(with_strengths).collect();
     let fixed = stress.fixed(course.wheel.speed_rad_s, course.stiffening);
     let paths = paths(course.states, course.harmonics, stress)?;
-    let (weights, lacking) = weights(&stress.sets);
+    let (weights, lacking) = weights(&sets);
     let around = course.wheel.around();
     // Nodal diameters with a common divisor repeat that often around the wheel.
     let repeats = paths.iter().fold(around, |common, path| common.gcd(&path.harmonic));
@@ -56,7 +65,8 @@ pub(crate) fn stress_of(
     if bounds.iter().any(|bound| !bound.largest.is_finite()) {
         return Err(StressError::NotFinite);
     }
-    let weights: Vec<Option<Weights>> = stress.places.iter().map(|place| weights[place.set]).collect();
+    let weights: Vec<Option<Weights>> =
+        stress.places.iter().map(|place| weights[place.weakest(&sets)]).collect();
     let rough: Vec<(f64, f64)> = (bounds.iter().zip(&weights))
         .map(|(bound, weights)| (bound.largest, weights.map_or(-1.0, |weights| weights.most(bound))))
         .collect();
@@ -70,9 +80,9 @@ pub(crate) fn stress_of(
     let largest = search.best(1, &rough, Sought::VonMises(&vec![1.0; stress.places()])).first().copied();
     let utilised = search.best(CYCLES, &rough, Sought::Utilisation);
     let over_yield: Vec<f64> =
-        stress.places.iter().map(|place| place.yield_strength.map_or(-1.0, f64::recip)).collect();
+        stress.places.iter().map(|place| place.yield_strength(&sets).map_or(-1.0, f64::recip)).collect();
     let yielding = search.best(1, &rough, Sought::VonMises(&over_yield)).first().copied();
-    let place = |place: usize| (&stress.places[place], &stress.sets[stress.places[place].set]);
+    let place = |place: usize| (&stress.places[place], &sets[stress.places[place].weakest(&sets)]);
     let peak = largest.map(|at| {
         let followed = search.follow(at);
         let (von_mises, instant) = followed.peak;
@@ -99,7 +109,7 @@ pub(crate) fn stress_of(
             principal_mean,
             principal_alternating,
             utilisation: Weights::goodman(&set.material).map(|goodman| goodman.of(alternating, mean)),
-            over_yield: place.yield_strength.map(|strength| followed.peak.0 / strength),
+            over_yield: place.yield_strength(&sets).map(|strength| followed.peak.0 / strength),
         }
     });
     let cycles = cycles.collect();

@@ -1,7 +1,7 @@
 //! Search compared with every instant of every blade at every place, on operators and paths drawn at random.
 
 use faer::{Mat, c64};
-use rubmap_solid::material::{FatigueStrength, Material};
+use rubmap_solid::material::{FatigueStrength, GivenStrengths, Material};
 use rubmap_solid::mesh::ElementSet;
 use rubmap_wheel::dynamics::centrifugal::StiffnessPolynomial;
 use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
@@ -106,8 +106,7 @@ fn case(seed: u64, repeats: usize, steady: f64) -> Case {
     let place = |node: usize| Place {
         node: 100 + node as u64,
         position: [node as f64, 0.0, 0.0],
-        set: node % 2,
-        yield_strength: sets[node % 2].material.yield_strength,
+        sets: vec![node % 2],
         from_contact: 1.0,
     };
     let fixed = StaticStress {
@@ -161,7 +160,7 @@ fn cases() -> impl Iterator<Item = Case> {
 fn the_search_finds_what_looking_everywhere_finds() {
     let mut followed = 0;
     for case in cases() {
-        let found = stress_of(&case.stress, &case.course()).unwrap().unwrap();
+        let found = stress_of(&case.stress, &case.course(), |_| None).unwrap().unwrap();
         let cycles: Vec<Vec<Cycle>> = (0..PLACES).map(|place| case.cycles(place)).collect();
         let all = || cycles.iter().flatten();
         let close = |a: f64, b: f64| (a - b).abs() <= 2e-6 * b.abs() + 1e-12;
@@ -174,7 +173,7 @@ fn the_search_finds_what_looking_everywhere_finds() {
         let (weights, lacking) = weights(&case.stress.sets);
         assert_eq!(lacking, None);
         let measure = |place: usize, cycle: &Cycle| {
-            weights[case.stress.places[place].set].unwrap().of(cycle.alternating, cycle.mean)
+            weights[case.stress.places[place].sets[0]].unwrap().of(cycle.alternating, cycle.mean)
         };
         let worst =
             |place: usize| cycles[place].iter().map(|cycle| measure(place, cycle)).fold(0.0, f64::max);
@@ -193,7 +192,11 @@ fn the_search_finds_what_looking_everywhere_finds() {
             .fold(0.0, f64::max);
         assert!(close(found.largest_over_yield.unwrap(), over_yield));
         followed += found.followed_nodes;
-        assert_eq!(found, stress_of(&case.stress, &case.course()).unwrap().unwrap(), "the same bits again");
+        assert_eq!(
+            found,
+            stress_of(&case.stress, &case.course(), |_| None).unwrap().unwrap(),
+            "the same bits again"
+        );
     }
     // Places of 12 wheels; at least 20 places of each are reported.
     assert!(followed < 12 * PLACES as u32, "{followed} of {}", 12 * PLACES);
@@ -208,7 +211,7 @@ fn bounds_are_never_below_what_they_bound() {
         let look = Look::new(&case.stress, &bounds, &fixed, &paths, (case.wheel.sectors, SECTORS), INSTANTS);
         let (weights, _) = weights(&case.stress.sets);
         for place in 0..PLACES {
-            let weights = weights[case.stress.places[place].set];
+            let weights = weights[case.stress.places[place].sets[0]];
             let cycles = case.cycles(place);
             let largest = cycles.iter().map(|cycle| cycle.peak.0).fold(0.0, f64::max);
             let measure = |cycle: &Cycle| weights.unwrap().of(cycle.alternating, cycle.mean);
@@ -226,7 +229,7 @@ fn bounds_are_never_below_what_they_bound() {
 fn a_wheel_at_rest_has_its_static_stress() {
     let mut case = case(5, 1, 2.0);
     case.states.harmonics.iter_mut().for_each(|state| state.coordinates = Mat::zeros(UNKNOWNS, INSTANTS));
-    let found = stress_of(&case.stress, &case.course()).unwrap().unwrap();
+    let found = stress_of(&case.stress, &case.course(), |_| None).unwrap().unwrap();
     let expected = case.stress.fixed(SPEED, false).iter().map(von_mises).fold(0.0, f64::max);
     assert!((found.largest.von_mises - expected).abs() < 1e-12 * expected);
     assert_eq!(found.largest_static, expected);
@@ -237,8 +240,7 @@ fn a_wheel_at_rest_has_its_static_stress() {
 fn without_strengths_the_largest_alternating_stress_leads() {
     let mut case = case(7, 1, 1.0);
     case.stress.sets = vec![set("blade", None), set("disk", None)];
-    case.stress.places.iter_mut().for_each(|place| place.yield_strength = None);
-    let found = stress_of(&case.stress, &case.course()).unwrap().unwrap();
+    let found = stress_of(&case.stress, &case.course(), |_| None).unwrap().unwrap();
     let worst = |place: usize| case.cycles(place).iter().map(|c| c.alternating).fold(0.0, f64::max);
     let largest = (0..PLACES).map(worst).fold(0.0, f64::max);
     assert!((found.cycles[0].alternating - largest).abs() < 1e-5 * largest);
@@ -247,14 +249,31 @@ fn without_strengths_the_largest_alternating_stress_leads() {
 }
 
 #[test]
+fn strengths_given_count_as_those_of_the_mesh() {
+    let known = case(7, 1, 1.0);
+    let mut bare = case(7, 1, 1.0);
+    bare.stress.sets = vec![set("blade", None), set("disk", None)];
+    let given: Vec<(String, GivenStrengths)> = (known.stress.sets.iter())
+        .map(|set| {
+            let Material { yield_strength, ultimate_strength, fatigue_strength, .. } = set.material.clone();
+            (set.name.clone(), GivenStrengths { yield_strength, ultimate_strength, fatigue_strength })
+        })
+        .collect();
+    let of = |set: &str| given.iter().find(|(name, _)| name == set).map(|(_, given)| given);
+    let found = stress_of(&bare.stress, &bare.course(), of).unwrap().unwrap();
+    assert_eq!(found, stress_of(&known.stress, &known.course(), |_| None).unwrap().unwrap());
+    assert!(found.utilisation().is_some_and(|used| used > 0.0) && found.lacking.is_none());
+}
+
+#[test]
 fn what_is_not_finite_is_no_stress() {
     for broken in [f64::NAN, f64::INFINITY] {
         let mut moved = case(3, 1, 1.0);
         moved.states.harmonics[0].coordinates[(2, 5)] = c64::new(broken, 0.0);
-        assert_eq!(stress_of(&moved.stress, &moved.course()), Err(StressError::NotFinite));
+        assert_eq!(stress_of(&moved.stress, &moved.course(), |_| None), Err(StressError::NotFinite));
         let mut loaded = case(3, 1, 1.0);
         loaded.stress.fixed.stress[40] = broken;
-        assert_eq!(stress_of(&loaded.stress, &loaded.course()), Err(StressError::NotFinite));
+        assert_eq!(stress_of(&loaded.stress, &loaded.course(), |_| None), Err(StressError::NotFinite));
     }
 }
 
@@ -263,7 +282,7 @@ fn what_is_not_finite_is_no_stress() {
 fn blades_that_move_alike_are_looked_at_once() {
     let mut case = case(4, 1, 0.5);
     case.states.harmonics.retain(|states| states.harmonic % 2 == 0);
-    let found = stress_of(&case.stress, &case.course()).unwrap().unwrap();
+    let found = stress_of(&case.stress, &case.course(), |_| None).unwrap().unwrap();
     let all = (0..PLACES).flat_map(|place| case.cycles(place));
     let largest = all.map(|cycle| cycle.peak.0).fold(0.0, f64::max);
     assert!((found.largest.von_mises - largest).abs() < 2e-6 * largest);

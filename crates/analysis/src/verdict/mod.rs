@@ -12,3 +12,4 @@ mod sentence;
 mod tests;
 
 pub use judge::judge;
+pub(crate) use range::Span;

@@ -8,7 +8,7 @@ const SAME: f64 = 1e-9;
 
 /// Range of speed and the asked separation around it.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Span {
+pub(crate) struct Span {
     /// Name of the range; none for the whole sweep.
     pub(super) name: Option<String>,
     /// Lowest speed, rad/s.
@@ -21,7 +21,7 @@ pub(super) struct Span {
 
 impl Span {
     /// Span of a range of the request.
-    pub(super) fn of(range: &OperatingRange) -> Self {
+    pub(crate) fn of(range: &OperatingRange) -> Self {
         let rad_s = range.unit.rad_s();
         Self {
             name: Some(range.name.clone()),
@@ -54,7 +54,7 @@ impl Span {
     }
 
     /// Whether a speed lies inside the range or within its separation.
-    pub(super) fn reaches(&self, speed: f64) -> bool {
+    pub(crate) fn reaches(&self, speed: f64) -> bool {
         (self.lowest()..=self.highest()).contains(&speed)
     }
 

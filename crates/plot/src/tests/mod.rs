@@ -9,6 +9,7 @@ mod figures;
 mod fixtures;
 mod gallery;
 mod impeller;
+mod interference;
 mod passed;
 mod pens;
 mod report;

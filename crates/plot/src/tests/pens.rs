@@ -5,8 +5,8 @@ use crate::{
     VerticalAxis, Window,
 };
 use rubmap_analysis::result::{
-    Branches, Campaign, Campbell, CriticalSpeeds, ForceMap, InteractionMap, Point, Quantity, RunUps,
-    SectorGeometry, SpeedHistories, SpeedSpectra, SweepStress, WearMap,
+    Branches, Campaign, Campbell, CriticalSpeeds, ForceMap, InteractionMap, Interference, Point, Quantity,
+    RunUps, SectorGeometry, SpeedHistories, SpeedSpectra, SweepStress, WearMap,
 };
 use rubmap_analysis::run::{Histories, WorkPrecision};
 use rubmap_wheel::dynamics::sector::Units;
@@ -63,6 +63,7 @@ pens! {
     crate::force_map => force_map(of: &ForceMap, quantity: ForceQuantity);
     crate::haigh => haigh(of: &SweepStress, by: HaighColour);
     crate::histories => histories(of: &Histories, sensor: usize);
+    crate::interference => interference(of: &Interference);
     crate::map_sheet => map_sheet(of: &[InteractionMap], window: Window, colour: LevelColour);
     crate::run_ups => run_ups(of: &RunUps, sensor: usize, swept: &[Point]);
     crate::section => section(of: &SectorGeometry, view: SectionView);

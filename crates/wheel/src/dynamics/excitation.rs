@@ -45,7 +45,10 @@ pub fn steady_amplitudes(
         let modes = &wheel.harmonics[force.harmonic];
         let frequency = force.order * wheel.speed_rad_s;
         let moved = |(family, &omega): (usize, &f64)| {
-            let lag = 2.0 * damping.map_or(0.0, |damping| damping.ratio(family)) * omega * frequency;
+            let lag = 2.0
+                * damping.map_or(0.0, |damping| damping.ratio(force.harmonic, family))
+                * omega
+                * frequency;
             let lag = if force.backwards { -lag } else { lag };
             force.amplitude[family] / c64::new(omega * omega - frequency * frequency, lag)
         };

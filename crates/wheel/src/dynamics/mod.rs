@@ -15,6 +15,7 @@ pub mod energy;
 pub mod error;
 pub mod euler;
 pub mod excitation;
+pub mod families;
 pub mod findings;
 pub mod flexible_casing;
 pub mod initial;

@@ -130,7 +130,7 @@ pub fn mode_shapes(
     speed_rad_s: f64,
     stiffening: bool,
 ) -> Result<Mat<c64>, ModelError> {
-    Ok(eigenpairs(wheel, harmonic, speed_rad_s, stiffening)?.vectors)
+    Ok(mode_pairs(wheel, harmonic, speed_rad_s, stiffening)?.vectors)
 }
 
 /// Natural frequencies ω in rad/s, ascending, and Φ of nodal diameter `harmonic` as [`mode_shapes`] has it; errors as of [`ModalWheel::at`].
@@ -140,11 +140,12 @@ pub fn natural_modes(
     speed_rad_s: f64,
     stiffening: bool,
 ) -> Result<(Vec<f64>, Mat<c64>), ModelError> {
-    let pairs = eigenpairs(wheel, harmonic, speed_rad_s, stiffening)?;
+    let pairs = mode_pairs(wheel, harmonic, speed_rad_s, stiffening)?;
     Ok((frequencies(&pairs.values, harmonic, speed_rad_s)?, pairs.vectors))
 }
 
-fn eigenpairs(
+/// Eigenvalues ω² of nodal diameter `harmonic`, ascending and of any sign, with Φ as [`mode_shapes`] has it.
+pub(super) fn mode_pairs(
     wheel: &ReducedWheel,
     harmonic: usize,
     speed_rad_s: f64,

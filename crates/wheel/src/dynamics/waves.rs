@@ -15,6 +15,7 @@
 use faer::{Mat, c64};
 
 use super::error::ModelError;
+use super::families::assignment::assign;
 use super::modal_wheel::{ModalHarmonic, RotationEffects, modal_harmonic};
 use super::reduction::ReducedWheel;
 use rubmap_numerics::dense::Dense;
@@ -48,6 +49,49 @@ pub fn wave_frequencies(
     let backward = positive.to_vec();
     let forward = if modes.single { backward.clone() } else { negative.iter().rev().map(|nu| -nu).collect() };
     Ok(WaveFrequencies { forward, backward })
+}
+
+/// Waves of one nodal diameter with the modes that they consist of.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WaveModes {
+    /// Rank, from 0, of the mode without Coriolis forces that most of each forward wave is, by the rank of the wave.
+    pub forward: Vec<usize>,
+    /// Ranks of the modes that most of the backward waves are.
+    pub backward: Vec<usize>,
+}
+
+/// Modes without Coriolis forces that the waves of nodal diameter `nodal_diameter` at `speed_rad_s` mostly consist of, by their energy: a mode for each
+/// wave of either direction.
+///
+/// # Errors
+///
+/// Errors of [`wave_frequencies`].
+pub fn wave_modes(
+    wheel: &ReducedWheel,
+    nodal_diameter: usize,
+    speed_rad_s: f64,
+    stiffening: bool,
+) -> Result<WaveModes, ModelError> {
+    let effects = RotationEffects { stiffening, coriolis: true };
+    let modes = modal_harmonic(wheel, nodal_diameter, speed_rad_s, effects)?;
+    let n = modes.omega.len();
+    if modes.single {
+        return Ok(WaveModes { forward: (0..n).collect(), backward: (0..n).collect() });
+    }
+    let form = hermitian_form(&modes, speed_rad_s)?;
+    let failed = |_| ModelError::DecompositionFailed { nodal_diameter, speed_rad_s };
+    let vectors = Dense::generalised_eigenpairs(form.as_ref(), Mat::<c64>::identity(2 * n, 2 * n).as_ref())
+        .map_err(failed)?
+        .vectors;
+    // Share of the mode in a column in the energy of the wave in a row.
+    let shares = |column: &dyn Fn(usize) -> usize| {
+        Mat::from_fn(n, n, |wave, mode| {
+            let x = vectors.col(column(wave));
+            x[mode].norm_sqr() + x[n + mode].norm_sqr()
+        })
+    };
+    let (forward, backward) = (shares(&|wave| n - 1 - wave), shares(&|wave| n + wave));
+    Ok(WaveModes { forward: assign(forward.as_ref()), backward: assign(backward.as_ref()) })
 }
 
 /// Hermitian matrix −jS.

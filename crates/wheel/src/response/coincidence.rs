@@ -29,6 +29,19 @@ pub struct Coincidence {
     pub sum: bool,
 }
 
+impl Coincidence {
+    /// Direction in which the wheel's wave travels, on `sectors` sectors.
+    pub fn wave(&self, sectors: u32) -> Wave {
+        let against = driven_wave(self.casing_nodal_diameter, sectors).unwrap_or(Wave::Backward);
+        let is_against = self.sum || self.frequency_hz > self.casing_frequency_hz;
+        if is_against { against } else { opposite(against) }
+    }
+}
+
+fn opposite(wave: Wave) -> Wave {
+    if wave == Wave::Backward { Wave::Forward } else { Wave::Backward }
+}
+
 /// Coincidences of the first `families` with the casing's waves (n, Hz) over `grid` (ascending, rad/s), in ascending speed.
 /// n = 0 turns with any speed alike and is left out.
 pub fn coincidences<F: Frequencies>(
@@ -43,7 +56,7 @@ pub fn coincidences<F: Frequencies>(
         let nodal_diameter = fold(n, sectors);
         // The wave that a field of n periods at rest drives runs against it; the other one with it.
         let against = driven_wave(n, sectors).unwrap_or(Wave::Backward);
-        let with = if against == Wave::Backward { Wave::Forward } else { Wave::Backward };
+        let with = opposite(against);
         // nΩ = ω + ω_c,  nΩ = ω − ω_c,  nΩ = ω_c − ω
         let lines = [
             (against, Line { order: n, sign: 1.0, offset: casing_hz }),

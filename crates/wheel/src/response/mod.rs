@@ -9,4 +9,5 @@ pub mod settling;
 pub mod side_bands;
 pub mod spectra;
 pub mod symmetry_breaking;
+pub mod veerings;
 pub mod waves;

@@ -7,7 +7,7 @@ use crate::resolve::limits;
 use crate::resolved::ResolvedSweep;
 
 pub(super) fn check(found: &mut Findings, request: &ResolvedSweep, _: &ModelFacts) {
-    let Some(Damping { modal_ratio, family_ratios }) = &request.scene.damping else { return };
+    let Some(Damping { modal_ratio, family_ratios, .. }) = &request.scene.damping else { return };
     let valid = |ratio: f64| (0.0..1.0).contains(&ratio);
     let message = "a damping ratio lies in [0, 1)";
     found.require(valid(*modal_ratio), "/scene/damping/modal_ratio", message);

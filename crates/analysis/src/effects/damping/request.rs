@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::effects::asked::Plain;
+use crate::request::families::FamiliesBy;
 
 /// Modal damping of the reduced wheel.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -15,6 +16,9 @@ pub struct Damping {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[cfg_attr(feature = "schema", schema(max_items = 100))]
     pub family_ratios: Vec<f64>,
+    /// Meaning of a family in `family_ratios`.
+    #[serde(default, skip_serializing_if = "FamiliesBy::is_shape")]
+    pub families_by: FamiliesBy,
 }
 
 impl Plain for Option<Damping> {}

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::request::FrictionLaw;
-use crate::effects::damping::convert::modal_damping;
+use crate::effects::damping::convert::ratios;
 use crate::effects::effect::AboutToRun;
 use crate::not_runnable::NotRunnable;
 use rubmap_wheel::dynamics::contact::disc::DiscFlexibility;
@@ -18,14 +18,15 @@ pub(super) fn check(run: &AboutToRun<'_>) -> Result<(), NotRunnable> {
     let AboutToRun { request, wheel, contact_nodes, scheme, steps_per_revolution } = *run;
     let Some(friction) = &request.scene.friction else { return Ok(()) };
     let step = TAU / (wheel.speed_rad_s * steps_per_revolution as f64);
-    let damping = modal_damping(request);
+    // Which family has which ratio changes the operator by the order of ζωh.
+    let damping = ratios(&request.scene);
     let normals = outward_normals(contact_nodes);
     let blocks = |from: &[_]| match scheme {
         Scheme::MasslessBoundary { kept_modes } => residual_flexibility(wheel, kept_modes, &normals, from),
         Scheme::CentralDifferences | Scheme::ExactModal => {
             flexibility(wheel, &normals, from, |harmonic, mode| {
                 let omega = wheel.harmonics[harmonic].omega[mode];
-                let zeta = damping.as_ref().map_or(0.0, |damping| damping.ratio(mode));
+                let zeta = damping.as_ref().map_or(0.0, |damping| damping.ratio(harmonic, mode));
                 scheme.mode_step(omega, zeta, step, true).receptance
             })
         }

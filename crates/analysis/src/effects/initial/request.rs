@@ -11,7 +11,7 @@ use crate::effects::asked::Plain;
 pub struct Initial {
     /// Nodal diameter i.
     pub nodal_diameter: u32,
-    /// Modal family within it, counted from 1.
+    /// Modal family within it, counted from 1: the rank of the mode at the speed of the run.
     #[cfg_attr(feature = "schema", schema(minimum = 1, maximum = 100))]
     pub family: u32,
     /// Largest displacement component of any contact node, length; within the clearances, for blades that stood inside the

@@ -3,7 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 /// Relative stiffness deviations of the sectors: given as `deviations`, or drawn with `spread` and `seed`. Twice the relative
-/// deviation of a blade's frequency; within each modal family (Feiner and Griffin, J. Turbomachinery 124, 2002).
+/// deviation of a blade's frequency; within each modal family, the modes of one rank at the speed of the run (Feiner and Griffin,
+/// J. Turbomachinery 124, 2002).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]

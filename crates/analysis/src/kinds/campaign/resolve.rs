@@ -56,7 +56,7 @@ pub(crate) fn resolve_campaign(
         max_engine_order: request.max_engine_order,
         peak_prominence: default_peak_prominence(),
         sweep: SweepDirection::Independent,
-        refine: false,
+        refine: Some(false),
         reproducible: false,
         accuracy: None,
         budget: None,

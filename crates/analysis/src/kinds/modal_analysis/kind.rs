@@ -31,7 +31,7 @@ pub static MODAL_ANALYSIS: Kind = Kind {
         "Takes the body of `POST /v1/modal-analyses` and answers at once.",
     ),
     example: include_str!("example.json"),
-    results: &[("campbell", "/campbell"), ("report", "/report")],
+    results: &[("campbell", "/campbell"), ("interference", "/interference"), ("report", "/report")],
     units: Units::Once,
     read: kind::read::<ModalAnalysisRequest>,
     stored: |text, _| kind::stored(text, ResolvedModalAnalysis::stored),

@@ -1,6 +1,7 @@
 //! Modal analyses: natural frequencies over speed, and the linear interaction criterion.
 
 pub(crate) mod compute;
+pub mod interference;
 pub(crate) mod kind;
 pub mod request;
 pub mod resolved;

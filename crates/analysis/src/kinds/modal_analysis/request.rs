@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::request::accuracy::{Accuracy, Budget};
 use crate::request::auto_or::AutoOr;
+use crate::request::families::FamiliesBy;
 use crate::request::omit::is_false;
 use crate::request::speeds::Speeds;
 use crate::request::sweep::default_max_engine_order;
@@ -20,10 +21,13 @@ pub struct ModalAnalysisRequest {
     /// them 20.
     #[serde(default)]
     pub modes_per_speed: AutoOr,
-    /// Modal families to report: frequencies per nodal diameter, by their rank at each speed.
+    /// Modal families to report: frequencies per nodal diameter.
     #[serde(default = "default_families")]
     #[cfg_attr(feature = "schema", schema(minimum = 1, maximum = 100))]
     pub families: u32,
+    /// Meaning of a family.
+    #[serde(default)]
+    pub families_by: FamiliesBy,
     /// Superharmonic numbers n of the linear criterion f = i·n·Ω/2π.
     #[serde(default = "default_superharmonics")]
     #[cfg_attr(feature = "schema", schema(max_items = 16))]

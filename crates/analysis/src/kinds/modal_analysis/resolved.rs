@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use crate::error::Violation;
 use crate::request::ModalAnalysisRequest;
+use crate::request::families::FamiliesBy;
 use crate::resolved::knobs::Modes;
 use crate::resolved::speeds::ResolvedSpeeds;
 
@@ -14,6 +15,7 @@ pub struct ResolvedModalAnalysis {
     pub(crate) model: String,
     pub(crate) modes: Modes,
     pub(crate) families: u32,
+    pub(crate) families_by: FamiliesBy,
     pub(crate) superharmonics: Vec<u32>,
     pub(crate) lobes: u32,
     pub(crate) max_engine_order: u32,
@@ -33,6 +35,7 @@ impl ResolvedModalAnalysis {
             model: asked.model,
             modes: Modes::of(asked.modes_per_speed, asked.accuracy, asked.budget),
             families: asked.families,
+            families_by: asked.families_by,
             superharmonics: asked.superharmonics,
             lobes: asked.lobes,
             max_engine_order: asked.max_engine_order,
@@ -95,6 +98,7 @@ impl From<ResolvedModalAnalysis> for ModalAnalysisRequest {
             model: analysis.model,
             modes_per_speed,
             families: analysis.families,
+            families_by: analysis.families_by,
             superharmonics: analysis.superharmonics,
             lobes: analysis.lobes,
             max_engine_order: analysis.max_engine_order,

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::result::reduction::ReductionReport;
 use rubmap_wheel::response::campbell::{Crossing, DrivenCrossing};
+use rubmap_wheel::response::veerings::Veering;
 use rubmap_wheel::response::waves::{Table, Wave};
 
 /// Result of a modal analysis.
@@ -12,9 +13,11 @@ use rubmap_wheel::response::waves::{Table, Wave};
 pub struct Campbell {
     /// Speeds, rad/s.
     pub speeds_rad_s: Vec<f64>,
-    /// Natural frequencies in the rotating frame without Coriolis forces, `[speed][nodal diameter][family]`, Hz. A family is the rank of a frequency
-    /// at its speed, in ascending order: modes that cross swap their families there.
+    /// Natural frequencies in the rotating frame without Coriolis forces, `[speed][nodal diameter][family]`, Hz.
     pub frequencies_hz: Vec<Vec<Vec<f64>>>,
+    /// Families as they were followed. Absent where a family is the rank of a frequency at its speed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub followed: Option<FollowedFamilies>,
     /// Natural frequencies with Coriolis forces, if asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub waves: Option<WaveTables>,
@@ -46,6 +49,20 @@ impl Campbell {
             }
         }
     }
+}
+
+/// Families that were followed from rest by the shapes of their modes, over 24 steps up to the highest speed of the model's matrices whatever
+/// speeds are asked for.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct FollowedFamilies {
+    /// Ranks of the modes of the families among all modes without Coriolis forces, from 1, `[speed][nodal diameter][family]`.
+    pub ranks: Vec<Vec<Vec<u32>>>,
+    /// Modal assurance of the modes with the shapes that were followed, 0 to 1, `[speed][nodal diameter][family]`: below 0.75 a mode is a mixture of
+    /// families, in the middle of a veering.
+    pub assurance: Vec<Vec<Vec<f64>>>,
+    /// Veerings and crossings of the families within the range, in ascending nodal diameter and speed.
+    pub veerings: Vec<Veering>,
 }
 
 /// Natural frequencies in the rotating frame that Coriolis forces split, `[speed][nodal diameter][family]`, Hz. A single

@@ -49,7 +49,7 @@ pub struct StudyRequest {
 }
 
 /// Recordings of every run of a study beside displacement and contact.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
 pub struct StudyRecord {

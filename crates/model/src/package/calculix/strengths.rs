@@ -3,28 +3,15 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use rubmap_solid::material::{FatigueStrength, Material};
-use serde::Deserialize;
+use rubmap_solid::material::{GivenStrengths, Material};
 
 use super::error::{CalculixError, ModelProblem};
 use super::text::normal;
 use crate::package::quote::{bounded_message, quoted};
 
-/// Strengths of a material, as far as they are known.
-#[derive(Debug, Clone, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Strength {
-    #[serde(default)]
-    yield_strength: Option<f64>,
-    #[serde(default)]
-    ultimate_strength: Option<f64>,
-    #[serde(default)]
-    fatigue_strength: Option<FatigueStrength>,
-}
-
 /// Strengths by the name of a material or an element set, as CalculiX compares names.
 #[derive(Debug, Default)]
-pub(super) struct Strengths(BTreeMap<String, Strength>);
+pub(super) struct Strengths(BTreeMap<String, GivenStrengths>);
 
 impl Strengths {
     /// Reads the strengths in `path`; none without a path.
@@ -33,7 +20,7 @@ impl Strengths {
         let text =
             std::fs::read(path).map_err(|source| CalculixError::Io { path: path.to_owned(), source })?;
         let mut json = serde_json::Deserializer::from_slice(&text);
-        let read: BTreeMap<String, Strength> =
+        let read: BTreeMap<String, GivenStrengths> =
             serde_path_to_error::deserialize(&mut json).map_err(|error| ModelProblem::Strengths {
                 file: path.to_owned(),
                 message: bounded_message(&error.to_string()),
@@ -44,9 +31,7 @@ impl Strengths {
     /// Gives a material the strengths listed for its set, or else for the material itself.
     pub(super) fn give(&self, set: &str, material: &str, to: &mut Material) {
         if let Some(strength) = self.0.get(set).or_else(|| self.0.get(material)) {
-            to.yield_strength = strength.yield_strength;
-            to.ultimate_strength = strength.ultimate_strength;
-            to.fatigue_strength.clone_from(&strength.fatigue_strength);
+            *to = to.with_strengths(strength);
         }
     }
 

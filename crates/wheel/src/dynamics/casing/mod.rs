@@ -25,6 +25,17 @@ impl Casing {
         ramp(revolutions, self.ramp_revolutions)
     }
 
+    /// Largest length by which the casing, fully grown, stands inside a tip that does not move; none where it stands inside none.
+    pub fn interference(&self) -> Option<f64> {
+        let inside = match &self.restriction {
+            Some(restriction) => {
+                restriction.extremes_of(self.clearance.len(), |p, node| p - self.clearance[node]).1
+            }
+            None => self.clearance.iter().fold(f64::NEG_INFINITY, |most, clearance| most.max(-clearance)),
+        };
+        (inside > 0.0).then_some(inside)
+    }
+
     /// Length against which gaps are round-off: largest clearance and restriction, whatever their signs, of each no more than `reach`, the
     /// farthest that a tip can move.
     pub fn length_scale(&self, reach: f64) -> f64 {

@@ -100,6 +100,11 @@ impl Restriction {
 
     /// Smallest and largest p of any of `nodes` contact nodes, to about a thousandth.
     pub fn extremes(&self, nodes: usize) -> (f64, f64) {
+        self.extremes_of(nodes, |p, _| p)
+    }
+
+    /// Smallest and largest value that `of` makes of p and the contact node, to about a thousandth of p.
+    pub(super) fn extremes_of(&self, nodes: usize, of: impl Fn(f64, usize) -> f64) -> (f64, f64) {
         // A thousand angles over what repeats, and twenty over the narrowest shape: of the narrowest ones about their crests alone.
         const MOST: f64 = 20_000.0;
         let (turn, narrowest) = (TAU / self.repeats().max(1) as f64, self.narrowest_rad());
@@ -111,9 +116,10 @@ impl Restriction {
             (-aside..=aside)
                 .map(move |i| if i == 0 { crest } else { crest + 0.05 * narrowest * f64::from(i) })
         });
-        let heights =
-            angles.chain(crests).flat_map(|angle| (0..nodes).map(move |node| self.height(angle, node)));
-        heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)))
+        let of = &of;
+        let values = angles.chain(crests);
+        let values = values.flat_map(|angle| (0..nodes).map(move |node| of(self.height(angle, node), node)));
+        values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)))
     }
 
     /// Number of times that p repeats around the circumference.

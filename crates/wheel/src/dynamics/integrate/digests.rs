@@ -54,7 +54,7 @@ fn digest(arch: Arch, scheme: Scheme, damped: bool, touching: bool) -> String {
         restriction: Some(Lobes { count: 2, amplitude: 0.5, width_rad: 0.4, phase_rad: 0.1 }.into()),
         ramp_revolutions: 0.5,
     };
-    let damping = ModalDamping { modal_ratio: 0.01, family_ratios: vec![0.005] };
+    let damping = ModalDamping { modal_ratio: 0.01, family_ratios: vec![0.005], ranks: Vec::new() };
     let push = InitialMode {
         harmonic: 1,
         family: 2,

@@ -220,7 +220,7 @@ impl<'a> Passage<'a> {
         let mut stepped: Vec<SteppedMode> = Vec::new();
         for &InitialMode { harmonic, family, displacement, velocity } in modes {
             let omega = wheel.harmonics[harmonic].omega[family];
-            let zeta = damping.map_or(0.0, |damping| damping.ratio(family));
+            let zeta = damping.map_or(0.0, |damping| damping.ratio(harmonic, family));
             let increment = |z: f64, v: f64| scheme.first_increment(omega, zeta, step, z, v, follow);
             let increment =
                 c64::new(increment(displacement.re, velocity.re), increment(displacement.im, velocity.im));

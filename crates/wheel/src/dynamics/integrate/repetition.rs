@@ -71,7 +71,7 @@ impl Repetition {
         for (harmonic, modes) in wheel.harmonics.iter().enumerate() {
             for family in 0..scheme.integrated_modes(modes.omega.len()) {
                 let omega = modes.omega[family];
-                let zeta = damping.map_or(0.0, |damping| damping.ratio(family));
+                let zeta = damping.map_or(0.0, |damping| damping.ratio(harmonic, family));
                 slowest = slowest.max((-zeta * omega * turn).exp());
                 let unit = if omega > 0.0 { (omega * step).recip() } else { 1.0 };
                 let kind =

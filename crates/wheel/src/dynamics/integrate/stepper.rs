@@ -344,7 +344,7 @@ fn modal_state(simulation: &Simulation<'_>, oscillators: &Oscillators, follow: b
     let step = simulation.step_s();
     oscillators.modal_state(|harmonic, family, z, d| {
         let omega = simulation.wheel.harmonics[harmonic].omega[family];
-        let zeta = simulation.damping.map_or(0.0, |damping| damping.ratio(family));
+        let zeta = simulation.damping.map_or(0.0, |damping| damping.ratio(harmonic, family));
         simulation.scheme.velocity(omega, zeta, step, z, d, follow)
     })
 }

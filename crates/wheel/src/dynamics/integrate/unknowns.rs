@@ -36,7 +36,7 @@ pub(super) fn unknowns(simulation: &Simulation<'_>, stepper: &Stepper) -> Vec<(U
     for (harmonic, modes) in simulation.wheel.harmonics.iter().enumerate() {
         for family in 0..simulation.scheme.integrated_modes(modes.omega.len()) {
             let omega = modes.omega[family];
-            if !remembers(simulation, omega, family) {
+            if !remembers(simulation, omega, (harmonic, family)) {
                 continue;
             }
             let scale = if omega > 0.0 { omega } else { simulation.step_s().recip() };
@@ -63,11 +63,11 @@ pub(super) fn casing_unknowns(stepper: &Stepper, step: f64) -> Vec<CasingUnknown
 
 /// Whether a mode remembers: its motion depends on where it was. A mode that follows statically forgets this within a step, unless it
 /// follows itself or others that remember.
-fn remembers(simulation: &Simulation<'_>, omega: f64, family: usize) -> bool {
+fn remembers(simulation: &Simulation<'_>, omega: f64, (harmonic, rank): (usize, usize)) -> bool {
     if simulation.effects.mistuning.is_some() || simulation.wheel.turns() {
         return true;
     }
-    let zeta = simulation.damping.map_or(0.0, |damping| damping.ratio(family));
+    let zeta = simulation.damping.map_or(0.0, |damping| damping.ratio(harmonic, rank));
     let step = simulation.scheme.mode_step(omega, zeta, simulation.step_s(), simulation.casing.is_some());
     step.keep != 0.0 || step.receptance * omega * omega != 1.0
 }

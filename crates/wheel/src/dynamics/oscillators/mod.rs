@@ -33,12 +33,18 @@ pub struct ModalDamping {
     pub modal_ratio: f64,
     /// Damping ratios ζ of the first modal families, the same in every nodal diameter.
     pub family_ratios: Vec<f64>,
+    /// Ranks of the modes of these families, by harmonic of the wheel; none where a family is a rank.
+    pub ranks: Vec<Vec<usize>>,
 }
 
 impl ModalDamping {
-    /// Damping ratio ζ of modal family `family`, counted from 0.
-    pub fn ratio(&self, family: usize) -> f64 {
-        self.family_ratios.get(family).copied().unwrap_or(self.modal_ratio)
+    /// Damping ratio ζ of the mode of this rank, counted from 0, of a harmonic of the wheel.
+    pub fn ratio(&self, harmonic: usize, rank: usize) -> f64 {
+        let family = match self.ranks.get(harmonic) {
+            None => Some(rank),
+            Some(ranks) => ranks.iter().position(|&of_family| of_family == rank),
+        };
+        family.and_then(|family| self.family_ratios.get(family)).copied().unwrap_or(self.modal_ratio)
     }
 }
 
@@ -107,10 +113,10 @@ impl Oscillators {
             column += parts;
         }
         let mut of = Coefficients::zeros(modes);
-        for (harmonic, segment) in wheel.harmonics.iter().zip(&segments) {
+        for (index, (harmonic, segment)) in wheel.harmonics.iter().zip(&segments).enumerate() {
             for family in 0..segment.length {
                 let omega = if family < segment.integrated { harmonic.omega[family] } else { 0.0 };
-                let zeta = damping.map_or(0.0, |damping| damping.ratio(family));
+                let zeta = damping.map_or(0.0, |damping| damping.ratio(index, family));
                 of.set(segment.modes + family, omega, scheme.mode_step(omega, zeta, step, follow));
             }
         }
@@ -125,7 +131,7 @@ impl Oscillators {
         let dissipates = of.loss.iter().any(|&loss| loss > 0.0);
         let mut this = Self { segments, coefficients: of, state, dissipates };
         for mode in initial {
-            let zeta = damping.map_or(0.0, |damping| damping.ratio(mode.family));
+            let zeta = damping.map_or(0.0, |damping| damping.ratio(mode.harmonic, mode.family));
             this.start(mode, |z, v| {
                 let omega = wheel.harmonics[mode.harmonic].omega[mode.family];
                 scheme.first_increment(omega, zeta, step, z, v, follow)
@@ -446,5 +452,19 @@ impl State {
             force: &S::as_simd_f64s(&self.force[force]).0[..forces],
             z,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::ModalDamping;
+
+    #[test]
+    fn ratios_go_with_the_families() {
+        let by_rank = ModalDamping { modal_ratio: 0.3, family_ratios: vec![0.1, 0.2], ranks: Vec::new() };
+        assert_eq!([0, 1, 2].map(|rank| by_rank.ratio(1, rank)), [0.1, 0.2, 0.3]);
+        let followed = ModalDamping { ranks: vec![vec![0, 1], vec![2, 0]], ..by_rank };
+        assert_eq!([0, 1, 2].map(|rank| followed.ratio(0, rank)), [0.1, 0.2, 0.3]);
+        assert_eq!([0, 1, 2].map(|rank| followed.ratio(1, rank)), [0.2, 0.3, 0.1]);
     }
 }

@@ -116,7 +116,7 @@ fn parts_of_a_run_are_the_run() {
 
 fn check_parts(scheme: Scheme, acting: Acting) {
     let (nodes, excitation) = (nodes(), excitation());
-    let damping = ModalDamping { modal_ratio: 0.01, family_ratios: Vec::new() };
+    let damping = ModalDamping { modal_ratio: 0.01, family_ratios: Vec::new(), ranks: Vec::new() };
     let casing = |clearance: [f64; 2]| Casing {
         clearance: clearance.to_vec(),
         restriction: Some(Lobes { count: 2, amplitude: 0.5, width_rad: 0.4, phase_rad: 0.1 }.into()),
@@ -283,7 +283,7 @@ impl Oscillator {
             phase_rad: 0.0,
             ramp_revolutions: 0.0,
         }];
-        let damping = ModalDamping { modal_ratio: self.zeta, family_ratios: Vec::new() };
+        let damping = ModalDamping { modal_ratio: self.zeta, family_ratios: Vec::new(), ranks: Vec::new() };
         let (mut state, mut found) = (Vec::new(), Vec::new());
         for segment in segments {
             let wheel = self.wheel(segment.speed_rad_s);

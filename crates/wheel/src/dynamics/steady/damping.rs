@@ -85,5 +85,6 @@ fn times(damping: &ModalDamping, factor: f64) -> ModalDamping {
     ModalDamping {
         modal_ratio: factor * damping.modal_ratio,
         family_ratios: damping.family_ratios.iter().map(|ratio| factor * ratio).collect(),
+        ranks: damping.ranks.clone(),
     }
 }

@@ -216,7 +216,7 @@ impl Balance {
 fn responses_are_those_of_harmonic_balance_within_its_truncation() {
     let wheel = wheel();
     let node = [ContactNode { id: 1, position: [1e9, 0.0, 0.0], normal: [1.0, 0.0, 0.0], dofs: [0, 1, 2] }];
-    let damping = ModalDamping { modal_ratio: ZETA, family_ratios: Vec::new() };
+    let damping = ModalDamping { modal_ratio: ZETA, family_ratios: Vec::new(), ranks: Vec::new() };
     let casing = Casing { clearance: vec![CLEARANCE], restriction: Some(LOBE.into()), ramp_revolutions: 1.0 };
     let radial = Direction { node: 0, components: [1.0, 0.0, 0.0] };
     let simulation = Simulation {

@@ -189,7 +189,7 @@ impl Stop {
                 normal: [1.0, 0.0, 0.0],
                 dofs: [0, 1, 2],
             }],
-            damping: ModalDamping { modal_ratio: ZETA, family_ratios: Vec::new() },
+            damping: ModalDamping { modal_ratio: ZETA, family_ratios: Vec::new(), ranks: Vec::new() },
             casing: Casing { clearance: vec![CLEARANCE], restriction: None, ramp_revolutions: 0.0 },
             steps,
         }

@@ -52,7 +52,8 @@ impl<'a> Tangent<'a> {
         let step = passage.step_s();
         let mode_step = |unknown: &Unknown| {
             let omega = wheel.harmonics[unknown.harmonic].omega[unknown.family];
-            let zeta = simulation.damping.map_or(0.0, |damping| damping.ratio(unknown.family));
+            let zeta =
+                simulation.damping.map_or(0.0, |damping| damping.ratio(unknown.harmonic, unknown.family));
             (omega, simulation.scheme.mode_step(omega, zeta, step, touching))
         };
         let mut steps: Vec<_> = passage.unknowns().iter().map(mode_step).collect();

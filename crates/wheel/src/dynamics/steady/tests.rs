@@ -72,7 +72,7 @@ impl Scene {
                 restriction: Some(restriction.into()),
                 ramp_revolutions: 2.0,
             }),
-            damping: ModalDamping { modal_ratio: damping, family_ratios: Vec::new() },
+            damping: ModalDamping { modal_ratio: damping, family_ratios: Vec::new(), ranks: Vec::new() },
             scheme,
         }
     }

@@ -249,7 +249,7 @@ impl Rubbing {
         Simulation {
             wheel: &self.wheel,
             contact_nodes: &self.nodes,
-            damping: Some(&ModalDamping { modal_ratio: 0.02, family_ratios: Vec::new() }),
+            damping: Some(&ModalDamping { modal_ratio: 0.02, family_ratios: Vec::new(), ranks: Vec::new() }),
             casing: Some(&self.casing),
             effects: Effects { friction, ..Effects::default() },
             initial: &[],

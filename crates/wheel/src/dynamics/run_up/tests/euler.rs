@@ -60,7 +60,7 @@ fn stepped(profile: &SpeedProfile, scheme: Scheme, turning: bool, tolerance_rad:
         most_segments: 100_000,
     };
     let nodes = nodes();
-    let damping = ModalDamping { modal_ratio: ZETA, family_ratios: Vec::new() };
+    let damping = ModalDamping { modal_ratio: ZETA, family_ratios: Vec::new(), ranks: Vec::new() };
     let mut modes = Vec::new();
     let begun = start();
     for (harmonic, of) in begun.iter().enumerate() {
@@ -181,7 +181,7 @@ fn what_follows_is_handed_on_without_a_blow() {
     };
     let wheel = ModalWheel { speed_rad_s: 100.0, sectors: 1, repeats: 1, harmonics: vec![harmonic] };
     let nodes = nodes();
-    let damping = ModalDamping { modal_ratio: 0.2, family_ratios: Vec::new() };
+    let damping = ModalDamping { modal_ratio: 0.2, family_ratios: Vec::new(), ranks: Vec::new() };
     // Only the fast mode is loaded, by a rate of 1.
     let rate = SpeedRate(vec![StraightRate { revolutions: [0.0, 10.0], rad_s2: [1.0; 2] }]);
     let load = vec![0.0, omega[1].powi(2)];

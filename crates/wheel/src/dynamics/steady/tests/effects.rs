@@ -403,7 +403,7 @@ fn matrix_multipliers(affected: &Affected) -> Vec<c64> {
         if j >= n {
             let g = wheel.harmonics[harmonic].gyroscopic.as_ref().filter(|_| harmonic == other);
             let force = g.map_or(0.0, |g| (part.conj() * g[(m, family)] * from).re);
-            return -2.0 * damping.ratio(m) * omega * same - SPEED * force;
+            return -2.0 * damping.ratio(harmonic, m) * omega * same - SPEED * force;
         }
         let coupled = |(sector, delta): (usize, &f64)| {
             delta * amplitude(sector, unknowns[i - n]) * amplitude(sector, unknowns[j])

@@ -4,22 +4,21 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::client::{Client, ServerArgs};
-use super::stdout::print;
-use super::verb::Verb;
-use crate::store::jobs::JobId;
+use super::find;
+use crate::cli::client::{Client, ServerArgs};
+use crate::cli::stdout::print;
+use crate::cli::verb::Verb;
 
 /// Job that is reported, and its service.
 #[derive(Debug, Args)]
-pub(super) struct ReportArgs {
-    /// Id of a sweep or a modal analysis
-    #[arg(value_parser = job)]
-    job: JobId,
+pub(in crate::cli) struct ReportArgs {
+    /// Sweep or modal analysis: its id, the beginning of it, or its name
+    job: String,
     /// Sensor of the map, counted from 0
     #[arg(long, default_value_t = 0)]
     sensor: u32,
-    /// File of the page [default: report-JOB.html]
-    #[arg(long)]
+    /// File of the page [default: report-ID.html]
+    #[arg(long, short, value_name = "FILE")]
     out: Option<PathBuf>,
     #[command(flatten)]
     server: ServerArgs,
@@ -31,13 +30,9 @@ impl Verb for ReportArgs {
     }
 
     async fn play(&self, client: &Client) -> anyhow::Result<()> {
-        let Self { job, sensor, .. } = self;
+        let job = find::job(client, &self.job).await?;
         let out = self.out.clone().unwrap_or_else(|| PathBuf::from(format!("report-{job}.html")));
-        client.save(&format!("/v1/jobs/{job}/report?sensor={sensor}"), &out).await?;
+        client.save(&format!("/v1/jobs/{job}/report?sensor={}", self.sensor), &out).await?;
         print(&out.display().to_string())
     }
-}
-
-fn job(text: &str) -> Result<JobId, String> {
-    JobId::parse(text).ok_or_else(|| "expected the id of a job, as in /v1/jobs".to_owned())
 }
