@@ -135,10 +135,12 @@ function sections(context, schema, opened) {
 function parts(context, schema, pointer, names = ordered(Object.keys(schema.properties ?? {}), pointer)) {
   const required = new Set(schema.required ?? []);
   const [title, few] = context.rare?.[pointer.replace(/\/\d+/g, '/-')] ?? [null, []];
-  const made = (name) => part(context, resolve(schema.properties[name], context.definitions), `${pointer}/${name}`, name, required.has(name));
-  const shown = names.filter((name) => schema.properties[name] && !(context.skip ?? []).includes(`${pointer}/${name}`));
+  // Names may be those of element sets, with any letters.
+  const at = (name) => `${pointer}/${name.replaceAll('~', '~0').replaceAll('/', '~1')}`;
+  const made = (name) => part(context, resolve(schema.properties[name], context.definitions), at(name), name, required.has(name));
+  const shown = names.filter((name) => schema.properties[name] && !(context.skip ?? []).includes(at(name)));
   const hidden = shown.filter((name) => few.includes(name));
-  const isGiven = (name) => get(context, `${pointer}/${name}`) !== undefined;
+  const isGiven = (name) => get(context, at(name)) !== undefined;
   return [
     ...shown.filter((name) => !few.includes(name)).map(made),
     ...(hidden.length > 0 ? [h('details', { class: 'rare', open: hidden.some(isGiven) }, h('summary', {}, title), h('div', { class: 'fields' }, hidden.map(made)))] : []),

@@ -218,6 +218,7 @@ stress|Stress||At every speed, with the most utilised places. Needs a model with
 stress|Stress||At every speed. Needs a model with elements.
 # stress
 excluded_radius|Left out around contact nodes|L
+strengths|Strengths of the material||In place of those of the model, which may have none; utilisation needs ultimate and fatigue strength.
 # record
 histories|Histories||Motion and forces over time, at some speeds.
 #
@@ -280,7 +281,8 @@ material|Material||Off: the titanium of the presets, without strengths.
 youngs_modulus|Young’s modulus E|F/L²|
 poissons_ratio|Poisson’s ratio ν||
 density|Density ρ|M/L³|
-yield_strength|Yield strength|F/L²|Left out: no utilisation.
+#
+yield_strength|Yield strength|F/L²|
 ultimate_strength|Ultimate strength|F/L²|Left out: no utilisation.
 fatigue_strength|Fatigue strength||Amplitude of a fully reversed stress. Off: no utilisation.
 # fatigue_strength

@@ -32,6 +32,6 @@ export function unitSystem(changed) {
     changed(read());
   });
   others.addEventListener('input', () => changed(read()));
-  const element = h('div', { class: 'field' }, h('label', { for: id }, 'Units of the file'), h('div', { class: 'help', id: `${id}-help` }, help), h('div', { class: 'row' }, choice));
+  const element = h('div', { class: 'field' }, h('label', { for: id }, 'Units of the file'), h('div', { class: 'row' }, choice), h('div', { class: 'help', id: `${id}-help` }, help));
   return { element, others, read };
 }

@@ -61,6 +61,7 @@ export function beginning(pointer, model) {
     '/speed/points/-': { time_s: 0, speed: speedsOf(model).from },
     '/scene/engine_order_excitation/-': { order: 2, contact_nodes: [0], component: 'axial', amplitude: 1 },
     '/record/stress': {},
+    '/record/stress/strengths': {},
     '/record/histories': { speeds: 'critical' },
     '/accuracy': { target: 0.01 },
     '/budget': { seconds: 600 },

@@ -4,6 +4,7 @@ import { api, openapi, Refusal, submit } from '../../lib/api.js';
 import { h, newId, replace } from '../../lib/dom.js';
 import { draftHere, draftNote } from '../../lib/draft.js';
 import { form } from '../../lib/form/form.js';
+import { materialChoice } from '../../lib/materials.js';
 import { problem } from '../../lib/problem.js';
 import { accuracyDial } from './accuracy.js';
 import { casingTable } from './casing.js';
@@ -25,7 +26,7 @@ import { wheelInCasing } from './wheel.js';
 export async function requestForm(place, { model, kind, value, words }, signal) {
   // A section that cannot be read is no reason not to ask.
   const [contract, section] = await Promise.all([openapi(), api.get(`/v1/models/${model.id}/section`, { signal }).catch(() => null)]);
-  const definitions = contract.components.schemas;
+  const definitions = withSets(contract.components.schemas, model);
   const draft = draftHere();
   const nameFor = (request) => proposedName(request, model, kind.path);
   const begun = draft.kept() ?? { ...value, name: value.name ?? nameFor(value) };
@@ -41,6 +42,12 @@ export async function requestForm(place, { model, kind, value, words }, signal) 
     fields.set(now);
     changed();
   }, signal);
+  const alloys = materialChoice(() => model.units, (material) => {
+    const now = structuredClone(fields.value());
+    now.record.stress.strengths = Object.fromEntries(setsOf(model).map((set) => [set, strengthsOf(material)]));
+    fields.set(now);
+    changed();
+  });
   const told = h('div');
   const unsent = h('div');
   const json = editor((now) => {
@@ -52,7 +59,7 @@ export async function requestForm(place, { model, kind, value, words }, signal) 
     definitions, value: begun, initial,
     skip: ['/model', '/accuracy'].slice(0, kind.priced ? 2 : 1),
     units: model.units, rare: RARE,
-    beside: (pointer) => cost?.beside(pointer) ?? table.beside(pointer),
+    beside: (pointer) => (pointer === '/record/stress/strengths' ? alloys : cost?.beside(pointer) ?? table.beside(pointer)),
     sections: sectionsOf({ value: begun, begun: kind.begin(model), units: model.units, wheel: wheel.element, campbell: campbell.element, dial: dial?.element }),
     onChange: () => changed(),
   });
@@ -116,6 +123,24 @@ export async function requestForm(place, { model, kind, value, words }, signal) 
       button.disabled = false;
     }
   }
+}
+
+/** Names of the element sets of a model. */
+function setsOf(model) {
+  return (model.mesh?.sets ?? []).map(({ set }) => set);
+}
+
+/** The schemas of the contract with the element sets of the model where strengths have names of any. */
+function withSets(schemas, model) {
+  const stress = schemas.StressRequest;
+  const { strengths } = stress.properties;
+  if (!strengths?.additionalProperties) return schemas;
+  const properties = Object.fromEntries(setsOf(model).map((set) => [set, strengths.additionalProperties]));
+  return { ...schemas, StressRequest: { ...stress, properties: { ...stress.properties, strengths: { ...strengths, properties } } } };
+}
+
+function strengthsOf({ yield_strength, ultimate_strength, fatigue_strength }) {
+  return { yield_strength, ultimate_strength, fatigue_strength };
 }
 
 /** What an accuracy stands in the place of: the settings of a request and of its integration. */
