@@ -86,7 +86,8 @@ fn bars(found: &Interference, panel: &mut Panel) {
     if areas.is_empty() {
         return;
     }
-    let fill = "#f7d9b0";
+    // Grid, zig-zag and a dark page show through.
+    let fill = "rgba(240, 160, 60, 0.35)";
     let sample = super::svg::rectangle(0.0, -6.0, super::key::MARK_WIDTH, 12.0).set("fill", fill);
     let [from, to] = [from, to].map(|speed| label(rpm(speed), 0));
     panel.sample(sample, &format!("{from} to {to} rpm"));

@@ -167,17 +167,15 @@ class CostRange(TypedDict):
     free: float
 
 
+Course: TypeAlias = Literal["crosses", "exchanges", "stays"]
+
+
 class Crossing(TypedDict):
     family: int
     frequency_hz: float
     nodal_diameter: int
     speed_rad_s: float
     superharmonic: int
-
-
-class Damping(TypedDict, closed=True):
-    family_ratios: NotRequired[list[float]]
-    modal_ratio: float
 
 
 DesignKind: TypeAlias = Literal["grid", "list", "latin_hypercube", "sobol", "indices"]
@@ -263,6 +261,9 @@ class Estimate(TypedDict):
     steps: int
     wall_time_s: CostRange
     workers: int
+
+
+FamiliesBy: TypeAlias = Literal["shape", "rank"]
 
 
 class FatigueStrength(TypedDict, closed=True):
@@ -501,6 +502,12 @@ class Mistuning(TypedDict, closed=True):
 
 
 Superharmonic: TypeAlias = int
+
+
+class NearestOrder(TypedDict):
+    engine_order: int
+    frequency_hz: float
+    margin_percent: float
 
 
 NodeKind: TypeAlias = Literal["internal", "low", "high", "contact", "clamped"]
@@ -986,6 +993,15 @@ ValidityMeasure: TypeAlias = Literal[
 ValidityVerdict: TypeAlias = Literal["linear", "doubtful", "beyond"]
 
 
+class Veering(TypedDict):
+    course: Course
+    distance_hz: float
+    families: list[int]
+    frequency_hz: float
+    nodal_diameter: int
+    speed_rad_s: float
+
+
 Verdict: TypeAlias = Literal["periodic", "subharmonic", "aperiodic", "not_settled"]
 
 
@@ -1174,6 +1190,12 @@ class CriticalSpeed(TypedDict):
     validity_lacking: NotRequired[list[ValidityMeasure]]
 
 
+class Damping(TypedDict, closed=True):
+    families_by: NotRequired[FamiliesBy]
+    family_ratios: NotRequired[list[float]]
+    modal_ratio: float
+
+
 class Design(TypedDict, closed=True):
     kind: DesignKind
     points: NotRequired[list[list[float]] | None]
@@ -1217,6 +1239,20 @@ class FlexibleCasing(TypedDict, closed=True):
     damping_ratio: NotRequired[float]
     modes: NotRequired[list[CasingMode] | None]
     ring: NotRequired[Ring | None]
+
+
+class FoldedOrder(TypedDict):
+    engine_order: int
+    frequency_hz: float
+    nodal_diameter: int
+    of_lobes: bool
+    wave: NotRequired[Wave]
+
+
+class FollowedFamilies(TypedDict):
+    assurance: list[list[list[float]]]
+    ranks: list[list[list[int]]]
+    veerings: list[Veering]
 
 
 class FrequencyDifference(TypedDict):
@@ -1324,6 +1360,15 @@ class Integration(TypedDict, closed=True):
     steady: NotRequired[SteadyChoice]
     steps_per_revolution: NotRequired[AutoOr]
     window_revolutions: NotRequired[int]
+
+
+class InterferingMode(TypedDict):
+    family: int
+    frequency_hz: float
+    met_in_range: NotRequired[list[int]]
+    nearest: NotRequired[NearestOrder]
+    nodal_diameter: int
+    wave: NotRequired[Wave]
 
 
 class JudgedValue(TypedDict):
@@ -1713,6 +1758,19 @@ class Histories(TypedDict):
     version: str
 
 
+class Interference(TypedDict):
+    between_rad_s: NotRequired[list[float] | None]
+    engine_orders: list[FoldedOrder]
+    families_by: FamiliesBy
+    lobes: int
+    model: str
+    modes: list[InterferingMode]
+    range_rad_s: NotRequired[list[float] | None]
+    sectors: int
+    speed_rad_s: float
+    version: str
+
+
 class JobBody(TypedDict):
     created_at: str
     error: NotRequired[Problem]
@@ -1778,6 +1836,7 @@ class ModalAnalysisRequest(TypedDict, closed=True):
     budget: NotRequired[Budget | None]
     coriolis: NotRequired[bool]
     families: NotRequired[int]
+    families_by: NotRequired[FamiliesBy]
     fields: NotRequired[bool | None]
     lobes: NotRequired[int]
     max_engine_order: NotRequired[int]
@@ -2008,6 +2067,7 @@ class Campbell(TypedDict):
     absolute_frequencies_hz: list[AbsoluteFrequencies]
     crossings: list[Crossing]
     driven_crossings: list[DrivenCrossing]
+    followed: NotRequired[FollowedFamilies]
     frequencies_hz: list[list[list[float]]]
     reduction: ReductionReport
     settings: ModalAnalysisRequest

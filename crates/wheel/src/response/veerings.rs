@@ -12,7 +12,8 @@ const NEAR: f64 = 0.05;
 /// Distance, as a share of the frequency, below which two branches cross, as far as double precision can tell.
 const TOUCHING: f64 = 1e-6;
 
-/// Course of two families where their frequencies come closest.
+/// Course of two families where their frequencies come closest. A family that `crosses` goes straight on; one that `exchanges` goes with its shape
+/// to the other branch of a sharp veering, and its frequency jumps by about the distance; one that `stays` keeps to its branch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
