@@ -9,6 +9,7 @@ mod critical_speeds;
 pub mod csv;
 pub mod fields;
 mod force_map;
+mod level;
 pub mod maps;
 mod npz;
 mod run_ups;

@@ -1,14 +1,17 @@
 //! Summary of the request, in a few lines.
 
 use maud::{Markup, html};
-use rubmap_analysis::request::{ModalAnalysisRequest, SweepRequest};
+use rubmap_analysis::request::ModalAnalysisRequest;
+use rubmap_analysis::result::InteractionMap;
 use serde::Serialize;
 use serde_json::Value;
 
 use super::page::facts_table;
+use super::summary::speeds;
 
-pub(super) fn sweep(settings: &SweepRequest) -> Markup {
-    let mut facts = vec![("speeds".to_owned(), words(&settings.speeds))];
+pub(super) fn sweep(map: &InteractionMap) -> Markup {
+    let settings = &map.settings;
+    let mut facts = vec![("speeds".to_owned(), speeds(&map.speeds_rad_s))];
     if let Ok(Value::Object(scene)) = serde_json::to_value(&settings.scene) {
         facts.extend(scene.into_iter().map(|(effect, value)| (effect.replace('_', " "), plain(&value))));
     }
@@ -44,7 +47,7 @@ fn words(value: &impl Serialize) -> String {
 const SHOWN: usize = 8;
 
 /// Words for a value of a request: without quotes and braces.
-fn plain(value: &Value) -> String {
+pub(super) fn plain(value: &Value) -> String {
     let joined = |parts: Vec<String>| parts.join(", ");
     match value {
         Value::Null => "–".to_owned(),

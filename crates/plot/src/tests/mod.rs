@@ -9,6 +9,7 @@ mod figures;
 mod fixtures;
 mod gallery;
 mod impeller;
+mod levels;
 mod passed;
 mod pens;
 mod report;
