@@ -21,8 +21,8 @@ const SIZE: (f64, f64) = (1040.0, 400.0);
 const ABOVE: [f64; 2] = [190.0, 26.0];
 
 /// Fill of operating ranges, and of the separation around them.
-const INSIDE: &str = "rgba(0, 114, 178, 0.16)";
-const BESIDE: &str = "rgba(0, 114, 178, 0.07)";
+const INSIDE: &str = "rgba(0, 114, 178, 0.22)";
+const BESIDE: &str = "rgba(0, 114, 178, 0.10)";
 
 /// Draws one quantity of the whole wheel over speed, without a choice the one that decides the verdict: operating ranges are shaded with their
 /// separation, limits are lines, values have the colours of their standing and error bars where errors are known. Values in a range are filled.

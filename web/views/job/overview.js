@@ -49,6 +49,7 @@ export async function show(place, context, signal) {
     try {
       const drawn = await api.figure(path, { quantity }, { signal });
       drawn.layout.uirevision = job.id;
+      untitled(drawn.layout);
       replace(told);
       await plot(figure, drawn, { signal, label: 'Level of the wheel', onClick: (event) => open(event, context) });
       const level = await api.get(path, { signal });
@@ -67,6 +68,15 @@ export async function show(place, context, signal) {
     return finished > before;
   };
   await growing(context, { read, grown }, signal);
+}
+
+/** Takes the title out of a figure, which stands below the verdict, and the room that it has. */
+function untitled(layout) {
+  const lines = (text) => (text ? text.split('<br>').length : 0);
+  const room = 20 * lines(layout.title?.text) + 15 * lines(layout.title?.subtitle?.text);
+  delete layout.title;
+  layout.margin = { ...layout.margin, t: layout.margin.t - room };
+  layout.height -= room;
 }
 
 /** Opens the speed that was clicked. */
@@ -92,7 +102,7 @@ function rangeList({ ranges, ranges_given: given, settings }) {
 /** How far a speed is from the nearest range, in words. */
 export function positionWords(ranges) {
   const nearest = [...ranges].sort((a, b) => a.distance_percent - b.distance_percent)[0];
-  if (!nearest) return 'no range given';
+  if (!nearest) return '–';
   const away = `${number(nearest.distance_percent, 2)} %`;
   return { inside: `in ${nearest.range}`, within_separation: `${away} from ${nearest.range}, within its separation` }[nearest.position] ?? `${away} from ${nearest.range}`;
 }
@@ -119,7 +129,7 @@ function worst(verdict, recorded, context, signal) {
     const open = verdict.would_decide.filter((question) => (question.speeds ?? []).includes(one.index));
     return h('li', { class: 'card' },
       h('h3', {}, h('a', { href: context.address({ view: 'point', speed: one.index }) }, speed(one.speed_rad_s))),
-      h('p', { class: 'small' }, `${responseWords(one)}; ${positionWords(one.ranges)}`),
+      h('p', { class: 'small' }, [responseWords(one), verdict.ranges_given ? positionWords(one.ranges) : null].filter(Boolean).join('; ')),
       one.limits.length > 0 ? limits(one, verdict.units) : tipWords(one, verdict.units),
       open.length > 0 ? h('p', { class: 'small' }, 'Open here: ', open.map((question, k) => [k > 0 ? '; ' : null, question.what.replaceAll('_', ' ')])) : null,
       wheelPicture(context, one, recorded, signal),
@@ -148,11 +158,11 @@ function questions({ would_decide: open }) {
 }
 
 /** Critical speeds of the wheel against ranges and limits. */
-function critical({ critical_speeds: all, units, settings }, context) {
+function critical({ critical_speeds: all, ranges_given: given, units, settings }, context) {
   const asked = Object.keys(QUANTITIES).filter((name) => settings.limits?.[name] !== undefined && settings.limits[name] !== null);
   const of = (one, name) => one.limits.find((judged) => judged.limit === name);
   const value = (name) => ({
-    name: QUANTITIES[name][0], number: true, sort: (one) => of(one, name)?.value,
+    name: { utilisation: 'Utilisation', node_force: 'Node force' }[name], title: QUANTITIES[name][0], number: true, sort: (one) => of(one, name)?.value,
     cell: (one) => {
       const judged = of(one, name);
       return judged ? h('span', { class: STANDINGS[judged.standing][0], title: `${STANDINGS[judged.standing][1]}; limit ${number(judged.allowed)}` }, valueWords(judged, units)) : '–';
@@ -168,7 +178,7 @@ function critical({ critical_speeds: all, units, settings }, context) {
         { name: 'Speed', cell: (one) => speed(one.speed_rad_s), sort: (one) => one.speed_rad_s },
         { name: 'Order', number: true, cell: (one) => number(one.engine_order), sort: (one) => one.engine_order },
         { name: 'Nodal diameter', number: true, cell: (one) => one.nodal_diameter ?? '–', sort: (one) => one.nodal_diameter },
-        { name: 'Against the ranges', cell: (one) => positionWords(one.ranges) },
+        ...(given ? [{ name: 'Against the ranges', cell: (one) => positionWords(one.ranges) }] : []),
         { name: `Tip motion, ${units.length}`, number: true, cell: (one) => number(one.tip?.half_peak_to_peak, 3), sort: (one) => one.tip?.half_peak_to_peak },
         { name: 'Over clearance', number: true, cell: (one) => percent(one.tip?.over_clearance), sort: (one) => one.tip?.over_clearance },
         ...asked.filter((name) => name === 'utilisation' || name === 'node_force').map(value),
