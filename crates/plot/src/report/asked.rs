@@ -7,7 +7,8 @@ use serde::Serialize;
 use serde_json::Value;
 
 use super::page::facts_table;
-use super::summary::speeds;
+use crate::axis::label;
+use crate::cells::rpm;
 
 pub(super) fn sweep(map: &InteractionMap) -> Markup {
     let settings = &map.settings;
@@ -30,6 +31,18 @@ pub(super) fn modal_analysis(settings: &ModalAnalysisRequest) -> Markup {
         ("superharmonics".to_owned(), words(&settings.superharmonics)),
         ("Coriolis forces".to_owned(), words(&settings.coriolis)),
     ])
+}
+
+/// Speeds of a sweep in revolutions per minute: their number and their ends.
+pub(super) fn speeds(all_rad_s: &[f64]) -> String {
+    let (slow, fast) = all_rad_s
+        .iter()
+        .fold((f64::INFINITY, 0f64), |(slow, fast), speed| (slow.min(rpm(*speed)), fast.max(rpm(*speed))));
+    match all_rad_s.len() {
+        0 => "none".to_owned(),
+        1 => format!("1, {} rpm", label(slow, 0)),
+        count => format!("{count}, {} to {} rpm", label(slow, 0), label(fast, 0)),
+    }
 }
 
 fn section(facts: Vec<(String, String)>) -> Markup {

@@ -7,7 +7,7 @@ use rubmap_analysis::result::{
 };
 use serde_json::Value;
 
-use super::asked::plain;
+use super::asked::{plain, speeds};
 use super::head::Head;
 use super::page::{drawing, facts_table};
 use super::verdict::sentence;
@@ -170,18 +170,6 @@ fn scene(head: &Head, map: &InteractionMap) -> Vec<(&'static str, String)> {
 
 fn plain_value(value: &impl serde::Serialize) -> String {
     serde_json::to_value(value).map(|value| plain(&value)).unwrap_or_default()
-}
-
-/// Speeds of a sweep in revolutions per minute: their number and their ends.
-pub(super) fn speeds(all_rad_s: &[f64]) -> String {
-    let (slow, fast) = all_rad_s
-        .iter()
-        .fold((f64::INFINITY, 0f64), |(slow, fast), speed| (slow.min(rpm(*speed)), fast.max(rpm(*speed))));
-    match all_rad_s.len() {
-        0 => "none".to_owned(),
-        1 => format!("1, {} rpm", label(slow, 0)),
-        count => format!("{count}, {} to {} rpm", label(slow, 0), label(fast, 0)),
-    }
 }
 
 /// Credentials in words: settled, errors, energy, linear theory.
