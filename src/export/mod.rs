@@ -10,6 +10,7 @@ pub mod csv;
 pub mod fields;
 mod force_map;
 mod interference;
+mod level;
 pub mod maps;
 mod npz;
 mod run_ups;

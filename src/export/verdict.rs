@@ -19,19 +19,14 @@ impl Export for SweepVerdict {
             Array::reals("speed_rad_s", all().map(|speed| speed.speed_rad_s)),
             Array::some_reals("speed_error_rad_s", all().map(|speed| speed.speed_error_rad_s)),
             Array::flags("resolved", all().map(|speed| speed.resolved == Some(true))),
+            Array::some_reals("engine_order", all().map(|speed| speed.engine_order)),
+            Array::some_reals("nodal_diameter", all().map(|speed| speed.nodal_diameter.map(f64::from))),
             Array::texts("inside", at(Position::Inside)),
             Array::texts("within_separation", at(Position::WithinSeparation)),
         ];
         let limits = self.settings.limits.unwrap_or_default();
-        for (kind, name, limit) in [
-            (LimitKind::ClearanceConsumption, "clearance_consumption", limits.clearance_consumption),
-            (LimitKind::TipMotion, "tip_motion", limits.tip_motion),
-            (LimitKind::Utilisation, "utilisation", limits.utilisation),
-            (LimitKind::NodeForce, "node_force", limits.node_force),
-        ] {
-            if limit.is_none() {
-                continue;
-            }
+        for kind in LimitKind::ALL.into_iter().filter(|kind| kind.limit(&limits).is_some()) {
+            let name = kind.as_str();
             let of = |speed: &JudgedSpeed| speed.limits.iter().find(|judged| judged.limit == kind).copied();
             let reals = |what: &str, number: fn(JudgedValue) -> Option<f64>| {
                 Array::some_reals(format!("{name}_{what}"), all().map(|speed| number(of(speed)?)))

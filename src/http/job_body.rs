@@ -130,8 +130,7 @@ pub(super) struct Link {
     /// Path on this service.
     #[schema(example = "/v1/jobs/0198c5a2-7c1e-7d54-9f3b-2f6d7a6f4b10/interaction-map")]
     href: String,
-    /// Relation of the linked thing: `self`, `interaction-map`, `critical-speeds`, `wheel-critical-speeds`, `verdict`, `forces`,
-    /// `spectra`
+    /// Relation of the linked thing: `self`, `interaction-map`, `critical-speeds`, `wheel-critical-speeds`, `verdict`, `level`, `forces`, `spectra`
     /// (with a `{index}` to fill in), `campbell`, `interference`, `branches`, `run-ups`, `spectrogram` (of the first run), `campaign`,
     /// `work-precision`, `histories`, `report`, `archive` or `model`; where it is recorded, and not in lists of jobs, `stress` and
     /// `fields`.

@@ -29,6 +29,7 @@ mod jobs;
 mod kinds;
 mod labels;
 mod legs;
+mod level;
 mod looks;
 mod map_body;
 mod map_part;

@@ -12,7 +12,8 @@ use super::problem::{Kind, Problem};
 use super::results::{SensorQuery, check_sensor, expect_successful, find};
 use super::spectra::ROW_MEMORY;
 use super::state::AppState;
-use super::{stream, verdict};
+use super::stream;
+use super::verdict::Judged;
 use crate::analysis::kinds::document::Document;
 use crate::analysis::kinds::modal_analysis::{CAMPBELL, MODAL_ANALYSIS};
 use crate::analysis::kinds::sweep::{CRITICAL_SPEEDS, ERRORS, HISTORIES};
@@ -40,7 +41,7 @@ const MAP_MEMORY: u64 = 3;
 
 /// Download a job as one page of HTML that needs nothing else, for a browser or for paper.
 ///
-/// The page has the verdict, the request, warnings, credentials, the interaction map at one sensor, critical speeds at all of them, the largest
+/// The page begins with a summary sheet of one side of A4: verdict, level of the wheel over speed, worst speeds, scene, credentials. Then come the request, warnings, credentials, the interaction map at one sensor, critical speeds at all of them, the largest
 /// responses, contact forces, recorded histories of up to three speeds, pictures of up to two whose state was recorded, settings
 /// and version; natural frequencies where a modal analysis of the same model was successful, of several the latest.
 #[utoipa::path(get, path = "/v1/jobs/{id}/report", operation_id = "get_report", tag = "results",
@@ -161,10 +162,10 @@ impl Found<'_> {
                 }
                 let floors = (self.store, self.runtime);
                 let pictures = self.pictures.map(|pictures| pictures.draw(floors, self.job, request, facts));
-                let verdict = self.runtime.block_on(verdict::verdict(self.store, self.job))?;
-                let verdict = verdict.ok_or(StoreError::Unseen)?;
+                let judged = self.runtime.block_on(Judged::read(self.store, self.job))?;
+                let level = judged.ok_or(StoreError::Unseen)?.by(run::level);
                 let found = Sweep {
-                    verdict: &verdict,
+                    level: &level,
                     map: &map,
                     critical: &critical,
                     forces: forces.as_ref(),

@@ -20,8 +20,8 @@ use utoipa_axum::routes;
 use super::state::AppState;
 use super::{
     access, archive, body, branches, campaigns, casings, contract, cross_site, events, extract, fields,
-    forces, health, histories, host, interference, jobs, kinds, looks, maps, mesh, metrics, models, modes,
-    openapi, principal, problem, report, results, run_ups, section, spectra, stream, stress, studies,
+    forces, health, histories, host, interference, jobs, kinds, level, looks, maps, mesh, metrics, models,
+    modes, openapi, principal, problem, report, results, run_ups, section, spectra, stream, stress, studies,
     verdict, version, web, wheel,
 };
 
@@ -50,6 +50,7 @@ pub(super) fn routes() -> OpenApiRouter<AppState> {
         .routes(routes!(results::get_critical_speeds))
         .routes(routes!(wheel::get_wheel_critical_speeds))
         .routes(routes!(verdict::get_verdict))
+        .routes(routes!(level::get_level))
         .routes(routes!(studies::get_work_precision))
         .routes(routes!(histories::get_histories, histories::create_histories))
         .routes(routes!(branches::get_branches))

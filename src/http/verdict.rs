@@ -11,8 +11,10 @@ use super::problem::Problem;
 use super::results::{find, sweep};
 use super::state::AppState;
 use crate::analysis::kinds::sweep::ERRORS;
-use crate::analysis::result::{ErrorEstimate, SweepVerdict};
-use crate::analysis::run;
+use crate::analysis::resolved::ResolvedSweep;
+use crate::analysis::result::{ErrorEstimate, Point, SweepVerdict};
+use crate::analysis::run::{self, ModelFacts};
+use crate::dynamics::sector::Units;
 use crate::store::jobs::Job;
 use crate::store::{Store, StoreError};
 use crate::tokens::Principal;
@@ -38,17 +40,35 @@ pub(super) async fn get_verdict(
     let bytes = READ_MEMORY * state.store.points_bytes(id).await?;
     let (store, runtime, lasting) = (state.store.clone(), Handle::current(), lasting(&job));
     let read = move || {
-        let verdict = runtime.block_on(verdict(&store, &job))?;
-        verdict.map_or_else(|| Err(StoreError::Unseen.into()), Ok)
+        let judged = runtime.block_on(Judged::read(&store, &job))?;
+        Ok(judged.ok_or(StoreError::Unseen)?.by(run::judge))
     };
     Forms::undrawn().answer(&state, download, lasting, bytes, read).await
 }
 
-/// Verdict on a sweep from what is stored of it; none for a job of another kind.
-pub(super) async fn verdict(store: &Store, job: &Job) -> Result<Option<SweepVerdict>, StoreError> {
-    let Ok((request, facts)) = sweep(job) else { return Ok(None) };
-    let points = store.points(job.id).await?;
-    let text = store.document(job.id, ERRORS).await?;
-    let errors: Option<ErrorEstimate> = text.map(|text| serde_json::from_str(&text)).transpose()?;
-    Ok(Some(run::judge(request, &facts.units, &points, errors.as_ref())))
+/// Finished speeds of a sweep with their errors, from which its verdict is made.
+pub(super) struct Judged<'a> {
+    request: &'a ResolvedSweep,
+    facts: &'a ModelFacts,
+    points: Vec<Point>,
+    errors: Option<ErrorEstimate>,
+}
+
+impl<'a> Judged<'a> {
+    /// Reads what is stored of a sweep; none for a job of another kind.
+    pub(super) async fn read(store: &Store, job: &'a Job) -> Result<Option<Self>, StoreError> {
+        let Ok((request, facts)) = sweep(job) else { return Ok(None) };
+        let points = store.points(job.id).await?;
+        let text = store.document(job.id, ERRORS).await?;
+        let errors = text.map(|text| serde_json::from_str(&text)).transpose()?;
+        Ok(Some(Self { request, facts, points, errors }))
+    }
+
+    /// Result that `judge` makes of the speeds.
+    pub(super) fn by<T>(
+        &self,
+        judge: impl FnOnce(&ResolvedSweep, &Units, &[Point], Option<&ErrorEstimate>) -> T,
+    ) -> T {
+        judge(self.request, &self.facts.units, &self.points, self.errors.as_ref())
+    }
 }

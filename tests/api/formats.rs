@@ -194,6 +194,7 @@ async fn the_contract_names_the_forms_that_a_route_has() {
         ("/v1/jobs/{id}/interaction-map", &sweep, ""),
         ("/v1/jobs/{id}/critical-speeds/wheel", &sweep, ""),
         ("/v1/jobs/{id}/verdict", &sweep, ""),
+        ("/v1/jobs/{id}/level", &sweep, ""),
         ("/v1/jobs/{id}/fields", &sweep, "speed=0&engine_order=2"),
     ] {
         let parameters = contract["paths"][route]["get"]["parameters"].as_array().unwrap();

@@ -67,6 +67,33 @@ async fn a_sweep_is_judged_by_its_ranges_and_limits() {
     let report = api.request("GET", &format!("/v1/jobs/{strict}/report")).send().await.unwrap();
     let report = report.text().await.unwrap();
     assert!(report.contains("class=\"verdict act\"><strong>Act:</strong>"), "the report says it first");
+    // The level has the same verdict, and every speed with the values that it judges, slowest first.
+    let level = api.get(&format!("/v1/jobs/{strict}/level")).await.body;
+    assert_eq!(level["verdict"], found);
+    let levels = level["speeds"].as_array().unwrap();
+    assert_eq!(levels.len(), points.len());
+    assert!(levels.is_sorted_by(|a, b| speed(a) < speed(b)));
+    for of in levels {
+        let point = points.iter().find(|point| point["index"] == of["index"]).unwrap();
+        let tip =
+            of["values"].as_array().unwrap().iter().find(|value| value["quantity"] == "tip_motion").unwrap();
+        assert_eq!((&tip["value"], &tip["standing"]), (&point["tip"]["half_peak_to_peak"], &json!("passed")));
+    }
+    for (query, words) in [("", "tip motion"), ("&quantity=node_force", "contact force on a node")] {
+        let drawn =
+            api.request("GET", &format!("/v1/jobs/{strict}/level?format=svg{query}")).send().await.unwrap();
+        assert!(drawn.text().await.unwrap().contains(words), "{query}");
+    }
+    let csv = api
+        .request("GET", &format!("/v1/jobs/{strict}/level?format=csv"))
+        .send()
+        .await
+        .unwrap()
+        .text()
+        .await
+        .unwrap();
+    assert!(csv.starts_with("index,speed_rad_s,status,critical,"), "{csv}");
+    assert_eq!(csv.lines().count(), 1 + points.len());
     app.stop().await;
 }
 
@@ -121,6 +148,7 @@ async fn a_verdict_can_be_read_while_the_job_runs_and_of_sweeps_only() {
 
     let modal = api.post("/v1/modal-analyses", &modal_analysis_of(&model)).await.text("/id").to_owned();
     api.get(&format!("/v1/jobs/{modal}/verdict")).await.problem(409, "wrong-job-kind");
+    api.get(&format!("/v1/jobs/{modal}/level")).await.problem(409, "wrong-job-kind");
     api.get("/v1/jobs/00000000-0000-0000-0000-000000000000/verdict").await.problem(404, "job-not-found");
     app.stop().await;
 }

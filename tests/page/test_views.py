@@ -14,15 +14,20 @@ VIEWS = {
     "sweep-as": "#/sweep?as={swept}",
     "study": "#/study?model={model}",
     "jobs": "#/jobs",
-    "map": "#/jobs/{swept}",
+    "verdict": "#/jobs/{judged}",
+    "verdict-without-ranges": "#/jobs/{swept}",
+    "map": "#/jobs/{swept}?view=map",
     "point": "#/jobs/{swept}?view=point&speed=4",
     "campbell": "#/jobs/{swept}?view=campbell",
     "modal-analysis": "#/jobs/{modal}",
     "interference": "#/jobs/{modal}?view=interference&speed=20000&lobes=2&from=18000&to=22000",
     "critical": "#/jobs/{swept}?view=critical",
+    "critical-sensor": "#/jobs/{swept}?view=critical&of=sensor",
     "forces": "#/jobs/{swept}?view=forces",
     "stress": "#/jobs/{swept}?view=stress",
     "fields": "#/jobs/{swept}?view=fields&speed=4",
+    "fields-unrecorded": "#/jobs/{judged}?view=fields",
+    "stress-unrecorded": "#/jobs/{judged}?view=stress",
     "credentials": "#/jobs/{swept}?view=credentials",
     "downloads": "#/jobs/{swept}?view=downloads",
     "work-precision": "#/jobs/{study}",
@@ -54,7 +59,10 @@ def places(service, model, swept):
     grid = {"kept_modes": [5], "modes_per_speed": [3], "steps_per_revolution": [4000, 8000], "schemes": ["central_differences", "exact_modal"]}
     study = {"model": model, "speeds": {"values": [20000], "unit": "rpm"}, "scene": scene, "integration": quick, "grid": grid}
     case = {"model": model, "speed": {"value": 20000, "unit": "rpm"}, "scene": scene, "integration": quick, "record": {"revolutions": [28, 30]}}
-    ended = {"model": model, "swept": swept, "swept_as_well": job}
+    ranges = [{"name": "cruise", "from": 18000, "to": 24000, "unit": "rpm", "separation_percent": 5}]
+    judged = sweep_of(model, operation={"ranges": ranges}, limits={"tip_motion": 0.25, "node_force": 4000}, control_speeds=1, record={})
+    ended = {"model": model, "swept": swept, "swept_as_well": job, "judged": service.call("POST", "/v1/sweeps", judged)["id"]}
+    assert service.finish(ended["judged"])["status"] == "successful"
     branches = branches_of(model)
     parameter = {"name": "damping", "at": ["/scene/damping/modal_ratio"], "from": 0.005, "to": 0.02, "levels": 2}
     campaign = case | {"speeds": again["speeds"], "parameters": [parameter], "design": {"kind": "grid"}, "limit": 0.5}

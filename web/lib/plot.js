@@ -51,9 +51,32 @@ function narrow(element) {
   return element.clientWidth > 0 && element.clientWidth < 560;
 }
 
+/** Least distance of upright labels, and what stands beside the panels of a figure with a bar of colours, or without, pixels. */
+const APART = 14;
+const BESIDE = { bar: 200, none: 90 };
+
+/** Annotations of a figure with the labels over upright lines moved apart for the width that there is; those without room are left out. */
+function annotations({ annotations: all = [], xaxis, coloraxis }, width) {
+  const range = xaxis?.range;
+  const above = all.filter((one) => one.name === 'above');
+  if (!range || above.length === 0) return all;
+  const room = Math.max(100, width - (coloraxis ? BESIDE.bar : BESIDE.none));
+  const at = above.map((one) => room * (one.x - range[0]) / (range[1] - range[0]));
+  const most = Math.floor(room / APART);
+  const kept = above.length <= most ? above : above.slice(0, most);
+  const places = at.slice(0, kept.length);
+  for (let k = 1; k < places.length; k += 1) places[k] = Math.max(places[k], places[k - 1] + APART);
+  for (let k = places.length - 1, limit = room; k >= 0; k -= 1) {
+    places[k] = Math.min(places[k], limit);
+    limit = places[k] - APART;
+  }
+  return [...all.filter((one) => one.name !== 'above'), ...kept.map((one, k) => ({ ...one, ax: Math.round(places[k] - at[k]) }))];
+}
+
 function dressed(element, figure, height) {
   const layout = { ...figure.layout, template: template(), autosize: true };
   layout.height = height ?? layout.height ?? HEIGHT;
+  if (layout.annotations) layout.annotations = annotations(layout, element.clientWidth);
   if (narrow(element)) {
     // A key beside the figure would leave no room for it; those of the service have theirs below.
     layout.legend = { orientation: 'h', y: -0.4, x: 0, yanchor: 'top', xanchor: 'left', ...layout.legend };

@@ -4,7 +4,7 @@ import { h, replace } from './dom.js';
 
 /**
  * A table of rows.
- * @param {{caption: string, columns: {name: string, cell: (row: any) => any, sort?: (row: any) => any, number?: boolean}[],
+ * @param {{caption: string, columns: {name: string, title?: string, cell: (row: any) => any, sort?: (row: any) => any, number?: boolean}[],
  *   rows: any[], onChoose?: (row: any) => void}} what
  */
 export function table({ caption, columns, rows, onChoose }) {
@@ -13,7 +13,7 @@ export function table({ caption, columns, rows, onChoose }) {
   let down = false;
   const body = h('tbody');
   const heads = columns.map((column) => {
-    const cell = h('th', { scope: 'col', class: column.number ? 'number' : null });
+    const cell = h('th', { scope: 'col', class: column.number ? 'number' : null, title: column.title });
     if (column.sort) {
       cell.append(h('button', { type: 'button', on: { click: () => sort(column) } }, column.name));
     } else {

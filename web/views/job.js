@@ -22,6 +22,7 @@ export const STATUSES = {
 /** What there is to see of a kind of job: names of tabs, and where they are loaded from. The first is shown when none is asked for. */
 const TABS = {
   sweep: [
+    ['overview', 'Verdict', () => import('./job/overview.js')],
     ['map', 'Interaction map', () => import('./job/map.js')],
     ['point', 'One speed', () => import('./job/point.js')],
     ['critical', 'Critical speeds', () => import('./job/critical.js')],
@@ -57,7 +58,7 @@ const FOR_ALL = [
 
 export async function show(main, { id, query }, signal) {
   const job = await readJob(id, signal);
-  const tabs = [...(TABS[job.kind] ?? []), ...FOR_ALL];
+  const tabs = [...(TABS[job.kind] ?? []), ...FOR_ALL].filter(([name]) => name !== 'forces' || job.request.scene.contact);
   const tab = tabs.find(([name]) => name === query.get('view')) ?? tabs[0];
   const first = h('div');
   const state = h('div');

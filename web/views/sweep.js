@@ -6,6 +6,7 @@ import { KINDS, nameOf } from '../lib/format.js';
 import { placeWith } from '../lib/place.js';
 import { select } from './job/choices.js';
 import { campaignOfModel } from './request/campaign.js';
+import { fromSweep } from './request/from-sweep.js';
 import { runUpsOfModel } from './request/run-up.js';
 import { chooseModel, requestForm } from './request/view.js';
 import { sceneOf, speedsOf } from './request/sensible.js';
@@ -73,6 +74,13 @@ export async function show(main, { query }, signal, first = 'sweep') {
     return;
   }
   const model = await api.get(`/v1/models/${query.get('model')}`, { signal });
+  if (query.has('of')) {
+    const sweep = await api.get(`/v1/jobs/${query.get('of')}`, { signal });
+    const value = fromSweep(name, kind.begin(model), sweep, Number(query.get('at')));
+    const said = `Model: ${model.name}. Scene and speed are those of ${nameOf(sweep)}; change them as needed. Lengths are in ${model.units.length}.`;
+    await requestForm(place, { model, kind, value, words: said }, signal);
+    return;
+  }
   const words = `Model: ${model.name}. Speeds and casing begin with what suits its size: change them to those of your machine.`;
   await requestForm(place, { model, kind, value: kind.begin(model), words }, signal);
 }

@@ -37,6 +37,6 @@ pub use crate::summary::{
 };
 pub use crate::sweep_stress::sweep_stress;
 pub use crate::tips::wheel_critical_speeds;
-pub use crate::verdict::judge;
+pub use crate::verdict::{judge, level};
 pub use rubmap_wheel::revision::{REVISION, VERSION};
 pub use rubmap_wheel::vectors::vectors;

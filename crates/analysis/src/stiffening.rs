@@ -24,8 +24,8 @@ pub(super) fn preliminary_stiffening(sector: &SectorModel) -> PreliminaryStiffen
     let found = format!("(|Ω1⁴K2|/|K0| = {quadratic_ratio:.1e}, |Ω1²K1|/|K0| = {linear_ratio:.1e})");
     let (verdict, message) = if ratios.are_linear() {
         let message = format!(
-            "By its matrices K(Ω) is linear in Ω², as it must be on the undeformed geometry {found}. Preliminary: whether it is \
-             positive definite between the given speeds, the first reduction tells."
+            "The stiffness at speed is consistent: K(Ω) is linear in Ω², as it must be on the undeformed geometry {found}. \
+             Preliminary: whether it is positive definite between the given speeds, the first reduction tells."
         );
         (StiffeningVerdict::Sound, message)
     } else {
@@ -49,7 +49,7 @@ pub(super) fn stiffening_report(check: &InterpolationCheck, sector: &SectorModel
         InterpolationVerdict::Sound => (
             StiffeningVerdict::Sound,
             format!(
-                "K(Ω) is linear in Ω² up to {highest} rad/s, as it must be on the undeformed geometry \
+                "The stiffness at speed is consistent: K(Ω) is linear in Ω² up to {highest} rad/s, as it must be on the undeformed geometry \
                  (|Ω1⁴K2|/|K0| = {quadratic_ratio:.1e})."
             ),
         ),

@@ -74,7 +74,10 @@ impl Heat<'_> {
                     let band = (bins[0], bins[bins.len() - 1]);
                     Row { middle: 0.5 * (band.0 + band.1), band }
                 };
-                bins.chunks(together(bins.len(), self.most.1)).map(row).collect()
+                match self.rows_of_order() {
+                    Some(count) => self.even_rows(count),
+                    None => bins.chunks(together(bins.len(), self.most.1)).map(row).collect(),
+                }
             }
             VerticalAxis::Frequency => {
                 let (low, high) = self.view.diagram.y.values;
@@ -87,10 +90,31 @@ impl Heat<'_> {
         }
     }
 
+    /// Number of rows of an engine order where bins are merged: every whole order lies in the middle of a row, so that all orders have lines of
+    /// one thickness. None where every bin is a row, or a row has several orders.
+    fn rows_of_order(&self) -> Option<u32> {
+        let (low, high) = self.view.diagram.y.values;
+        let count = (self.most.1 as f64 / (high - low)).floor();
+        (together(self.bins().len(), self.most.1) > 1 && count >= 2.0).then_some(count as u32)
+    }
+
+    /// Rows of which `count` make an engine order, with whole orders in their middles.
+    fn even_rows(&self, count: u32) -> Vec<Row> {
+        let (low, high) = self.view.diagram.y.values;
+        let count = f64::from(count);
+        let (first, last) = ((low * count).ceil().max(1.0) as u64, (high * count).floor() as u64);
+        let row = |place: u64| {
+            let at = |place: f64| place / count;
+            let place = place as f64;
+            Row { middle: at(place), band: (at(place - 0.5), at(place + 0.5)) }
+        };
+        (first..=last).map(row).collect()
+    }
+
     /// Words about merged speeds and bins, if there are any.
     pub(super) fn merged(&self) -> Option<String> {
         let bins = match self.view.axis {
-            VerticalAxis::EngineOrder => together(self.bins().len(), self.most.1),
+            VerticalAxis::EngineOrder => together(self.bins().len(), self.rows().len()),
             VerticalAxis::Frequency => 1,
         };
         let speeds = together(self.seen().len(), self.most.0);

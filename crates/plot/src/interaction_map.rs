@@ -100,7 +100,9 @@ fn seen_in<'a>(
     panel.push(map_lines::background(map, &cells, &view.diagram));
     panel.push(heat);
     map_lines::engine_orders(map, &view).into_iter().for_each(|curve| panel.push(curve));
-    panel.push(map_lines::right_axis(map, &view, wheel(critical, campbell)));
+    let sectors = wheel(critical, campbell);
+    panel.push(map_lines::right_axis(map, &view, sectors));
+    let mut panel = panel.right("ND", map_lines::driven_diameters(map, &view, sectors));
     let natural = campbell.map_or_else(Vec::new, |campbell| map_lines::natural_frequencies(campbell, &view));
     let labels = map_lines::labels(critical, &natural, &view);
     natural.into_iter().for_each(|curve| panel.push(curve));
@@ -118,7 +120,7 @@ fn seen_in<'a>(
     }
     validity::explain(map, &cells, &mut panel);
     map_lines::explain_hatching(map, &cells, &view, &mut panel);
-    sketch.with(panel).with(level).into()
+    sketch.with(panel).with(level).with(level::strips(map, &cells, speeds).domain(0.705, 0.745)).into()
 }
 
 /// Number of sectors of the wheel, if a reduction determines it.

@@ -3,7 +3,7 @@
 use super::axis::significant;
 use super::cells::{Cell, within};
 use super::diagram::Diagram;
-use super::layer::{Curve, Layer, Mark, Marks};
+use super::layer::{Area, Areas, Curve, Layer, Mark, Marks};
 use super::map_view::missing_words;
 use super::settling_strip::{self, Standing};
 use super::sketch::{Axis, Panel};
@@ -81,6 +81,41 @@ pub(super) fn panel(
     }
     for verdict in validity::MARKED {
         panel.push(Layer::Shown(verdicts(map, &seen, verdict)));
+    }
+    panel
+}
+
+/// Panel of the figure alone: strips with the steady state of every speed and, above, the verdict on linear theory.
+pub(super) fn strips(map: &InteractionMap, cells: &[Cell], speeds: (f64, f64)) -> Panel<'static> {
+    let names = vec![(0.5, "settled".to_owned()), (1.5, "linear".to_owned())];
+    let x = Axis::speeds(speeds, 9.0);
+    let mut panel =
+        Panel::new((LEFT, STRIP_TOP), (WIDTH, STRIP_HEIGHT), x, Axis::names("", (0.0, 2.0), names))
+            .shown_only();
+    let area = |cell: &Cell, row: f64, words: &str| Area {
+        across: (cell.from.max(speeds.0), cell.to.min(speeds.1)),
+        upwards: Some((row + 0.1, row + 0.9)),
+        words: format!("{:.0} rpm: {words}", cell.rpm),
+    };
+    let seen = within(cells, speeds);
+    for standing in Standing::ALL {
+        let of = seen.iter().filter(|cell| Standing::of(map, cell.index) == standing);
+        let areas = of.map(|cell| area(cell, 0.0, standing.words())).collect();
+        panel.push(Areas {
+            name: standing.words(),
+            areas,
+            fill: standing.colour().to_owned(),
+            class: "standing",
+        });
+    }
+    for verdict in validity::MARKED {
+        let of = seen.iter().filter_map(|cell| {
+            let found = validity::point(map, cell.index)?.validity.as_ref()?;
+            let words = validity::reason(found).filter(|_| found.verdict == verdict)?;
+            Some(area(cell, 1.0, &words))
+        });
+        let fill = validity::colour(verdict).unwrap_or_default().to_owned();
+        panel.push(Areas { name: validity::words(verdict), areas: of.collect(), fill, class: "validity" });
     }
     panel
 }

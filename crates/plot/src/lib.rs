@@ -96,6 +96,7 @@ mod trace;
 mod trajectories;
 mod validity;
 mod wear_map;
+mod wheel_level;
 mod window;
 mod work_precision;
 
@@ -126,5 +127,6 @@ pub use speed_histories::{HistoryQuantity, speed_histories};
 pub use surface::{SurfaceView, surface};
 pub use trajectories::trajectories;
 pub use wear_map::wear_map;
+pub use wheel_level::wheel_level;
 pub use window::Window;
 pub use work_precision::work_precision;

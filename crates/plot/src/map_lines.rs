@@ -122,6 +122,19 @@ pub(super) fn right_axis(map: &InteractionMap, view: &View, sectors: Option<u32>
     labels.children(is_named.then(|| upright(diagram.right() + 40.0, middle, "middle", title)))
 }
 
+/// Nodal diameters that the engine orders drive in a wheel of so many sectors, at the heights of the orders; none over frequency.
+pub(super) fn driven_diameters(
+    map: &InteractionMap,
+    view: &View,
+    sectors: Option<u32>,
+) -> Vec<(f64, String)> {
+    let Some(sectors) = sectors.filter(|_| view.axis == VerticalAxis::EngineOrder) else { return Vec::new() };
+    let lines = view.order_lines(map);
+    let is_crowded = lines.len() as f64 * 14.0 > view.diagram.height;
+    let named = lines.into_iter().filter(|line| line.excited || !is_crowded);
+    named.map(|line| (line.ends[1].1, fold(line.order, sectors).to_string())).collect()
+}
+
 /// Number of nodal diameters with natural frequencies.
 fn harmonics(campbell: &Campbell) -> usize {
     campbell.frequencies_hz.first().map_or(0, Vec::len)

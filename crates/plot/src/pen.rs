@@ -27,8 +27,9 @@ pub(super) fn svg(sketch: &Sketch) -> String {
     let (heading, bottom) =
         heading::heading(sketch.left, &sketch.title, &sketch.paragraphs, sketch.warning.as_ref());
     let mut content = vec![heading];
-    let foot = sketch.panels.iter().map(|panel| panel.diagram.bottom()).fold(bottom, f64::max);
-    let shared = sketch.panels.iter().filter(|panel| !panel.is_apart);
+    let panels = || sketch.panels.iter().filter(|panel| !panel.is_shown_only);
+    let foot = panels().map(|panel| panel.diagram.bottom()).fold(bottom, f64::max);
+    let shared = panels().filter(|panel| !panel.is_apart);
     let lowest = shared.map(|panel| panel.diagram.bottom()).fold(0.0, f64::max);
     let mut height = foot + 66.0;
     if let Some(words) = &sketch.nothing {
@@ -36,13 +37,13 @@ pub(super) fn svg(sketch: &Sketch) -> String {
         height = frame.bottom() + 66.0;
         content.extend([frame.frame(), frame.words(words)]);
     }
-    for panel in &sketch.panels {
+    for panel in panels() {
         content.extend(draw(panel, panel.is_apart || panel.diagram.bottom() == lowest));
         let (key, end) = key(panel, sketch.width);
         content.push(key);
         height = height.max(end + 26.0);
     }
-    content.extend(sketch.panels.iter().flat_map(uprights));
+    content.extend(panels().flat_map(uprights));
     content.extend(common_bar(&sketch.panels));
     if let Some(line) = &sketch.foot {
         height = sketch.least.max(height + 16.0);

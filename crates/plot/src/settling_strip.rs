@@ -35,12 +35,12 @@ impl Standing {
         }
     }
 
-    fn colour(self) -> &'static str {
+    pub(super) fn colour(self) -> &'static str {
         match self {
-            Self::Settled(Verdict::Periodic) => "#b7dcbd",
-            Self::Settled(Verdict::Subharmonic) => "#4477aa",
-            Self::Settled(Verdict::Aperiodic) => "#8a2277",
-            Self::Settled(Verdict::NotSettled) => "#f0924e",
+            Self::Settled(Verdict::Periodic) => "#b7d3e6",
+            Self::Settled(Verdict::Subharmonic) => "#009e73",
+            Self::Settled(Verdict::Aperiodic) => "#cc79a7",
+            Self::Settled(Verdict::NotSettled) => "#e69f00",
             Self::Missing => "#000000",
             Self::Pending => "#dddddd",
         }

@@ -263,6 +263,10 @@ pub(super) struct Panel<'a> {
     pub(super) stand: Stand,
     /// Colours of cells and marks.
     pub(super) ramp: Option<Ramp>,
+    /// Labels of heights at the right edge of the figure, with their title; the drawing has its own.
+    pub(super) right: (&'static str, Vec<(f64, String)>),
+    /// Whether the figure alone has the panel.
+    pub(super) is_shown_only: bool,
 }
 
 impl<'a> Panel<'a> {
@@ -282,7 +286,19 @@ impl<'a> Panel<'a> {
             key: Vec::new(),
             stand: Stand::Beside(30.0),
             ramp: None,
+            right: ("", Vec::new()),
+            is_shown_only: false,
         }
+    }
+
+    /// Leaves the panel out of the drawing.
+    pub(super) fn shown_only(self) -> Self {
+        Self { is_shown_only: true, ..self }
+    }
+
+    /// Sets the labels of heights at the right edge of the figure.
+    pub(super) fn right(self, title: &'static str, labels: Vec<(f64, String)>) -> Self {
+        Self { right: (title, labels), ..self }
     }
 
     /// Gives the panel a horizontal axis of its own.

@@ -27,7 +27,7 @@ pub(in crate::cli) struct GetArgs {
     /// Job, or model for its mesh, modes and section: an id, the beginning of it, or a name
     #[arg(value_name = "JOB")]
     whose: String,
-    /// Result, as its path ends: verdict, interaction-map, critical-speeds, critical-speeds/wheel, spectra/20, campbell, interference, forces, stress, histories,
+    /// Result, as its path ends: verdict, level, interaction-map, critical-speeds, critical-speeds/wheel, spectra/20, campbell, interference, forces, stress, histories,
     /// fields, wear/0, work-precision, report, archive; of a model mesh, modes, section
     #[arg(value_parser = result)]
     result: String,

@@ -2,30 +2,38 @@
 
 import { api } from '../../lib/api.js';
 import { h, replace } from '../../lib/dom.js';
+import { ended } from '../../lib/events.js';
 import { number, percent, rpm, speed } from '../../lib/format.js';
+import { again } from '../../lib/place.js';
 import { plot } from '../../lib/plot.js';
 import { unread } from '../../lib/problem.js';
 import { table } from '../../lib/table.js';
 import { unitOf } from '../../lib/units.js';
 import { select, sensors } from './choices.js';
 import { followButton } from './follow.js';
-import { SETTLING, VALIDITY } from './verdicts.js';
+import { LINEAR, SETTLED, SETTLING, VALIDITY } from './verdicts.js';
 
 export async function show(place, context, signal) {
   const { job, query } = context;
   const path = `/v1/jobs/${job.id}/critical-speeds`;
+  if (job.status !== 'successful') {
+    replace(place, h('p', { class: 'note' }, ended(job) ? 'The job ended without a table of critical speeds.' : 'Critical speeds are those of all speeds together: they are here when the job has ended.'));
+    context.onChange((now) => ended(now) && again());
+    return;
+  }
   const rank = query.get('rank');
-  const of = query.get('of') ?? 'sensor';
+  const of = query.get('of') ?? 'wheel';
   const asked = { sensor: of === 'sensor' ? query.get('sensor') : null, rank };
   const found = await api.get(of === 'wheel' ? `${path}/wheel` : path, { query: asked, signal });
   const figure = h('div', { class: 'figure' });
   replace(place,
     h('div', { class: 'row' },
-      select('Seen by', [['sensor', 'one sensor'], ['wheel', 'the whole wheel: all tips and blades']], of, (chosen) => context.go({ of: chosen })),
+      select('Seen by', [['wheel', 'the whole wheel: all tips and blades'], ['sensor', 'one sensor']], of, (chosen) => context.go({ of: chosen })),
       of === 'sensor' ? sensors(job.request, context) : null,
       select('Ranked by', [['', of === 'sensor' ? 'speed' : 'severity'], ['utilisation', 'utilisation of the strength']], rank ?? '', (chosen) => context.go({ rank: chosen }))),
     verdict(found),
     of === 'wheel' ? wheelTable(found, context, signal) : sensorTable(found, context, signal),
+    legend(),
     figure);
   if (of === 'wheel') return;
   try {
@@ -56,12 +64,26 @@ export function at(each) {
   return each.on_branch && error < 1 ? `${number(rpm(each.speed_rad_s), 7)} ± ${number(error, 1)} rpm` : `${speed(each.speed_rad_s)} ± ${number(Math.round(error), 3)}`;
 }
 
+const SEVERITY = 'Tip motion (half peak to peak) over the running clearance; where a node has none, over the length of the contact line. At 1 the tip moves by its whole clearance.';
+
+/** Words of the columns, for readers without a pointer. */
+function legend() {
+  return h('details', {}, h('summary', {}, 'What the columns mean'), h('dl', { class: 'facts' }, [
+    ['Severity', SEVERITY],
+    ['Peak', 'Resolved: the neighbouring speeds show its top. Not resolved: the true peak may be higher and elsewhere; finer speeds show it.'],
+    ['Error', 'Estimated error of the response, from control runs.'],
+    ...Object.entries(SETTLED).map(([name, word]) => [word, SETTLING[name]]),
+    ['Linear theory', 'Whether displacements are small enough: holds, doubtful, or beyond it.'],
+    ['Off by', 'Distance of the peak from the linear prediction (nodal diameter, family, superharmonic), as a share of the prediction.'],
+  ].map(([name, words]) => [h('dt', {}, name), h('dd', {}, words)])));
+}
+
 const open = (context) => (each) => context.go({ view: 'point', speed: each.index });
 const common = [
   { name: 'Peak', cell: (each) => peakWords(each), sort: (each) => Number(each.resolved) },
   { name: 'Error', number: true, cell: (each) => percent(each.amplitude_error), sort: (each) => each.amplitude_error },
-  { name: 'Settling', cell: (each) => SETTLING[each.settling] ?? each.settling },
-  { name: 'Linear theory', cell: (each) => VALIDITY[each.validity] ?? '–' },
+  { name: 'Settling', cell: (each) => h('span', { title: SETTLING[each.settling] }, SETTLED[each.settling] ?? each.settling), sort: (each) => each.settling },
+  { name: 'Linear theory', cell: (each) => h('span', { title: VALIDITY[each.validity] }, LINEAR[each.validity] ?? '–'), sort: (each) => each.validity },
   { name: 'Utilisation', number: true, cell: (each) => percent(each.utilisation), sort: (each) => each.utilisation },
 ];
 
@@ -78,21 +100,32 @@ function sensorTable(found, context, signal) {
     rows: found.critical_speeds,
     columns: [
       { name: 'Speed', cell: at, sort: (each) => each.speed_rad_s },
-      { name: 'Engine order', number: true, cell: (each) => number(each.dominant_engine_order), sort: (each) => each.dominant_engine_order },
+      { name: 'Order', number: true, cell: (each) => number(each.dominant_engine_order), sort: (each) => each.dominant_engine_order },
       { name: 'Nodal diameter', number: true, cell: (each) => each.dominant_nodal_diameter ?? '–', sort: (each) => each.dominant_nodal_diameter },
       { name: `rms, ${unit}`, number: true, cell: (each) => number(each.rms), sort: (each) => each.rms },
       { name: `Half peak to peak, ${unit}`, number: true, cell: (each) => number(each.half_peak_to_peak), sort: (each) => each.half_peak_to_peak },
-      { name: 'Distance from it', number: true, cell: (each) => (each.distance_rad_s === null || each.distance_rad_s === undefined ? '–' : percent(each.distance_rad_s / each.speed_rad_s)), sort: (each) => each.distance_rad_s },
-      { name: 'Nearest linear crossing', cell: (each) => predicted(each.nearest_crossing) },
+      { name: 'Nearest linear prediction', cell: (each) => predicted(each.nearest_crossing) },
+      { name: 'Off by', number: true, cell: offWords, sort: off },
       ...common,
       following(context, signal),
     ],
   });
 }
 
+/** How far a critical speed lies from the prediction, as a share of the prediction; the report has the same number. */
+function off({ speed_rad_s: found, nearest_crossing: crossing }) {
+  return crossing ? found / crossing.speed_rad_s - 1 : undefined;
+}
+
+function offWords(each) {
+  const share = off(each);
+  return share === undefined ? '–' : `${share > 0 ? '+' : ''}${number(100 * share, 2)} %`;
+}
+
 function predicted(crossing) {
   if (!crossing) return '–';
-  return `${speed(crossing.speed_rad_s)}: nodal diameter ${crossing.nodal_diameter}, family ${crossing.family}, n = ${crossing.superharmonic}`;
+  return h('span', { title: `nodal diameter ${crossing.nodal_diameter}, family ${crossing.family}, superharmonic ${crossing.superharmonic}` },
+    `${speed(crossing.speed_rad_s)} (${crossing.nodal_diameter}, ${crossing.family}, ${crossing.superharmonic})`);
 }
 
 function wheelTable(found, context, signal) {
@@ -103,11 +136,11 @@ function wheelTable(found, context, signal) {
     rows: found.critical_speeds,
     columns: [
       { name: 'Speed', cell: at, sort: (each) => each.speed_rad_s },
-      { name: 'Severity', number: true, cell: (each) => number(each.severity), sort: (each) => each.severity },
+      { name: 'Severity', title: SEVERITY, number: true, cell: (each) => number(each.severity, 3), sort: (each) => each.severity },
       { name: 'Tip', cell: (each) => `blade ${each.tip.sector}, node ${each.tip.contact_node}, ${each.tip.component}` },
-      { name: `Half peak to peak, ${length}`, number: true, cell: (each) => number(each.tip.half_peak_to_peak), sort: (each) => each.tip.half_peak_to_peak },
-      { name: 'Clearance consumed', number: true, cell: (each) => percent(each.clearance_consumption), sort: (each) => each.clearance_consumption },
-      { name: `Largest force, ${force}`, number: true, cell: (each) => number(each.peak_force), sort: (each) => each.peak_force },
+      { name: `Tip motion, ${length}`, number: true, cell: (each) => number(each.tip.half_peak_to_peak), sort: (each) => each.tip.half_peak_to_peak },
+      { name: 'Clearance used', title: 'Largest share of its clearance that the outward motion of a node uses', number: true, cell: (each) => percent(each.clearance_consumption), sort: (each) => each.clearance_consumption },
+      { name: `Force, ${force}`, title: 'Largest sum of all contact forces', number: true, cell: (each) => number(each.peak_force), sort: (each) => each.peak_force },
       ...common,
       following(context, signal),
     ],

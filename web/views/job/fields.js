@@ -1,11 +1,13 @@
 // The wheel in 3D at a speed whose states were recorded: an instant, or the deflection shape of an engine order, with stress.
 
-import { api, Refusal } from '../../lib/api.js';
+import { api } from '../../lib/api.js';
 import { h, newId, replace } from '../../lib/dom.js';
+import { speed as speedWords } from '../../lib/format.js';
 import { unread } from '../../lib/problem.js';
 import { showWheel } from '../../wheel/index.js';
 import { select } from './choices.js';
 import { recorder } from './histories.js';
+import { recordedSpeeds } from './recorded.js';
 
 /** What colours show, and what is asked for: stress alone or with that of the centrifugal load, which only instants have. */
 const COLOURS = [
@@ -16,6 +18,7 @@ const COLOURS = [
 
 export async function show(place, context, signal) {
   const { job, query } = context;
+  if (job.kind === 'sweep' && await unrecorded(place, context, signal)) return;
   const order = query.get('engine_order') ?? '';
   const model = await api.get(`/v1/models/${job.model}`, { signal });
   const colours = COLOURS.filter(([name]) => name === '' || (model.mesh && (name !== 'total' || order === '')));
@@ -46,7 +49,23 @@ export async function show(place, context, signal) {
   } catch (error) {
     if (signal.aborted) return;
     // What is asked for stays there to be changed.
-    const unrecorded = job.kind === 'sweep' && speed !== null && error instanceof Refusal && error.type.endsWith('history-not-recorded');
-    replace(wheel, unrecorded ? recorder(job, Number(speed), 'fields', signal) : unread(error, signal));
+    replace(wheel, unread(error, signal));
   }
+}
+
+/** Where no state of the speed was recorded: a button that records it, of a speed that can be chosen. */
+async function unrecorded(place, { job, query, go }, signal) {
+  const { speeds, states } = await recordedSpeeds(job, signal);
+  const asked = query.get('speed');
+  if (states && (asked === null ? speeds.size > 0 : speeds.has(Number(asked)))) return false;
+  const { points } = await api.get(`/v1/jobs/${job.id}/interaction-map`, { query: { orders: '0' }, signal });
+  const done = points.filter((point) => point.status === 'completed').toSorted((a, b) => a.speed_rad_s - b.speed_rad_s);
+  const words = (point) => `${speedWords(point.speed_rad_s)}${states && speeds.has(point.index) ? ', recorded' : ''}`;
+  const most = done.reduce((best, point) => ((point.tip?.rms ?? 0) > (best?.tip?.rms ?? -1) ? point : best), null);
+  const chosen = asked ?? (most ? String(most.index) : null);
+  replace(place,
+    done.length > 0 ? select('Speed', done.map((point) => [String(point.index), words(point)]), chosen, (speed) => go({ speed })) : null,
+    chosen !== null && job.status === 'successful' ? recorder(job, Number(chosen), 'fields', signal)
+      : h('p', { class: 'note' }, 'No state is recorded. When the job is done, any of its speeds can be recorded here.'));
+  return true;
 }

@@ -15,7 +15,7 @@ import { branchesFrom, changeable, PARAMETERS, rangeOf } from '../request/branch
  * @param {string} [words]
  */
 export function followButton(job, speed_rad_s, signal, words = 'Follow branches from here') {
-  const label = words === 'Follow branches from here' ? null : `Follow branches from ${speed(speed_rad_s)}`;
+  const label = words === 'Follow branches from here' ? null : `${words === 'Follow' ? 'Follow branches' : words} from ${speed(speed_rad_s)}`;
   return h('button', { type: 'button', 'aria-label': label, on: { click: () => ask(job, speed_rad_s, signal) } }, words);
 }
 

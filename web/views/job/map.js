@@ -8,6 +8,7 @@ import { plot } from '../../lib/plot.js';
 import { unread } from '../../lib/problem.js';
 import { select, sensors } from './choices.js';
 import { linear } from './linear.js';
+import { has } from './recorded.js';
 import { verdicts } from './verdicts.js';
 
 export async function show(place, context, signal) {
@@ -24,7 +25,7 @@ export async function show(place, context, signal) {
       select('Frame', [['rotating', 'rotating'], ['fixed', 'fixed']], query.get('frame') ?? 'rotating', (frame) => context.go({ frame })),
       select('Amplitude', [['log', 'logarithmic'], ['linear', 'linear']], scale, (chosen) => context.go({ scale: chosen })),
       select('Nodal diameter', [['', 'all'], ...await diameters(job, signal)], query.get('nodal_diameter') ?? '', (nodal_diameter) => context.go({ nodal_diameter })),
-      select('Level coloured by', [['', 'nothing'], ['utilisation', 'utilisation']], query.get('colour') ?? '', (colour) => context.go({ colour }))),
+      has(job, 'stress') ? select('Level coloured by', [['', 'nothing'], ['utilisation', 'utilisation']], query.get('colour') ?? '', (colour) => context.go({ colour })) : null),
     told, figure,
     h('p', { class: 'quiet small' }, 'Click the map to open a speed; the arrow keys of “One speed” step through all speeds.'),
     summary);

@@ -1,13 +1,14 @@
 // One speed of a sweep: its credentials, spectrum, histories, forces and stress.
 
-import { api, Refusal } from '../../lib/api.js';
+import { api } from '../../lib/api.js';
 import { facts, h, replace } from '../../lib/dom.js';
 import { duration, number, percent, speed, speedLong } from '../../lib/format.js';
 import { plot } from '../../lib/plot.js';
 import { unread } from '../../lib/problem.js';
 import { select, sensors } from './choices.js';
-import { followButton } from './follow.js';
+import { fromHere } from './from-here.js';
 import { QUANTITIES, recorder } from './histories.js';
+import { recordedSpeeds } from './recorded.js';
 import { points, SETTLING, steadyWords, VALIDITY } from './verdicts.js';
 
 export async function show(place, context, signal) {
@@ -36,7 +37,7 @@ export async function show(place, context, signal) {
       sensors(job.request, context),
       select('Frame', [['rotating', 'rotating'], ['fixed', 'fixed']], frame, (chosen) => context.go({ frame: chosen }))),
     h('h2', {}, speedLong(point.speed_rad_s)),
-    point.status === 'completed' ? h('div', { class: 'row' }, followButton(job, point.speed_rad_s, signal)) : null,
+    point.status === 'completed' ? fromHere(job, point.speed_rad_s, signal) : null,
     point.message ? h('p', { class: 'note warning' }, point.message) : null,
     h('div', { class: 'columns' }, h('div', {}, h('h3', {}, 'Spectrum'), spectrum, h('h3', {}, 'Histories'), histories),
       h('aside', {}, h('h3', {}, 'Credentials'), credentials(point, map))));
@@ -75,12 +76,16 @@ async function showHistories(element, context, point, signal) {
     select('Quantity', QUANTITIES, quantity, (chosen) => context.go({ quantity: chosen })), figure,
     h('p', {}, h('a', { href: context.address({ view: 'fields', speed: point.index }) }, 'The wheel at this speed in 3D')));
   try {
+    const { speeds } = await recordedSpeeds(job, signal);
+    if (!speeds.has(point.index)) {
+      replace(figure, job.status === 'successful' && point.status === 'completed' ? recorder(job, point.index, 'lines', signal)
+        : h('p', { class: 'note' }, 'No histories are recorded of this speed.'));
+      return;
+    }
     const asked = { speed: point.index, sensor: query.get('sensor'), quantity };
     await plot(figure, await api.figure(`/v1/jobs/${job.id}/histories`, asked, { signal }), { signal, label: 'Histories' });
   } catch (error) {
-    if (signal.aborted) return;
-    if (error instanceof Refusal && error.type.endsWith('history-not-recorded')) replace(figure, recorder(job, point.index, 'lines', signal));
-    else replace(figure, unread(error, signal));
+    if (!signal.aborted) replace(figure, unread(error, signal));
   }
 }
 

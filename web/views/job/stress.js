@@ -1,12 +1,14 @@
 // Stress and margin: Haigh diagram and the most utilised places.
 
-import { api } from '../../lib/api.js';
+import { api, submit } from '../../lib/api.js';
 import { h, replace } from '../../lib/dom.js';
 import { number, percent, speed } from '../../lib/format.js';
 import { plot } from '../../lib/plot.js';
+import { problem } from '../../lib/problem.js';
 import { table } from '../../lib/table.js';
 import { select } from './choices.js';
-import { VALIDITY } from './verdicts.js';
+import { has } from './recorded.js';
+import { LINEAR, VALIDITY } from './verdicts.js';
 
 export async function show(place, context, signal) {
   const { job, query } = context;
@@ -14,10 +16,15 @@ export async function show(place, context, signal) {
   const colour = query.get('colour') ?? 'speed';
   const figure = h('div', { class: 'figure tall' });
   const below = h('div');
-  // Without stress this is refused, and says how to get it.
+  if (!has(job, 'stress')) {
+    await offer(place, job, signal);
+    return;
+  }
   const found = await api.get(path, { query: { speed: query.get('speed') }, signal });
-  replace(place, h('div', { class: 'row' }, select('Coloured by', [['speed', 'speed'], ['utilisation', 'utilisation']], colour, (chosen) => context.go({ colour: chosen })),
-    query.has('speed') ? h('a', { href: context.address({ speed: null }) }, 'All speeds') : null), figure, below);
+  const lacking = [...new Set(found.speeds.map((at) => at.stress.lacking).filter(Boolean))];
+  const colours = lacking.length === 0 ? [['speed', 'speed'], ['utilisation', 'utilisation']] : [['speed', 'speed']];
+  replace(place, h('div', { class: 'row' }, select('Coloured by', colours, colour, (chosen) => context.go({ colour: chosen })),
+    query.has('speed') ? h('a', { href: context.address({ speed: null }) }, 'All speeds') : null), lacking.map((words) => h('p', { class: 'note' }, `No utilisation: ${words}. Strengths belong to the material of the model’s mesh.`)), figure, below);
   const unit = `${found.units.force}/${found.units.length}²`;
   const worst = found.speeds.map((at) => ({ at, cycle: at.stress.cycles[0] ?? null }));
   replace(below,
@@ -29,13 +36,38 @@ export async function show(place, context, signal) {
       columns: [
         { name: 'Speed', cell: ({ at }) => speed(at.speed_rad_s), sort: ({ at }) => at.speed_rad_s },
         { name: `Largest von Mises, ${unit}`, number: true, cell: ({ at }) => number(at.stress.largest.stress ?? at.stress.largest.von_mises), sort: ({ at }) => at.stress.largest.stress ?? at.stress.largest.von_mises },
-        { name: 'Over yield', number: true, cell: ({ at }) => percent(at.stress.largest_over_yield), sort: ({ at }) => at.stress.largest_over_yield },
-        { name: 'Utilisation', number: true, cell: ({ cycle }) => percent(cycle?.utilisation), sort: ({ cycle }) => cycle?.utilisation },
+        ...[
+          { name: 'Over yield', number: true, cell: ({ at }) => percent(at.stress.largest_over_yield), sort: ({ at }) => at.stress.largest_over_yield },
+          { name: 'Utilisation', number: true, cell: ({ cycle }) => percent(cycle?.utilisation), sort: ({ cycle }) => cycle?.utilisation },
+        ].filter(({ sort }) => worst.some((row) => Number.isFinite(sort(row)))),
         { name: 'Node', number: true, cell: ({ cycle }) => cycle?.node ?? '–' },
         { name: 'Blade', number: true, cell: ({ cycle }) => cycle?.sector ?? '–' },
-        { name: 'Linear theory', cell: ({ at }) => VALIDITY[at.validity?.verdict] ?? '–' },
-        { name: 'Missing strengths', cell: ({ at }) => at.stress.lacking ?? '' },
+        { name: 'Linear theory', cell: ({ at }) => h('span', { title: VALIDITY[at.validity?.verdict] }, LINEAR[at.validity?.verdict] ?? '–') },
       ],
     }));
   await plot(figure, await api.figure(path, { speed: query.get('speed'), colour }, { signal }), { signal, label: 'Haigh diagram' });
+}
+
+/** Where no stress was recorded: a button that asks the same sweep with it; a model without elements has none. */
+async function offer(place, job, signal) {
+  const model = await api.get(`/v1/models/${job.model}`, { signal });
+  if (!model.mesh || !job.posted) {
+    replace(place, h('p', { class: 'note' }, model.mesh ? 'An earlier version computed this sweep: post its request again with stress recorded.'
+      : 'The model has matrices without elements: stress needs the mesh of the sector.'));
+    return;
+  }
+  const told = h('div');
+  const button = h('button', { type: 'button', class: 'main', on: { click: start } }, 'Same sweep, with stress');
+  async function start() {
+    button.disabled = true;
+    replace(told);
+    try {
+      const { id } = await submit('/v1/sweeps', { ...job.posted, record: { ...job.posted.record, stress: {} } }, signal);
+      location.hash = `#/jobs/${id}?view=stress`;
+    } catch (error) {
+      button.disabled = false;
+      if (!signal.aborted) replace(told, problem(error));
+    }
+  }
+  replace(place, h('div', { class: 'note' }, h('p', {}, 'No stress was recorded in this sweep. A new job can compute the same speeds and follow the stress at each.'), button, told));
 }

@@ -10,6 +10,10 @@ export const SETTLING = {
   aperiodic: 'does not repeat; only its statistics are meaningful',
   not_settled: 'had not settled when the run ended',
 };
+/** Settling in one word, for tables. */
+export const SETTLED = { periodic: 'periodic', subharmonic: 'subharmonic', aperiodic: 'aperiodic', not_settled: 'not settled' };
+/** Validity of linear theory in one word, for tables. */
+export const LINEAR = { linear: 'holds', doubtful: 'doubtful', beyond: 'beyond' };
 export const STABILITY = {
   stable: 'stable',
   narrow: 'stable against very small disturbances only',

@@ -279,7 +279,7 @@ def _cells(ax: Axes, across: Any, upwards: Any, amplitude: Any, unit: str, log: 
     # Where nothing moves, all is as quiet as the colours go.
     norm = LogNorm(_QUIETEST * loudest, loudest) if logarithmic else Normalize(0.0, loudest or 1.0)
     shown = np.maximum(amplitude, _QUIETEST * loudest) if logarithmic else amplitude
-    cells = ax.pcolormesh(across, upwards, shown, norm=norm, cmap="viridis", shading="flat", rasterized=True)
+    cells = ax.pcolormesh(across, upwards, shown, norm=norm, cmap="inferno", shading="flat", rasterized=True)
     _figure(ax).colorbar(cells, ax=ax, label=f"amplitude, {unit}")
 
 

@@ -153,6 +153,10 @@ class Sweep(_Recorded):
         """Whether the wheel may run in the operating ranges of the request by its limits, also while the job runs; prints as a table."""
         return Verdict(self.json("verdict"))
 
+    def level(self) -> pd.DataFrame:
+        """Tip motion, clearance consumption, utilisation and largest force on a node over speed, over the whole wheel, with errors and standings."""
+        return table(self.arrays("level"), "speed_rad_s")
+
     def record(self, request: HistoriesRequest) -> CaseStudy:
         """Has histories recorded of a sweep that has ended: by a case study, which is returned when it is submitted.
 

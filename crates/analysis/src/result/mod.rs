@@ -5,6 +5,7 @@ pub mod contact;
 pub mod errors;
 pub mod geometry;
 pub mod histories;
+pub mod level;
 pub mod plan;
 pub mod point;
 pub mod reduction;
@@ -45,6 +46,7 @@ pub use contact::{ContactForces, ContactSummary, ForceMap, ForceRow};
 pub use errors::{Control, ErrorEstimate, Errors, PointError, Quantity};
 pub use geometry::{ContactPlace, NodeKind, SectorGeometry, SectorNode};
 pub use histories::{ContactHistory, EnergyHistory, SensorHistory, SpeedHistories, TipPlace};
+pub use level::{LevelSpeed, LevelValue, SweepLevel};
 pub use plan::{
     BranchesPlan, CostRange, Estimate, GaugeEnd, Machine, ModalAnalysisPlan, PlacedSensor, PlannedEffect,
     PlannedPoint, PlannedResponse, ReductionState, Spent, SweepPlan,

@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use crate::request::SweepRequest;
+use crate::request::{Limits, SweepRequest};
 use crate::result::tip::TipResponse;
 use rubmap_wheel::dynamics::sector::Units;
 
@@ -167,6 +167,30 @@ pub enum LimitKind {
 }
 
 impl LimitKind {
+    /// Quantities in the order in which requests list their limits.
+    pub const ALL: [Self; 4] =
+        [Self::ClearanceConsumption, Self::TipMotion, Self::Utilisation, Self::NodeForce];
+
+    /// Limit of the quantity among those of a request.
+    pub fn limit(self, limits: &Limits) -> Option<f64> {
+        match self {
+            Self::ClearanceConsumption => limits.clearance_consumption,
+            Self::TipMotion => limits.tip_motion,
+            Self::Utilisation => limits.utilisation,
+            Self::NodeForce => limits.node_force,
+        }
+    }
+
+    /// Name of the quantity on the wire.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::ClearanceConsumption => "clearance_consumption",
+            Self::TipMotion => "tip_motion",
+            Self::Utilisation => "utilisation",
+            Self::NodeForce => "node_force",
+        }
+    }
+
     /// Name of the limit in sentences.
     pub fn words(self) -> &'static str {
         match self {
@@ -206,6 +230,12 @@ pub struct JudgedSpeed {
     /// Tip that moves most at the speed; absent for speeds that an earlier version computed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tip: Option<TipResponse>,
+    /// Engine order of the largest amplitude, at the sensor that moves most; absent where no line stands out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub engine_order: Option<f64>,
+    /// Nodal diameter that carries the engine order.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub nodal_diameter: Option<u32>,
     /// Positions of the speed against the ranges of the request, in their order; empty where it gives none.
     pub ranges: Vec<RangePosition>,
     /// Values of the speed against the limits of the request, as far as they are known.

@@ -18,6 +18,9 @@ use rubmap_wheel::revision::VERSION;
 /// Number of speeds that are named as the worst.
 const WORST: usize = 3;
 
+/// Relative distance within which a speed counts as a flank of a worse one, whose peak is named already.
+const SAME_PEAK: f64 = 0.01;
+
 /// Judges the finished points of a sweep, in any order, by the ranges and limits of its request.
 pub fn judge(
     request: &ResolvedSweep,
@@ -69,6 +72,8 @@ fn spans(request: &ResolvedSweep) -> (bool, Vec<Span>) {
 /// Speed of a point against ranges and limits.
 fn judged_speed(point: &Point, spans: &[Span], peaks: &[WheelCriticalSpeed], asked: &Asked) -> JudgedSpeed {
     let peak = peaks.iter().find(|peak| peak.index == point.index);
+    let moving = point.responses.iter().filter(|response| response.sensor.gauge.is_none());
+    let loudest = moving.max_by(|a, b| a.rms.total_cmp(&b.rms));
     let position = |span: &Span| RangePosition {
         range: span.name.clone().unwrap_or_default(),
         position: span.position(point.speed_rad_s),
@@ -81,6 +86,8 @@ fn judged_speed(point: &Point, spans: &[Span], peaks: &[WheelCriticalSpeed], ask
         resolved: peak.map(|peak| peak.resolved),
         speed_error_rad_s: peak.map(|peak| peak.speed_error_rad_s),
         tip: point.tip,
+        engine_order: loudest.and_then(|response| response.dominant_engine_order),
+        nodal_diameter: loudest.and_then(|response| response.dominant_nodal_diameter),
         ranges: spans.iter().map(position).collect(),
         limits: asked.values(point),
     }
@@ -107,8 +114,17 @@ fn worst(
     }
     // The order of critical speeds, by severity, decides between equal ones.
     all.sort_by(|a, b| share(b).total_cmp(&share(a)));
-    all.truncate(WORST);
-    all
+    let mut apart: Vec<JudgedSpeed> = Vec::new();
+    for speed in all {
+        let is_near = |other: &JudgedSpeed| {
+            (other.speed_rad_s - speed.speed_rad_s).abs() < SAME_PEAK * speed.speed_rad_s
+        };
+        if speed.critical || !apart.iter().any(is_near) {
+            apart.push(speed);
+        }
+    }
+    apart.truncate(WORST);
+    apart
 }
 
 /// Largest value of a speed over its limit; 0 where none is known.

@@ -40,13 +40,8 @@ pub(super) struct Asked {
 impl Asked {
     pub(super) fn of(request: &ResolvedSweep, errors: Option<&ErrorEstimate>) -> Self {
         let asked = request.limits.unwrap_or_default();
-        let all = [
-            (LimitKind::ClearanceConsumption, asked.clearance_consumption),
-            (LimitKind::TipMotion, asked.tip_motion),
-            (LimitKind::Utilisation, asked.utilisation),
-            (LimitKind::NodeForce, asked.node_force),
-        ];
-        let limits = all.into_iter().filter_map(|(kind, limit)| Some((kind, limit?))).collect();
+        let limits =
+            LimitKind::ALL.into_iter().filter_map(|kind| Some((kind, kind.limit(&asked)?))).collect();
         let errors = errors.map(|errors| errors.points.iter().map(|point| (point.index, *point)).collect());
         Self { limits, has_contact: request.scene.contact.is_some(), errors }
     }
@@ -69,8 +64,7 @@ impl Asked {
 
     /// Value of a completed speed against one limit; none where it is not known.
     pub(super) fn judged(&self, point: &Point, limit: LimitKind, allowed: f64) -> Option<JudgedValue> {
-        let value = self.value(point, limit).filter(|value| !value.is_nan())?;
-        let error = self.error(point.index, limit);
+        let (value, error) = self.known(point, limit)?;
         Some(JudgedValue {
             limit,
             value,
@@ -79,6 +73,12 @@ impl Asked {
             above_percent: 100.0 * (value - allowed) / allowed,
             standing: standing(value, allowed, error),
         })
+    }
+
+    /// Value of a completed speed and its relative error, limited or not.
+    pub(super) fn known(&self, point: &Point, quantity: LimitKind) -> Option<(f64, Option<f64>)> {
+        let value = self.value(point, quantity).filter(|value| !value.is_nan())?;
+        Some((value, self.error(point.index, quantity)))
     }
 
     fn value(&self, point: &Point, limit: LimitKind) -> Option<f64> {

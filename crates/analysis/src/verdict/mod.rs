@@ -2,6 +2,7 @@
 //! docs/reading-results.md.
 
 mod judge;
+mod level;
 mod limit;
 mod open;
 mod points;
@@ -12,4 +13,5 @@ mod sentence;
 mod tests;
 
 pub use judge::judge;
+pub use level::level;
 pub(crate) use range::Span;

@@ -54,6 +54,9 @@ impl From<Vec<f64>> for Each<f64> {
     }
 }
 
+/// Colours of a scale at shares of its range.
+pub(super) type Stops = Vec<(f64, String)>;
+
 /// Colour of a mark: its name, or a value on a colour scale for each.
 #[derive(Debug, Clone, Serialize)]
 #[serde(untagged)]
@@ -108,7 +111,7 @@ attributes! {
 attributes! {
     /// Marks at the points of a trace.
     Marker {
-        symbol: &'static str, size: Each<f64>, color: Paint, colorscale: &'static str, cmin: f64, cmax: f64,
+        symbol: &'static str, size: Each<f64>, color: Paint, colorscale: Stops, cmin: f64, cmax: f64,
         showscale: bool, colorbar: ColorBar,
     }
 }
@@ -143,7 +146,7 @@ attributes! {
 
 attributes! {
     /// Axis of colours, which traces share.
-    ColorAxis { colorscale: &'static str, cmin: f64, cmax: f64, colorbar: ColorBar, }
+    ColorAxis { colorscale: Stops, cmin: f64, cmax: f64, colorbar: ColorBar, }
 }
 
 attributes! {

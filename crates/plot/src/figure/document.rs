@@ -105,8 +105,31 @@ impl Figure {
     /// Puts a message over the middle, at this share of the height.
     pub(super) fn note(self, words: &str, height: f64) -> Self {
         let words = broken(words, COLUMNS.0);
-        let place = json!([{"text": words, "xref": "paper", "yref": "paper", "x": 0.5, "y": height, "showarrow": false}]);
-        self.attribute("annotations", place)
+        let place = json!({"text": words, "xref": "paper", "yref": "paper", "x": 0.5, "y": height, "showarrow": false});
+        self.annotations([place])
+    }
+
+    /// Adds annotations.
+    pub(super) fn annotations(mut self, more: impl IntoIterator<Item = Value>) -> Self {
+        let mut more = more.into_iter().peekable();
+        if more.peek().is_some()
+            && let Value::Array(all) = self.layout.entry("annotations").or_insert_with(|| json!([]))
+        {
+            all.extend(more);
+        }
+        self
+    }
+
+    /// Adds room above the panels, in pixels, which makes the figure so much higher.
+    pub(super) fn room(mut self, pixels: usize) -> Self {
+        let more = |value: &mut Value| {
+            if let Some(before) = value.as_u64() {
+                *value = json!(before + pixels as u64);
+            }
+        };
+        self.layout.get_mut("margin").and_then(|margin| margin.get_mut("t")).map(more);
+        self.layout.get_mut("height").map(more);
+        self
     }
 }
 

@@ -3,13 +3,14 @@
 use serde_json::{Value, json};
 
 use super::attributes::{Axis, Cells as Heat, ColorBar, ErrorBars, Line, Marker, Scatter, Title};
-use super::cells::{cells, linear, logarithmic};
+use super::cells::{self, cells};
 use super::document::{Figure, axis};
 use super::heat;
 use super::marks::{bars, scatter, template};
 use super::text::escaped;
 use super::thinned;
-use crate::layer::{Areas, Band, Bars, Cells, Course, Curve, Hover, Layer, Marks, Place, Uprights};
+use crate::layer::{Areas, Band, Bars, Cells, Course, Curve, Hover, Layer, Marks, Place, Upright, Uprights};
+use crate::marks::spread;
 use crate::merged::{MOST, together};
 use crate::sketch::{self, Kind, Panel, Sketch, Zoom};
 use crate::style::{Look, Pen};
@@ -67,11 +68,68 @@ pub(crate) fn figure(sketch: &Sketch) -> Figure {
         return figure.empty(words);
     }
     let figure = figure.high(sketch.high).with_all(grids).with_all(grouped(layers(), traces));
-    let figure = names(axes(figure, &sketch.panels), &sketch.panels);
-    match &sketch.note {
+    let figure = axes(figure, &sketch.panels);
+    let figure = match &sketch.note {
         Some(words) => figure.note(words, 0.7),
         None => figure,
-    }
+    };
+    let (above, longest) = above(&sketch.panels);
+    let figure =
+        figure.annotations(names(&sketch.panels)).annotations(above).annotations(right(&sketch.panels));
+    figure.room(if longest > 0 { 24 + LETTER * longest } else { 0 })
+}
+
+/// Width of a letter of a label, and of the panels by which labels are moved apart at first, pixels.
+const LETTER: usize = 6;
+const NOMINAL: f64 = 900.0;
+
+/// Labels over upright lines, moved apart, and the number of letters of the longest. Whoever shows the figure at another width moves the
+/// annotations named `above` anew.
+fn above(panels: &[Panel]) -> (Vec<Value>, usize) {
+    let lines = panels.iter().filter(|panel| panel.across.is_none()).flat_map(|panel| {
+        let of = |layer| match layer {
+            &Layer::Uprights(ref uprights) => Some(uprights),
+            _ => None,
+        };
+        let lines =
+            panel.layers.iter().filter_map(of).flat_map(|all| all.lines.iter().map(move |line| (all, line)));
+        let (low, high) = panel.x.range;
+        lines.map(move |(all, line)| (NOMINAL * (line.x - low) / (high - low), all, line))
+    });
+    let mut lines: Vec<(f64, &Uprights, &Upright)> =
+        lines.filter(|(.., line)| !line.label.is_empty()).collect();
+    lines.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let places: Vec<f64> = lines.iter().map(|(place, ..)| *place).collect();
+    let longest = lines.iter().map(|(.., line)| line.label.chars().count()).max().unwrap_or(0);
+    let label = |((place, of, line), apart): (&(f64, &Uprights, &Upright), f64)| {
+        json!({
+            "name": "above", "text": escaped(&line.label), "hovertext": escaped(&format!("{}{}", line.label, line.more)),
+            "x": line.x, "y": 1, "xref": "x", "yref": "paper", "textangle": -90, "xanchor": "center", "yanchor": "middle",
+            "ax": (apart - place).round(), "ay": -(14.0 + 0.5 * (LETTER * line.label.chars().count()) as f64), "showarrow": true, "arrowhead": 0, "arrowwidth": 1,
+            "arrowcolor": of.pen.colour.screen, "font": {"size": 11},
+        })
+    };
+    (lines.iter().zip(spread(&places, NOMINAL)).map(label).collect(), longest)
+}
+
+/// Labels of heights at the right edge of panels, and their titles.
+fn right(panels: &[Panel]) -> Vec<Value> {
+    let of = |(index, panel): (usize, &Panel)| {
+        let (title, labels) = &panel.right;
+        let beside = |text: &str, yref: &str, y: f64, yanchor: &str| {
+            json!({
+                "text": escaped(text), "xref": "paper", "yref": yref, "x": 1, "y": y, "xanchor": "left", "yanchor": yanchor,
+                "showarrow": false, "font": {"size": 10},
+            })
+        };
+        let axis = axis_name("y", index);
+        let top = panel.domain.map_or(1.0, |domain| domain[1]);
+        let mut all: Vec<Value> =
+            labels.iter().map(|(y, words)| beside(words, &axis, *y, "middle")).collect();
+        all.extend((!labels.is_empty()).then(|| beside(title, "paper", top, "bottom")));
+        all
+    };
+    panels.iter().enumerate().flat_map(of).collect()
 }
 
 /// Name of an axis in traces, such as `x2`.
@@ -80,7 +138,7 @@ fn axis_name(letter: &str, index: usize) -> String {
 }
 
 /// Writes the names of panels above them.
-fn names(figure: Figure, panels: &[Panel]) -> Figure {
+fn names(panels: &[Panel]) -> Vec<Value> {
     let names = panels.iter().filter_map(|panel| {
         let (across, upwards) = (panel.across.unwrap_or([0.0, 1.0]), panel.domain.unwrap_or([0.0, 1.0]));
         Some(json!({
@@ -88,8 +146,7 @@ fn names(figure: Figure, panels: &[Panel]) -> Figure {
             "xanchor": "left", "yanchor": "bottom", "showarrow": false,
         }))
     });
-    let names: Vec<Value> = names.collect();
-    if names.is_empty() { figure } else { figure.attribute("annotations", Value::Array(names)) }
+    names.collect()
 }
 
 /// Joins traces of one name: shown and hidden together, and named once.
@@ -293,7 +350,7 @@ fn marks(marks: &Marks, panel: &Panel) -> Scatter {
             let bar = ColorBar::default().title(title).thickness(12.0).x(1.01);
             let marker = marker
                 .color(marks.values.clone())
-                .colorscale("Viridis")
+                .colorscale(cells::stops(ramp))
                 .cmin(ramp.range.0)
                 .cmax(ramp.range.1);
             marker.colorbar(bar).showscale(is_first(panel, marks))
@@ -359,8 +416,8 @@ fn axes(figure: Figure, panels: &[Panel]) -> Figure {
     let figure = match coloured {
         Some((panel, ramp)) => {
             let [low, high] = panel.domain.filter(|_| panel.across.is_none()).unwrap_or([0.0, 1.0]);
-            let scale = if ramp.is_logarithmic { logarithmic } else { linear };
-            figure.attribute("coloraxis", scale(ramp.range, &ramp.title, (low, high)))
+            let beside = if panel.right.1.is_empty() { 1.01 } else { 1.05 };
+            figure.attribute("coloraxis", cells::axis(ramp, (beside, [low, high])))
         }
         None => figure,
     };

@@ -1,14 +1,18 @@
 //! Summary of the request, in a few lines.
 
 use maud::{Markup, html};
-use rubmap_analysis::request::{ModalAnalysisRequest, SweepRequest};
+use rubmap_analysis::request::ModalAnalysisRequest;
+use rubmap_analysis::result::InteractionMap;
 use serde::Serialize;
 use serde_json::Value;
 
 use super::page::facts_table;
+use crate::axis::label;
+use crate::cells::rpm;
 
-pub(super) fn sweep(settings: &SweepRequest) -> Markup {
-    let mut facts = vec![("speeds".to_owned(), words(&settings.speeds))];
+pub(super) fn sweep(map: &InteractionMap) -> Markup {
+    let settings = &map.settings;
+    let mut facts = vec![("speeds".to_owned(), speeds(&map.speeds_rad_s))];
     if let Ok(Value::Object(scene)) = serde_json::to_value(&settings.scene) {
         facts.extend(scene.into_iter().map(|(effect, value)| (effect.replace('_', " "), plain(&value))));
     }
@@ -29,6 +33,18 @@ pub(super) fn modal_analysis(settings: &ModalAnalysisRequest) -> Markup {
     ])
 }
 
+/// Speeds of a sweep in revolutions per minute: their number and their ends.
+pub(super) fn speeds(all_rad_s: &[f64]) -> String {
+    let (slow, fast) = all_rad_s
+        .iter()
+        .fold((f64::INFINITY, 0f64), |(slow, fast), speed| (slow.min(rpm(*speed)), fast.max(rpm(*speed))));
+    match all_rad_s.len() {
+        0 => "none".to_owned(),
+        1 => format!("1, {} rpm", label(slow, 0)),
+        count => format!("{count}, {} to {} rpm", label(slow, 0), label(fast, 0)),
+    }
+}
+
 fn section(facts: Vec<(String, String)>) -> Markup {
     html! {
         h2 { "What was asked" }
@@ -44,7 +60,7 @@ fn words(value: &impl Serialize) -> String {
 const SHOWN: usize = 8;
 
 /// Words for a value of a request: without quotes and braces.
-fn plain(value: &Value) -> String {
+pub(super) fn plain(value: &Value) -> String {
     let joined = |parts: Vec<String>| parts.join(", ");
     match value {
         Value::Null => "–".to_owned(),

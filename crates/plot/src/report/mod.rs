@@ -6,6 +6,7 @@ mod credentials;
 mod head;
 mod page;
 mod stress;
+mod summary;
 mod tables;
 mod verdict;
 mod warnings;
@@ -13,7 +14,7 @@ mod warnings;
 use crate::SurfaceView;
 use maud::{Markup, html};
 use rubmap_analysis::result::{
-    Campbell, CriticalSpeeds, FieldSurface, ForceMap, InteractionMap, SpeedHistories, Strengths, SweepVerdict,
+    Campbell, CriticalSpeeds, FieldSurface, ForceMap, InteractionMap, SpeedHistories, Strengths, SweepLevel,
 };
 use serde_json::Value;
 
@@ -25,8 +26,8 @@ pub use head::Head;
 /// Results of a sweep.
 #[derive(Debug, Clone, Copy)]
 pub struct Sweep<'a> {
-    /// Verdict on the sweep.
-    pub verdict: &'a SweepVerdict,
+    /// Level of the wheel over speed, with the verdict on the sweep.
+    pub level: &'a SweepLevel,
     /// Interaction map at one sensor.
     pub map: &'a InteractionMap,
     /// Critical speeds at every sensor.
@@ -45,16 +46,16 @@ pub struct Sweep<'a> {
 
 /// Renders the report of a sweep, as HTML. All texts of users are escaped.
 pub fn sweep(head: &Head, sweep: &Sweep) -> String {
-    let Sweep { verdict, map, critical, forces, histories, campbell, strengths, surfaces } = *sweep;
+    let Sweep { level, map, critical, forces, histories, campbell, strengths, surfaces } = *sweep;
     let of_sensor = critical.iter().find(|table| table.sensor == map.sensor);
     let body = html! {
-        (asked::sweep(&map.settings))
+        (asked::sweep(map))
         (warnings::section(&warnings::sweep(map, critical)))
         (credentials::sweep(map, critical))
         h2 { "Interaction map" }
         (drawing(&super::interaction_map(map, of_sensor, campbell, VerticalAxis::EngineOrder, Window::default(), LevelColour::Plain)))
         h2 { "Critical speeds" }
-        (tables::critical_speeds(critical))
+        (tables::critical_speeds(level, critical))
         h2 { "Largest responses" }
         (tables::largest_responses(map))
         (stress::section(map, strengths))
@@ -78,7 +79,7 @@ pub fn sweep(head: &Head, sweep: &Sweep) -> String {
         }
         (settings(serde_json::to_value(&map.settings).unwrap_or_default()))
     };
-    page(head, &verdict::sentence(verdict), &body)
+    page(head, &summary::sheet(head, level, map), &body)
 }
 
 /// Renders the report of a modal analysis, as HTML. All texts of users are escaped.
@@ -101,6 +102,25 @@ fn settings(settings: Value) -> Markup {
     html! {
         h2 { "Settings" }
         p { "The whole request with every default filled in, as it can be posted again." }
-        pre { (format!("{settings:#}")) }
+        pre { (compact(&settings, 0)) }
+    }
+}
+
+/// Writes JSON over lines of its own for objects, with lists of numbers and words in one line, so that nothing breaks inside a number.
+fn compact(value: &Value, depth: usize) -> String {
+    let indent = |depth: usize| "  ".repeat(depth);
+    match value {
+        Value::Object(fields) if !fields.is_empty() => {
+            let line = |(name, value): (&String, &Value)| {
+                format!("{}{}: {}", indent(depth + 1), Value::from(name.as_str()), compact(value, depth + 1))
+            };
+            let lines: Vec<String> = fields.iter().map(line).collect();
+            format!("{{\n{}\n{}}}", lines.join(",\n"), indent(depth))
+        }
+        Value::Array(list) => {
+            let parts: Vec<String> = list.iter().map(|part| compact(part, depth)).collect();
+            format!("[{}]", parts.join(", "))
+        }
+        value => value.to_string(),
     }
 }

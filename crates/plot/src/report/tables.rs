@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 use rubmap_analysis::result::{
-    CriticalSpeed, CriticalSpeeds, DrivenCrossing, InteractionMap, Point, SensorResponse, Verdict,
+    CriticalSpeed, CriticalSpeeds, DrivenCrossing, InteractionMap, Point, SensorResponse, SweepLevel, Verdict,
 };
 
 use crate::axis::significant;
@@ -12,10 +12,11 @@ use crate::validity;
 /// Number of largest responses that are listed.
 const LISTED: usize = 10;
 
-pub(super) fn critical_speeds(tables: &[CriticalSpeeds]) -> Markup {
+pub(super) fn critical_speeds(level: &SweepLevel, tables: &[CriticalSpeeds]) -> Markup {
     html! {
+        (of_wheel(level))
         @for table in tables {
-            h3 { (table.sensor.to_string()) }
+            h3 { "As one sensor sees them: " (table.sensor.to_string()) }
             @if table.critical_speeds.is_empty() {
                 p { "No critical speed within the range." }
             } @else {
@@ -25,6 +26,40 @@ pub(super) fn critical_speeds(tables: &[CriticalSpeeds]) -> Markup {
         @if let Some(table) = tables.first() {
             h3 { "What the lobes can drive in this range (linear, without contact)" }
             (driven_crossings(&table.driven_crossings))
+        }
+    }
+}
+
+/// Critical speeds of the wheel, over all contact nodes, components and blades.
+fn of_wheel(level: &SweepLevel) -> Markup {
+    let all = &level.verdict.critical_speeds;
+    let unit = &level.verdict.units.length;
+    html! {
+        p { (all.len()) " critical speeds of the wheel, over all contact nodes, components and blades, the most severe first." }
+        @if !all.is_empty() {
+            table class="numbers" {
+                tr {
+                    th { "Ω, rpm" } th { "within, rpm" } th { "engine order" } th { "nodal diameter" } th { "tip motion, " (unit) }
+                    th { "over clearance" } th { "tip" } th { "resolved" }
+                }
+                @for speed in all {
+                    tr {
+                        td { (format!("{:.0}", rpm(speed.speed_rad_s))) }
+                        td { (speed.speed_error_rad_s.map_or_else(|| "–".to_owned(), |error| format!("{:.0}", rpm(error)))) }
+                        td { (or_none(speed.engine_order)) }
+                        td { (or_none(speed.nodal_diameter)) }
+                        @match &speed.tip {
+                            Some(tip) => {
+                                td { (significant(tip.half_peak_to_peak)) }
+                                td { (tip.over_clearance.map_or_else(|| "–".to_owned(), significant)) }
+                                td { "blade " (tip.sector) ", node " (tip.contact_node) ", " (tip.component.name()) }
+                            }
+                            None => { td { "–" } td { "–" } td { "–" } }
+                        }
+                        td { (if speed.resolved == Some(true) { "yes" } else { "no" }) }
+                    }
+                }
+            }
         }
     }
 }

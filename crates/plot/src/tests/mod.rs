@@ -10,6 +10,7 @@ mod fixtures;
 mod gallery;
 mod impeller;
 mod interference;
+mod levels;
 mod passed;
 mod pens;
 mod report;

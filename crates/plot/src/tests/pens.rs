@@ -5,8 +5,8 @@ use crate::{
     VerticalAxis, Window,
 };
 use rubmap_analysis::result::{
-    Branches, Campaign, Campbell, CriticalSpeeds, ForceMap, InteractionMap, Interference, Point, Quantity,
-    RunUps, SectorGeometry, SpeedHistories, SpeedSpectra, SweepStress, WearMap,
+    Branches, Campaign, Campbell, CriticalSpeeds, ForceMap, InteractionMap, Interference, LimitKind, Point,
+    Quantity, RunUps, SectorGeometry, SpeedHistories, SpeedSpectra, SweepLevel, SweepStress, WearMap,
 };
 use rubmap_analysis::run::{Histories, WorkPrecision};
 use rubmap_wheel::dynamics::sector::Units;
@@ -71,6 +71,7 @@ pens! {
     crate::spectrum => spectrum(of: &SpeedSpectra, point: &Point, units: &Units, sensor: usize, frame: Frame);
     crate::speed_histories => speed_histories(of: &SpeedHistories, what: HistoryQuantity, index: usize);
     crate::trajectories => trajectories(of: &SpeedHistories);
+    crate::wheel_level => wheel_level(of: &SweepLevel, quantity: Option<LimitKind>);
     crate::wear_map => wear_map(of: &WearMap, point: &Point, units: &Units);
     crate::work_precision => work_precision(of: &WorkPrecision, speed: usize, quantity: Quantity);
 }

@@ -8,7 +8,7 @@ use super::stresses::{strengths, stressed_critical, stressed_map};
 use super::{critical, map, modes};
 use crate::report;
 use rubmap_analysis::result::{
-    CriticalSpeeds, FieldSurface, InteractionMap, Strengths, SweepVerdict, ValidityMeasure, ValidityVerdict,
+    CriticalSpeeds, FieldSurface, InteractionMap, Strengths, SweepLevel, ValidityMeasure, ValidityVerdict,
 };
 
 /// Converts a page to XML: elements of HTML without an end get one.
@@ -17,12 +17,12 @@ fn as_xml(page: &str) -> String {
     page.replace("initial-scale=1\">", "initial-scale=1\"/>").replace("utf-8\">", "utf-8\"/>")
 }
 
-/// Verdict whose sentence has characters of HTML, as names of ranges may.
-fn verdict(map: &InteractionMap) -> SweepVerdict {
-    serde_json::from_value(serde_json::json!({
+/// Level of a wheel with a verdict whose sentence has characters of HTML, as names of ranges may.
+fn level(map: &InteractionMap) -> SweepLevel {
+    serde_json::from_value(serde_json::json!({"speeds": [], "verdict": {
         "verdict": "act", "sentence": "Act: in range \"<b>cruise</b>\" at 20,567 rpm.", "ranges_given": true, "ranges": [],
         "critical_speeds": [], "worst": [], "would_decide": [], "units": map.units, "settings": map.settings, "version": "0",
-    }))
+    }}))
     .unwrap()
 }
 
@@ -38,7 +38,7 @@ fn a_report_of_a_sweep_says_all_and_needs_nothing() {
     let page = report::sweep(
         &head,
         &report::Sweep {
-            verdict: &verdict(&map),
+            level: &level(&map),
             map: &map,
             critical: &tables,
             forces: None,
@@ -53,14 +53,16 @@ fn a_report_of_a_sweep_says_all_and_needs_nothing() {
     assert!(!page.contains("<script"), "texts stay texts");
     let all = |name: &str| read.descendants().filter(|node| node.has_tag_name(name)).count();
     assert_eq!(read.descendants().find(|node| node.has_tag_name("h1")).unwrap().text(), Some(hostile));
-    let first =
+    let sheet =
         read.descendants().find(|node| node.has_tag_name("h1")).unwrap().next_sibling_element().unwrap();
+    assert_eq!(sheet.attribute("class"), Some("sheet"));
+    let first = sheet.first_element_child().unwrap();
     assert_eq!((first.tag_name().name(), first.attribute("class")), ("p", Some("verdict act")));
     let said: String =
         first.descendants().filter(|node| node.is_text()).filter_map(|node| node.text()).collect();
     assert_eq!(said, "Act: in range \"<b>cruise</b>\" at 20,567 rpm.");
     let drawings = read.descendants().filter(|node| node.tag_name().name() == "svg").count();
-    assert_eq!(drawings, 2, "map and natural frequencies");
+    assert_eq!(drawings, 3, "level, map and natural frequencies");
     for word in ["src=", "@import", "url(http", "<link", "<iframe"] {
         assert!(!page.contains(word), "{word}");
     }
@@ -105,7 +107,7 @@ fn page(
     surfaces: &[(FieldSurface, SurfaceView)],
 ) -> String {
     let found = report::Sweep {
-        verdict: &verdict(map),
+        level: &level(map),
         map,
         critical: tables,
         forces: None,

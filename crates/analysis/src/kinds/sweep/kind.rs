@@ -43,6 +43,7 @@ pub static SWEEP: Kind = Kind {
         ("critical-speeds", "/critical-speeds"),
         ("wheel-critical-speeds", "/critical-speeds/wheel"),
         ("verdict", "/verdict"),
+        ("level", "/level"),
         ("spectra", "/spectra/{index}"),
         ("forces", "/forces"),
         ("report", "/report"),

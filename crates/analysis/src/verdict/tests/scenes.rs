@@ -258,3 +258,12 @@ fn the_three_worst_speeds_are_those_closest_to_a_limit() {
     let low = Scene::of(two).ranges(json!([range("low", 100.0, 108.0, 0.0)])).verdict();
     assert_eq!(low.worst.iter().map(|speed| speed.index).collect::<Vec<_>>(), [7]);
 }
+
+/// The flank of a peak is no worst speed of its own, even where another quantity is largest there.
+#[test]
+fn the_worst_speeds_are_peaks_and_not_their_flanks() {
+    let scene = Scene::peak(110.0, 0.9).limited(json!({"tip_motion": 1.0, "node_force": 100.0}));
+    let scene = scene.with([11], "/contact/peak_node_force", &json!(20.0));
+    let indices: Vec<u32> = scene.verdict().worst.iter().map(|speed| speed.index).collect();
+    assert_eq!(indices, [10]);
+}
