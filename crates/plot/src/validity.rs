@@ -20,6 +20,7 @@ pub(super) const MARKED: [ValidityVerdict; 2] = [ValidityVerdict::Doubtful, Vali
 pub(super) fn words(verdict: ValidityVerdict) -> &'static str {
     match verdict {
         ValidityVerdict::Linear => "linear theory holds",
+        ValidityVerdict::NotChecked => "linear theory not checked",
         ValidityVerdict::Doubtful => "linear theory doubtful",
         ValidityVerdict::Beyond => "beyond linear theory",
     }
@@ -58,7 +59,7 @@ pub(super) const WITHOUT_THICKNESS: &str = "linear theory is judged without the 
 /// Colour of a verdict that is marked.
 pub(super) fn colour(verdict: ValidityVerdict) -> Option<&'static str> {
     match verdict {
-        ValidityVerdict::Linear => None,
+        ValidityVerdict::Linear | ValidityVerdict::NotChecked => None,
         ValidityVerdict::Doubtful => Some(DOUBTFUL),
         ValidityVerdict::Beyond => Some(BEYOND),
     }
@@ -87,7 +88,7 @@ pub(super) fn reason(validity: &Validity) -> Option<String> {
     colour(validity.verdict)?;
     let check = validity.checks.first()?;
     let limit = match validity.verdict {
-        ValidityVerdict::Beyond => check.beyond_above,
+        ValidityVerdict::Beyond => check.beyond_above?,
         _ => check.doubtful_above,
     };
     Some(format!(

@@ -20,6 +20,7 @@ export const STABILITY = {
 };
 export const VALIDITY = {
   linear: 'within linear theory',
+  not_checked: 'linear theory not checked',
   doubtful: 'linear theory is doubtful',
   beyond: 'beyond linear theory',
 };
