@@ -12,6 +12,7 @@ use crate::effects::casing::convert::{clearance_given, running_clearance};
 use crate::effects::symmetry::repeats::repeats;
 use crate::effects::symmetry::request::Symmetry;
 use crate::effects::table::planned;
+use crate::measured;
 use crate::model::{ModelFacts, ReducedSector};
 use crate::request::{HistorySpeeds, Recorded, SweepDirection};
 use crate::resolve::recorded::{lines, revolutions};
@@ -61,6 +62,7 @@ pub(crate) fn plan_sweep(
             .map(|_| stress_bytes(facts, reduced, request.modes_per_speed(), places)),
         placed_sensors: Vec::new(),
         speeds: speeds.len() as u32,
+        validity_speeds_at_most: measured::most(request, facts),
         workers: workers as u32,
         machine: None,
         estimate: reduced.and_then(|reduced| {

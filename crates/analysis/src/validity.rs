@@ -27,6 +27,52 @@ const APPROACH: Limits = (0.5, Some(1.0));
 /// phase, a seventh 51°.
 const OVER_LOBE: Limits = (0.05, Some(1.0 / 7.0));
 
+/// Limits of the excess energy |κ| of the relaxed blade: stiffness changes by as much, and frequencies by half of it. 1 % of a frequency is what
+/// finite elements and clamps leave open anyway; 5 % is wider than a resonance, so that critical speeds lie elsewhere.
+const EXCESS_ENERGY: Limits = (0.02, Some(0.1));
+/// Limits of the second-order motion of a tip over its clearance: clearances are not known better than to some percent, and a tenth of one
+/// changes where and how hard a blade touches.
+const SECOND_ORDER_GAP: Limits = (0.02, Some(0.1));
+
+/// Checks that guess by geometry.
+pub(super) fn geometric(validity: &Validity) -> impl Iterator<Item = &ValidityCheck> {
+    validity.checks.iter().filter(|check| is_geometric(check.what))
+}
+
+fn is_geometric(what: ValidityMeasure) -> bool {
+    use ValidityMeasure::{DisplacementOverChord, DisplacementOverThickness, Rotation};
+    matches!(what, DisplacementOverThickness | DisplacementOverChord | Rotation)
+}
+
+/// Validity with measures in the place of guesses by geometry, each with the speed that it was scaled from, if it was.
+pub(super) fn beside(
+    validity: &Validity,
+    (excess, excess_from): (f64, Option<u32>),
+    gap: Option<(f64, Option<u32>)>,
+) -> Validity {
+    let check = |what, value: f64, (doubtful_above, beyond_above): Limits, scaled_from| ValidityCheck {
+        what,
+        value,
+        doubtful_above,
+        beyond_above,
+        scaled_from,
+    };
+    let mut checks = vec![check(ValidityMeasure::ExcessEnergy, excess, EXCESS_ENERGY, excess_from)];
+    checks.extend(
+        gap.map(|(value, from)| check(ValidityMeasure::SecondOrderGap, value, SECOND_ORDER_GAP, from)),
+    );
+    checks.extend(validity.checks.iter().filter(|check| !is_geometric(check.what)));
+    let lacking = validity.lacking.iter().filter(|lack| !is_geometric(lack.what));
+    conclude(checks, lacking.cloned().collect())
+}
+
+/// Validity whose measures are lacking for a reason; guesses by geometry stay.
+pub(super) fn unmeasured(validity: &Validity, reason: &str) -> Validity {
+    let mut lacking = validity.lacking.clone();
+    lacking.push(ValidityLack { what: ValidityMeasure::ExcessEnergy, reason: reason.to_owned() });
+    conclude(validity.checks.clone(), lacking)
+}
+
 /// Judges a completed run by the `excursion` of its tips over the window and, if it was recorded, its stress.
 pub(super) fn judge(
     excursion: &Excursion,
@@ -60,7 +106,7 @@ pub(super) fn judge(
     ];
     let check = |(what, value, (doubtful_above, beyond_above)): (_, Option<f64>, Limits)| {
         let value = value.filter(|value| value.is_finite())?;
-        Some(ValidityCheck { what, value, doubtful_above, beyond_above })
+        Some(ValidityCheck { what, value, doubtful_above, beyond_above, scaled_from: None })
     };
     let checks = measured.into_iter().filter_map(check).collect();
     let asked = request.stress_outside().is_some();
@@ -155,6 +201,7 @@ mod tests {
             value,
             doubtful_above,
             beyond_above,
+            scaled_from: None,
         };
         let verdict = |checks: Vec<ValidityCheck>, lacking| conclude(checks, lacking).verdict;
         let unseen = || lacking(None, Some(1.0), None, false);
@@ -175,6 +222,42 @@ mod tests {
             verdict(vec![chord(0.01)], lacking(Some(1.0), Some(1.0), None, false)),
             ValidityVerdict::Linear
         );
+    }
+
+    #[test]
+    fn measures_take_the_place_of_geometry() {
+        let excursion = |what, value, (doubtful_above, beyond_above): Limits| ValidityCheck {
+            what,
+            value,
+            doubtful_above,
+            beyond_above,
+            scaled_from: None,
+        };
+        let guessed = conclude(
+            vec![
+                excursion(ValidityMeasure::DisplacementOverChord, 0.2, OVER_CHORD),
+                excursion(ValidityMeasure::ContactOverLobe, 0.01, OVER_LOBE),
+            ],
+            lacking(None, Some(1.0), None, false),
+        );
+        assert_eq!(guessed.verdict, ValidityVerdict::Doubtful);
+        // Limits from both sides, and the second-order gap beside a harmless energy.
+        for (excess, gap, verdict) in [
+            (0.019, None, ValidityVerdict::Linear),
+            (0.021, None, ValidityVerdict::Doubtful),
+            (0.099, Some(0.019), ValidityVerdict::Doubtful),
+            (0.101, Some(0.019), ValidityVerdict::Beyond),
+            (0.001, Some(0.021), ValidityVerdict::Doubtful),
+            (0.001, Some(0.101), ValidityVerdict::Beyond),
+        ] {
+            let judged = beside(&guessed, (excess, None), gap.map(|gap| (gap, Some(3))));
+            assert_eq!(judged.verdict, verdict, "{excess} {gap:?}");
+            assert_eq!(geometric(&judged).count(), 0);
+            assert_eq!(judged.measures_lacking(), [ValidityMeasure::StressOverYield]);
+            assert_eq!(judged.checks.len(), 2 + usize::from(gap.is_some()));
+        }
+        let failed = unmeasured(&guessed, "the basis cannot be read");
+        assert_eq!((failed.verdict, failed.lacking.len()), (ValidityVerdict::Doubtful, 3));
     }
 
     #[test]

@@ -68,6 +68,8 @@ pub(super) fn colour(verdict: ValidityVerdict) -> Option<&'static str> {
 /// Words for a measure of validity.
 pub(super) fn measure(what: ValidityMeasure) -> &'static str {
     match what {
+        ValidityMeasure::ExcessEnergy => "excess energy of the bent blade over its linear energy",
+        ValidityMeasure::SecondOrderGap => "second-order motion of a tip over its clearance",
         ValidityMeasure::DisplacementOverThickness => {
             "largest displacement of a tip over the blade's thickness"
         }
@@ -91,8 +93,9 @@ pub(super) fn reason(validity: &Validity) -> Option<String> {
         ValidityVerdict::Beyond => check.beyond_above?,
         _ => check.doubtful_above,
     };
+    let scaled = if check.scaled_from.is_some() { ", scaled from a larger motion" } else { "" };
     Some(format!(
-        "{}: {} is {}, above {}",
+        "{}: {} is {}, above {}{scaled}",
         words(validity.verdict),
         measure(check.what),
         significant(check.value),

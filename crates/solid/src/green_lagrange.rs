@@ -90,17 +90,11 @@ impl GreenLagrange {
 
     /// Derivative of V with respect to the nodes' displacements, with R, and to β of the incompatible modes behind them.
     pub fn force(&self, values: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
-        let mut force = vec![Vector3::zeros(); values.len()];
-        let Lame { lambda, mu } = self.constants;
-        for (gradients, volume) in self.points() {
-            let h = gradient(values, gradients);
-            let strain = strain(&h);
-            let stress = Matrix3::from_diagonal_element(lambda * strain.trace()) + strain * (2.0 * mu);
-            let nominal = (stress + h * stress) * volume;
-            for (force, gradient) in force.iter_mut().zip(gradients) {
-                *force += nominal * gradient;
-            }
-        }
+        let nominal = |h: Matrix3<f64>| {
+            let stress = self.stress(&strain(&h));
+            stress + h * stress
+        };
+        let mut force = self.against(values, nominal);
         if let Some(bubbles) = &self.bubbles {
             let nodes = force.len() - BUBBLES;
             let of_alpha = SVector::<f64, 9>::from_fn(|d, _| force[nodes + d / 3][d % 3]);
@@ -110,6 +104,11 @@ impl GreenLagrange {
             }
         }
         force
+    }
+
+    /// Linear part K u of the force on the nodes, for values whose β is zero.
+    pub fn linear_force(&self, values: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
+        self.against(values, |h| self.stress(&((h + h.transpose()) * 0.5)))
     }
 
     /// Coefficients of V(u + t d) in powers of t, from 0 to 4.
@@ -138,6 +137,27 @@ impl GreenLagrange {
         let Some(factor) = factor else { return [Vector3::zeros(); BUBBLES] };
         let solved = factor.solve(&SVector::<f64, 9>::from_fn(|d, _| force[d / 3][d % 3]));
         std::array::from_fn(|b| solved.fixed_rows::<3>(3 * b).into())
+    }
+
+    /// Forces `∫ P ∇N_a dV` of a nominal stress P of the displacement gradient, on all functions.
+    fn against(
+        &self,
+        values: &[Vector3<f64>],
+        nominal: impl Fn(Matrix3<f64>) -> Matrix3<f64>,
+    ) -> Vec<Vector3<f64>> {
+        let mut force = vec![Vector3::zeros(); values.len()];
+        for (gradients, volume) in self.points() {
+            let nominal = nominal(gradient(values, gradients)) * volume;
+            for (force, gradient) in force.iter_mut().zip(gradients) {
+                *force += nominal * gradient;
+            }
+        }
+        force
+    }
+
+    fn stress(&self, strain: &Matrix3<f64>) -> Matrix3<f64> {
+        let Lame { lambda, mu } = self.constants;
+        Matrix3::from_diagonal_element(lambda * strain.trace()) + strain * (2.0 * mu)
     }
 
     fn points(&self) -> impl Iterator<Item = (&[Vector3<f64>], f64)> {
@@ -266,6 +286,8 @@ mod tests {
             let origin = vec![Vector3::zeros(); values.len()];
             assert!((element.linear_energy(&values) / expected - 1.0).abs() < 1e-10, "{kind:?}");
             assert!((element.line(&origin, &values)[2] / expected - 1.0).abs() < 1e-10, "{kind:?}");
+            let work: f64 = element.linear_force(&values).iter().zip(&u).map(|(f, u)| f.dot(u)).sum();
+            assert!((0.5 * work / expected - 1.0).abs() < 1e-10, "{kind:?}");
             if element.has_bubbles() {
                 let none = vec![Vector3::zeros(); u.len()];
                 let both = element.linear_energy(&element.values(&u, &beta));

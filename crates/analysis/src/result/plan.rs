@@ -40,6 +40,10 @@ pub struct SweepPlan {
     pub placed_sensors: Vec<PlacedSensor>,
     /// Number of speeds to simulate, those of the request.
     pub speeds: u32,
+    /// Most speeds that are simulated once more, in the end, to measure the validity of linear theory where geometry raises a doubt; not in
+    /// `estimate`. 0 for models without a mesh, without the basis of the reduction, and for sweeps up or down.
+    #[serde(default)]
+    pub validity_speeds_at_most: u32,
     /// Threads that compute speeds side by side, on all machines; one where each speed starts from the end of another.
     pub workers: u32,
     /// Machine whose steps were measured for the times of this plan.

@@ -60,14 +60,22 @@ pub struct ValidityCheck {
     /// Limit above which the response is beyond linear theory; absent for guesses by geometry, which are never worse than doubtful.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub beyond_above: Option<f64>,
+    /// Index of the speed at which a larger motion was measured, from which the value is scaled down; absent where the value is the speed's own.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scaled_from: Option<u32>,
 }
 
 impl ValidityCheck {
+    /// Whether the value is above the limit of doubt.
+    pub(crate) fn is_doubtful(&self) -> bool {
+        self.value > self.doubtful_above
+    }
+
     /// Verdict by this measure alone.
     pub fn verdict(&self) -> ValidityVerdict {
         if self.beyond_above.is_some_and(|limit| self.value > limit) {
             ValidityVerdict::Beyond
-        } else if self.value > self.doubtful_above {
+        } else if self.is_doubtful() {
             ValidityVerdict::Doubtful
         } else {
             ValidityVerdict::Linear
@@ -80,6 +88,11 @@ impl ValidityCheck {
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum ValidityMeasure {
+    /// Excess energy |κ| of the sector that moves most, at the instant of its largest motion, over its linear energy: under Green–Lagrange strain,
+    /// once everything has relaxed that carries no motion; of a model with a mesh.
+    ExcessEnergy,
+    /// Second-order change of a contact node's distance to the casing over its clearance, at the instant of `excess_energy`.
+    SecondOrderGap,
     /// Largest displacement of a contact node, mean included, over the smallest thickness of the blade at its tip; of a model with a
     /// mesh.
     DisplacementOverThickness,
