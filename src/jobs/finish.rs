@@ -6,7 +6,7 @@ use super::engine::{Engine, Live};
 use super::error::Interruption;
 use super::patience::patiently;
 use super::progress::PhaseMonitor;
-use super::{control, histories};
+use super::{control, histories, validity};
 use crate::analysis::kinds::document::Document;
 use crate::analysis::kinds::kind::{ResolvedJob, Work};
 use crate::analysis::kinds::sweep::{CRITICAL_SPEEDS, ERRORS, WHEEL_CRITICAL_SPEEDS};
@@ -58,6 +58,7 @@ async fn conclude(
         .reductions
         .get((request.model(), request.modes_per_speed()), request.fields(), monitor)
         .await?;
+    let points = validity::measured(engine, job, request, &reduced, points).await?;
     let errors = control::errors(engine, job, request, &points).await?;
     if let Some(case) = run::histories_wanted(request, &points) {
         histories::record(engine, job, &case, PhaseMonitor::uncounted(job.watch.clone())).await?;

@@ -55,6 +55,7 @@ mod study;
 mod tasks;
 mod trials;
 mod turns;
+mod validity;
 mod work;
 mod workers;
 

@@ -156,6 +156,25 @@ impl Store {
         Ok(points.iter().map(|point| serde_json::from_str(point)).collect::<Result<_, _>>()?)
     }
 
+    /// Replaces the credentials of finished speeds of a job that still wants work, in one transaction.
+    pub async fn revise_points(&self, job: JobId, points: &[Point]) -> Result<(), StoreError> {
+        let mut transaction = self.write().await?;
+        transaction.guard(Guarded::Job(job)).await?;
+        for point in points {
+            sqlx::query(
+                "update speed_results set point = $3 where job = $1 and speed = $2 and exists (
+                     select 1 from jobs where id = $1 and status in ('accepted', 'running', 'paused'))",
+            )
+            .bind(job.to_string())
+            .bind(i64::from(point.index))
+            .bind(serde_json::to_string(point)?)
+            .execute(&mut *transaction)
+            .await?;
+        }
+        transaction.commit_job(job).await?;
+        Ok(())
+    }
+
     /// Size of the credentials of all finished speeds of a job, bytes.
     pub async fn points_bytes(&self, job: JobId) -> Result<u64, StoreError> {
         let bytes: i64 = sqlx::query_scalar(

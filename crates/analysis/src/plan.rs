@@ -12,6 +12,7 @@ use crate::effects::casing::convert::{clearance_given, running_clearance};
 use crate::effects::symmetry::repeats::repeats;
 use crate::effects::symmetry::request::Symmetry;
 use crate::effects::table::planned;
+use crate::measured;
 use crate::model::{ModelFacts, ReducedSector};
 use crate::refine::most_added;
 use crate::request::{FamiliesBy, HistorySpeeds, Recorded, SweepDirection};
@@ -64,6 +65,7 @@ pub(crate) fn plan_sweep(
         placed_sensors: Vec::new(),
         speeds: speeds.len() as u32,
         added_speeds_at_most: request.refine.then(|| most_added(request.speeds.asked()) as u32),
+        validity_speeds_at_most: measured::most(request, facts),
         workers: workers as u32,
         machine: None,
         estimate: reduced.and_then(|reduced| {

@@ -7,21 +7,71 @@ use crate::result::{PointStress, Validity, ValidityCheck, ValidityLack, Validity
 use rubmap_wheel::dynamics::casing::arc_lengths;
 use rubmap_wheel::dynamics::integrate::Excursion;
 
-/// Limits of displacement over thickness. A plate that bends by half its thickness carries some tenths of its load as a membrane, which
-/// linear bending neglects; by its thickness about as much as by bending.
-const OVER_THICKNESS: [f64; 2] = [0.5, 1.0];
-/// Limits of displacement over chord. A cantilever that deflects by a twentieth of its length is right to a fraction of a percent, by a
-/// tenth to about one percent.
-const OVER_CHORD: [f64; 2] = [0.05, 0.1];
-/// Limits of rotation, rad: small rotations add strains of φ²/2, 0.5 % and 2 %, more than any elastic strain of a metal.
-const ROTATION: [f64; 2] = [0.1, 0.2];
+/// Limit of a measure: doubtful above the first, beyond linear theory above the second, if there is one. Displacement and rotation of the tip
+/// guess by geometry and have none: a blade that bends freely is linear far beyond its thickness, so they can raise a doubt and prove nothing.
+type Limits = (f64, Option<f64>);
+
+/// Limit of displacement over thickness. A plate with held edges that bends by half its thickness carries some tenths of its load as a
+/// membrane, which linear bending neglects.
+const OVER_THICKNESS: Limits = (0.5, None);
+/// Limit of displacement over chord. A cantilever that deflects by a twentieth of its length is right to a fraction of a percent, by a tenth
+/// to about one percent.
+const OVER_CHORD: Limits = (0.05, None);
+/// Limit of rotation, rad: small rotations add strains of φ²/2, 0.5 %, more than any elastic strain of a metal.
+const ROTATION: Limits = (0.1, None);
 /// Limits of stress over yield strength. Materials are linear up to about nine tenths of the yield strength, and not beyond it.
-const OVER_YIELD: [f64; 2] = [0.9, 1.0];
+const OVER_YIELD: Limits = (0.9, Some(1.0));
 /// Limits of the approach of neighbouring tips: at 1 they meet, and no contact between them is simulated.
-const APPROACH: [f64; 2] = [0.5, 1.0];
+const APPROACH: Limits = (0.5, Some(1.0));
 /// Limits of tangential displacement over lobe: the casing is evaluated where a tip would be at rest; a twentieth of a lobe is 18° of its
 /// phase, a seventh 51°.
-const OVER_LOBE: [f64; 2] = [0.05, 1.0 / 7.0];
+const OVER_LOBE: Limits = (0.05, Some(1.0 / 7.0));
+
+/// Limits of the excess energy |κ| of the relaxed blade: stiffness changes by as much, and frequencies by half of it. 1 % of a frequency is what
+/// finite elements and clamps leave open anyway; 5 % is wider than a resonance, so that critical speeds lie elsewhere.
+const EXCESS_ENERGY: Limits = (0.02, Some(0.1));
+/// Limits of the second-order motion of a tip over its clearance: clearances are not known better than to some percent, and a tenth of one
+/// changes where and how hard a blade touches.
+const SECOND_ORDER_GAP: Limits = (0.02, Some(0.1));
+
+/// Checks that guess by geometry.
+pub(super) fn geometric(validity: &Validity) -> impl Iterator<Item = &ValidityCheck> {
+    validity.checks.iter().filter(|check| is_geometric(check.what))
+}
+
+fn is_geometric(what: ValidityMeasure) -> bool {
+    use ValidityMeasure::{DisplacementOverChord, DisplacementOverThickness, Rotation};
+    matches!(what, DisplacementOverThickness | DisplacementOverChord | Rotation)
+}
+
+/// Validity with measures in the place of guesses by geometry, each with the speed that it was scaled from, if it was.
+pub(super) fn beside(
+    validity: &Validity,
+    (excess, excess_from): (f64, Option<u32>),
+    gap: Option<(f64, Option<u32>)>,
+) -> Validity {
+    let check = |what, value: f64, (doubtful_above, beyond_above): Limits, scaled_from| ValidityCheck {
+        what,
+        value,
+        doubtful_above,
+        beyond_above,
+        scaled_from,
+    };
+    let mut checks = vec![check(ValidityMeasure::ExcessEnergy, excess, EXCESS_ENERGY, excess_from)];
+    checks.extend(
+        gap.map(|(value, from)| check(ValidityMeasure::SecondOrderGap, value, SECOND_ORDER_GAP, from)),
+    );
+    checks.extend(validity.checks.iter().filter(|check| !is_geometric(check.what)));
+    let lacking = validity.lacking.iter().filter(|lack| !is_geometric(lack.what));
+    conclude(checks, lacking.cloned().collect())
+}
+
+/// Validity whose measures are lacking for a reason; guesses by geometry stay.
+pub(super) fn unmeasured(validity: &Validity, reason: &str) -> Validity {
+    let mut lacking = validity.lacking.clone();
+    lacking.push(ValidityLack { what: ValidityMeasure::ExcessEnergy, reason: reason.to_owned() });
+    conclude(validity.checks.clone(), lacking)
+}
 
 /// Judges a completed run by the `excursion` of its tips over the window and, if it was recorded, its stress.
 pub(super) fn judge(
@@ -54,19 +104,26 @@ pub(super) fn judge(
         ),
         (ValidityMeasure::ContactOverLobe, over(excursion.tangential, lobe), OVER_LOBE),
     ];
-    let check = |(what, value, [doubtful_above, beyond_above]): (_, Option<f64>, [f64; 2])| {
+    let check = |(what, value, (doubtful_above, beyond_above)): (_, Option<f64>, Limits)| {
         let value = value.filter(|value| value.is_finite())?;
-        Some(ValidityCheck { what, value, doubtful_above, beyond_above })
+        Some(ValidityCheck { what, value, doubtful_above, beyond_above, scaled_from: None })
     };
-    let mut checks: Vec<ValidityCheck> = measured.into_iter().filter_map(check).collect();
-    let share = |check: &ValidityCheck| check.value / check.beyond_above;
+    let checks = measured.into_iter().filter_map(check).collect();
+    let asked = request.stress_outside().is_some();
+    conclude(checks, lacking(reduced.tip_thickness, chord, stress, asked))
+}
+
+/// Validity by its `checks`, the worst of which comes first and decides, unless something that would decide is `lacking`.
+fn conclude(mut checks: Vec<ValidityCheck>, lacking: Vec<ValidityLack>) -> Validity {
+    let share = |check: &ValidityCheck| check.value / check.beyond_above.unwrap_or(check.doubtful_above);
     let order = |a: &ValidityCheck, b: &ValidityCheck| {
         b.verdict().cmp(&a.verdict()).then(share(b).total_cmp(&share(a)))
     };
     checks.sort_by(order);
-    let verdict = checks.first().map_or(ValidityVerdict::Linear, ValidityCheck::verdict);
-    let asked = request.stress_outside().is_some();
-    Validity { verdict, checks, lacking: lacking(reduced.tip_thickness, chord, stress, asked) }
+    let by_checks = checks.first().map_or(ValidityVerdict::Linear, ValidityCheck::verdict);
+    let unseen = lacking.iter().any(|lack| lack.what == ValidityMeasure::DisplacementOverThickness);
+    let at_least = if unseen { ValidityVerdict::NotChecked } else { ValidityVerdict::Linear };
+    Validity { verdict: by_checks.max(at_least), checks, lacking }
 }
 
 /// Decisive quantities that are not known, given the thickness of the blade at its tip, the length of the contact line, and the stress, if
@@ -137,7 +194,77 @@ mod tests {
     }
 
     #[test]
+    fn geometry_alone_is_never_beyond_and_what_cannot_be_seen_is_not_checked() {
+        let thickness = ValidityMeasure::DisplacementOverThickness;
+        let check = |what, value, (doubtful_above, beyond_above): Limits| ValidityCheck {
+            what,
+            value,
+            doubtful_above,
+            beyond_above,
+            scaled_from: None,
+        };
+        let verdict = |checks: Vec<ValidityCheck>, lacking| conclude(checks, lacking).verdict;
+        let unseen = || lacking(None, Some(1.0), None, false);
+        assert_eq!(verdict(vec![check(thickness, 0.4, OVER_THICKNESS)], Vec::new()), ValidityVerdict::Linear);
+        for value in [0.6, 3.0, 3.9e13] {
+            let judged = verdict(vec![check(thickness, value, OVER_THICKNESS)], Vec::new());
+            assert_eq!(judged, ValidityVerdict::Doubtful, "{value}");
+        }
+        let chord = |value| check(ValidityMeasure::DisplacementOverChord, value, OVER_CHORD);
+        assert_eq!(verdict(vec![chord(0.01)], unseen()), ValidityVerdict::NotChecked);
+        assert_eq!(verdict(vec![chord(0.5)], unseen()), ValidityVerdict::Doubtful);
+        // Blades that meet are beyond linear theory, however little else is known.
+        let meeting = check(ValidityMeasure::NeighbourApproach, 1.1, APPROACH);
+        let judged = conclude(vec![chord(0.5), meeting], unseen());
+        assert_eq!((judged.verdict, judged.checks[0]), (ValidityVerdict::Beyond, meeting));
+        // Stress without a strength leaves the deformation checked.
+        assert_eq!(
+            verdict(vec![chord(0.01)], lacking(Some(1.0), Some(1.0), None, false)),
+            ValidityVerdict::Linear
+        );
+    }
+
+    #[test]
+    fn measures_take_the_place_of_geometry() {
+        let excursion = |what, value, (doubtful_above, beyond_above): Limits| ValidityCheck {
+            what,
+            value,
+            doubtful_above,
+            beyond_above,
+            scaled_from: None,
+        };
+        let guessed = conclude(
+            vec![
+                excursion(ValidityMeasure::DisplacementOverChord, 0.2, OVER_CHORD),
+                excursion(ValidityMeasure::ContactOverLobe, 0.01, OVER_LOBE),
+            ],
+            lacking(None, Some(1.0), None, false),
+        );
+        assert_eq!(guessed.verdict, ValidityVerdict::Doubtful);
+        // Limits from both sides, and the second-order gap beside a harmless energy.
+        for (excess, gap, verdict) in [
+            (0.019, None, ValidityVerdict::Linear),
+            (0.021, None, ValidityVerdict::Doubtful),
+            (0.099, Some(0.019), ValidityVerdict::Doubtful),
+            (0.101, Some(0.019), ValidityVerdict::Beyond),
+            (0.001, Some(0.021), ValidityVerdict::Doubtful),
+            (0.001, Some(0.101), ValidityVerdict::Beyond),
+        ] {
+            let judged = beside(&guessed, (excess, None), gap.map(|gap| (gap, Some(3))));
+            assert_eq!(judged.verdict, verdict, "{excess} {gap:?}");
+            assert_eq!(geometric(&judged).count(), 0);
+            assert_eq!(judged.measures_lacking(), [ValidityMeasure::StressOverYield]);
+            assert_eq!(judged.checks.len(), 2 + usize::from(gap.is_some()));
+        }
+        let failed = unmeasured(&guessed, "the basis cannot be read");
+        assert_eq!((failed.verdict, failed.lacking.len()), (ValidityVerdict::Doubtful, 3));
+    }
+
+    #[test]
     fn what_earlier_versions_stored_is_read() {
+        let check = r#"{"what":"rotation","value":0.3,"doubtful_above":0.1,"beyond_above":0.2}"#;
+        let read: ValidityCheck = serde_json::from_str(check).unwrap();
+        assert_eq!((read.verdict(), read.beyond_above), (ValidityVerdict::Beyond, Some(0.2)));
         let old = r#"{"verdict":"linear","checks":[]}"#;
         let read: Validity = serde_json::from_str(old).unwrap();
         assert_eq!((read.lacking.len(), serde_json::to_string(&read).unwrap()), (0, old.to_owned()));

@@ -20,6 +20,7 @@ pub(super) const MARKED: [ValidityVerdict; 2] = [ValidityVerdict::Doubtful, Vali
 pub(super) fn words(verdict: ValidityVerdict) -> &'static str {
     match verdict {
         ValidityVerdict::Linear => "linear theory holds",
+        ValidityVerdict::NotChecked => "linear theory not checked",
         ValidityVerdict::Doubtful => "linear theory doubtful",
         ValidityVerdict::Beyond => "beyond linear theory",
     }
@@ -58,7 +59,7 @@ pub(super) const WITHOUT_THICKNESS: &str = "linear theory is judged without the 
 /// Colour of a verdict that is marked.
 pub(super) fn colour(verdict: ValidityVerdict) -> Option<&'static str> {
     match verdict {
-        ValidityVerdict::Linear => None,
+        ValidityVerdict::Linear | ValidityVerdict::NotChecked => None,
         ValidityVerdict::Doubtful => Some(DOUBTFUL),
         ValidityVerdict::Beyond => Some(BEYOND),
     }
@@ -67,6 +68,8 @@ pub(super) fn colour(verdict: ValidityVerdict) -> Option<&'static str> {
 /// Words for a measure of validity.
 pub(super) fn measure(what: ValidityMeasure) -> &'static str {
     match what {
+        ValidityMeasure::ExcessEnergy => "excess energy of the bent blade over its linear energy",
+        ValidityMeasure::SecondOrderGap => "second-order motion of a tip over its clearance",
         ValidityMeasure::DisplacementOverThickness => {
             "largest displacement of a tip over the blade's thickness"
         }
@@ -87,11 +90,12 @@ pub(super) fn reason(validity: &Validity) -> Option<String> {
     colour(validity.verdict)?;
     let check = validity.checks.first()?;
     let limit = match validity.verdict {
-        ValidityVerdict::Beyond => check.beyond_above,
+        ValidityVerdict::Beyond => check.beyond_above?,
         _ => check.doubtful_above,
     };
+    let scaled = if check.scaled_from.is_some() { ", scaled from a larger motion" } else { "" };
     Some(format!(
-        "{}: {} is {}, above {}",
+        "{}: {} is {}, above {}{scaled}",
         words(validity.verdict),
         measure(check.what),
         significant(check.value),

@@ -10,6 +10,7 @@ pub mod extrapolation;
 pub mod frame;
 pub mod gauss;
 mod gradients;
+pub mod green_lagrange;
 pub mod inertia;
 pub mod integrals;
 pub mod load;

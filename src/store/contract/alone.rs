@@ -11,7 +11,7 @@ use crate::analysis::kinds::modal_analysis::CAMPBELL;
 use crate::analysis::kinds::sweep::{CRITICAL_SPEEDS, ERRORS, HISTORIES};
 use crate::analysis::kinds::{branches, run_up};
 use crate::analysis::resolved::ResolvedSweep;
-use crate::analysis::result::{Chosen, PointStatus, SpeedResult, Trial, VerdictWord};
+use crate::analysis::result::{Chosen, Point, PointStatus, SpeedResult, Trial, VerdictWord};
 use crate::analysis::run::{Calibration, Estimate, ReducedSector};
 use crate::kinds::JobKind;
 use crate::store::dialect::Dialect;
@@ -290,6 +290,9 @@ async fn a_job_from_its_beginning_to_its_end() {
         assert!(store.map_row(job, 2, |_| None).await.is_err());
         // Engine orders, amplitudes, and one nodal diameter, of two lines each.
         assert_eq!(store.largest_spectra(job).await.unwrap(), 48);
+        let revised = Point { message: Some("revised".to_owned()), ..result(3).point };
+        store.revise_points(job, std::slice::from_ref(&revised)).await.unwrap();
+        assert_eq!(store.points(job).await.unwrap(), [&points[..2], &[revised.clone()][..]].concat());
 
         store.keep_document(job, Document::part(HISTORIES, 3), "[\"ü\"]").await.unwrap();
         store.keep_document(job, Document::part(HISTORIES, 3), "[]").await.unwrap();
@@ -307,6 +310,8 @@ async fn a_job_from_its_beginning_to_its_end() {
         assert_eq!(store.document(job, ERRORS).await.unwrap().as_deref(), Some("[1]"));
         assert_eq!(store.document_bytes(job, Document::part(HISTORIES, 3)).await.unwrap(), Some(6));
         assert_eq!(store.document_bytes(job, CAMPBELL).await.unwrap(), None);
+        store.revise_points(job, &[result(3).point]).await.unwrap();
+        assert_eq!(store.points(job).await.unwrap()[2], revised, "a job that has ended is not revised");
         assert_eq!(store.end_state(job, 0).await.unwrap(), None);
         let done = store.job(job).await.unwrap().unwrap();
         assert_eq!((done.status, done.progress, done.phase.as_str()), (JobStatus::Successful, 100, ""));

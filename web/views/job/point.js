@@ -9,7 +9,7 @@ import { select, sensors } from './choices.js';
 import { fromHere } from './from-here.js';
 import { QUANTITIES, recorder } from './histories.js';
 import { recordedSpeeds } from './recorded.js';
-import { points, SETTLING, steadyWords, VALIDITY } from './verdicts.js';
+import { points, SETTLING, steadyWords, validityWords } from './verdicts.js';
 
 export async function show(place, context, signal) {
   const { job, query } = context;
@@ -107,7 +107,7 @@ function credentials(point, map) {
     ['Marched', marchWords(point.march)],
     ['Periodic response', steadyWords(point.steady)],
     ['Largest change between periods', settling?.largest_change === undefined ? null : percent(settling.largest_change)],
-    ['Linear theory', VALIDITY[point.validity?.verdict]],
+    ['Linear theory', validityWords(point.validity)],
     ['Estimated error', error ? `${percent(error.estimated_error)}${error.controlled ? ', simulated again' : ', interpolated from its neighbours'}` : 'not estimated'],
     ['Energy residual', point.energy_residual?.toExponential(1)],
     ['Remaining penetration', point.largest_penetration === null || point.largest_penetration === undefined ? null : `${number(point.largest_penetration, 2)} ${length}`],

@@ -24,9 +24,21 @@ export const STABILITY = {
 };
 export const VALIDITY = {
   linear: 'within linear theory',
+  not_checked: 'linear theory not checked',
   doubtful: 'linear theory is doubtful',
   beyond: 'beyond linear theory',
 };
+
+const MEASURED = { excess_energy: 'excess energy', second_order_gap: 'second-order motion over clearance' };
+
+/** Verdict on linear theory at a speed, with what was measured for it. */
+export function validityWords(validity) {
+  if (!validity) return null;
+  const measured = validity.checks.filter((check) => check.what in MEASURED);
+  const scaled = measured.some((check) => check.scaled_from !== undefined);
+  return [VALIDITY[validity.verdict], ...measured.map((check) => `${MEASURED[check.what]} ${percent(check.value)}`), scaled ? 'scaled from a larger motion' : null]
+    .filter(Boolean).join('; ');
+}
 
 /** How many of `points` have each value of `what`, in words. */
 function tally(points, what, words) {

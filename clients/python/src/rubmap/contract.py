@@ -981,6 +981,8 @@ class Unresolved(TypedDict):
 
 
 ValidityMeasure: TypeAlias = Literal[
+    "excess_energy",
+    "second_order_gap",
     "displacement_over_thickness",
     "displacement_over_chord",
     "rotation",
@@ -990,7 +992,7 @@ ValidityMeasure: TypeAlias = Literal[
 ]
 
 
-ValidityVerdict: TypeAlias = Literal["linear", "doubtful", "beyond"]
+ValidityVerdict: TypeAlias = Literal["linear", "not_checked", "doubtful", "beyond"]
 
 
 class Veering(TypedDict):
@@ -1671,8 +1673,9 @@ class StudyRun(Setting):
 
 
 class ValidityCheck(TypedDict):
-    beyond_above: float
+    beyond_above: NotRequired[float]
     doubtful_above: float
+    scaled_from: NotRequired[int]
     value: float
     what: ValidityMeasure
 
@@ -2312,6 +2315,7 @@ class SweepPlan(TypedDict):
     speeds: int
     stress_bytes: NotRequired[int]
     symmetry: FoundSymmetry
+    validity_speeds_at_most: NotRequired[int]
     version: str
     warnings: NotRequired[list[str]]
     workers: int

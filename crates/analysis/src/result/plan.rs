@@ -43,6 +43,10 @@ pub struct SweepPlan {
     /// Largest number of speeds that `refine` adds to them; absent without it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub added_speeds_at_most: Option<u32>,
+    /// Most speeds that are simulated once more, in the end, to measure the validity of linear theory where geometry raises a doubt; not in
+    /// `estimate`. 0 for models without a mesh, without the basis of the reduction, and for sweeps up or down.
+    #[serde(default)]
+    pub validity_speeds_at_most: u32,
     /// Threads that compute speeds side by side, on all machines; one where each speed starts from the end of another.
     pub workers: u32,
     /// Machine whose steps were measured for the times of this plan.

@@ -6,11 +6,11 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Validity {
-    /// Worst verdict of `checks`; numbers in `lacking` may say otherwise.
+    /// Worst verdict of `checks`; `not_checked` where that would be `linear` and a measure that decides is in `lacking`.
     pub verdict: ValidityVerdict,
     /// Every number that was checked, the worst first; numbers that a model cannot give are not among them.
     pub checks: Vec<ValidityCheck>,
-    /// Numbers that decide and could not be checked: without them a verdict of `linear` says less than it could.
+    /// Numbers that decide and could not be checked, each with the reason.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub lacking: Vec<ValidityLack>,
 }
@@ -39,6 +39,8 @@ pub struct ValidityLack {
 pub enum ValidityVerdict {
     /// Linear theory holds.
     Linear,
+    /// Not checked: nothing speaks against linear theory, and a deciding measure in `lacking` could not be evaluated.
+    NotChecked,
     /// Doubtful: numbers are to be taken with care.
     Doubtful,
     /// Beyond linear theory: numbers say that something large happens, not how large.
@@ -55,16 +57,25 @@ pub struct ValidityCheck {
     pub value: f64,
     /// Limit above which linear theory is doubtful.
     pub doubtful_above: f64,
-    /// Limit above which the response is beyond linear theory.
-    pub beyond_above: f64,
+    /// Limit above which the response is beyond linear theory; absent for guesses by geometry, which are never worse than doubtful.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub beyond_above: Option<f64>,
+    /// Index of the speed at which a larger motion was measured, from which the value is scaled down; absent where the value is the speed's own.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scaled_from: Option<u32>,
 }
 
 impl ValidityCheck {
+    /// Whether the value is above the limit of doubt.
+    pub(crate) fn is_doubtful(&self) -> bool {
+        self.value > self.doubtful_above
+    }
+
     /// Verdict by this measure alone.
     pub fn verdict(&self) -> ValidityVerdict {
-        if self.value > self.beyond_above {
+        if self.beyond_above.is_some_and(|limit| self.value > limit) {
             ValidityVerdict::Beyond
-        } else if self.value > self.doubtful_above {
+        } else if self.is_doubtful() {
             ValidityVerdict::Doubtful
         } else {
             ValidityVerdict::Linear
@@ -77,6 +88,11 @@ impl ValidityCheck {
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum ValidityMeasure {
+    /// Excess energy |κ| of the sector that moves most, at the instant of its largest motion, over its linear energy: under Green–Lagrange strain,
+    /// once everything has relaxed that carries no motion; of a model with a mesh.
+    ExcessEnergy,
+    /// Second-order change of a contact node's distance to the casing over its clearance, at the instant of `excess_energy`.
+    SecondOrderGap,
     /// Largest displacement of a contact node, mean included, over the smallest thickness of the blade at its tip; of a model with a
     /// mesh.
     DisplacementOverThickness,

@@ -172,7 +172,7 @@ fn measures(judged: &[(&Point, &Validity)]) -> Markup {
                     td { (significant(check.value)) }
                     td { (format!("{:.0}", rpm(point.speed_rad_s))) }
                     td { (significant(check.doubtful_above)) }
-                    td { (significant(check.beyond_above)) }
+                    td { (check.beyond_above.map_or_else(|| "–".to_owned(), significant)) }
                 }
             }
         }

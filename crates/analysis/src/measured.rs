@@ -1,0 +1,135 @@
+//! Validity of linear theory, measured at the speeds of a finished sweep that matter, and scaled to the others.
+
+use std::borrow::Cow;
+
+use crate::error::AnalysisError;
+use crate::model::{ModelFacts, ReducedSector};
+use crate::monitor::Monitor;
+use crate::nonlinear::{Bent, LargestMotion, NotMeasured, PHASE};
+use crate::resolved::ResolvedSweep;
+use crate::result::{Point, Validity, ValidityMeasure};
+use crate::speed_scene::{Recording, SpeedScene, Start};
+use crate::tips::wheel_peaks;
+use crate::validity::{beside, geometric, unmeasured};
+use rubmap_wheel::dynamics::casing::arc_lengths;
+use rubmap_wheel::dynamics::integrate::{Outcome, Revolutions};
+use rubmap_wheel::dynamics::states::WheelStates;
+
+/// Most speeds at which validity is measured: each is simulated once more.
+const MOST: usize = 6;
+
+/// Most speeds of a sweep at which validity is measured.
+pub(crate) fn most(request: &ResolvedSweep, facts: &ModelFacts) -> u32 {
+    let can = facts.mesh.is_some() && request.chain().is_none() && request.fields() != Some(false);
+    if can { request.speeds.count().min(MOST as u32) } else { 0 }
+}
+
+/// Speeds of a finished sweep at which validity is to be measured, ascending by index: of those where geometry raises a doubt, the largest
+/// motion and the most severe peaks. None in a sweep up or down, where every speed before them would have to be simulated, too.
+pub fn speeds_to_measure(request: &ResolvedSweep, reduced: &ReducedSector, points: &[Point]) -> Vec<u32> {
+    if request.chain().is_some() {
+        return Vec::new();
+    }
+    let doubtful = |point: &&Point| {
+        point.validity.as_ref().is_some_and(|found| geometric(found).any(|check| check.is_doubtful()))
+    };
+    let candidates: Vec<(u32, f64)> = (points.iter().filter(doubtful))
+        .filter_map(|point| Some((point.index, displacement(point.validity.as_ref()?, reduced)?)))
+        .collect();
+    let Some(&(largest, _)) = candidates.iter().max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0))) else {
+        return Vec::new();
+    };
+    let mut chosen = vec![largest];
+    let is_candidate = |index: &u32| candidates.iter().any(|(candidate, _)| candidate == index);
+    let peaks = wheel_peaks(request, points, None);
+    for index in peaks.iter().map(|peak| peak.index).filter(is_candidate) {
+        if chosen.len() < MOST && !chosen.contains(&index) {
+            chosen.push(index);
+        }
+    }
+    chosen.sort_unstable();
+    chosen
+}
+
+/// Simulates speed `index` of a sweep once more, to the bit, and finds its largest motion over the last revolution; none where it is not
+/// completed or nothing moves.
+///
+/// # Errors
+/// Cancellation.
+pub fn largest_motion(
+    reduced: &ReducedSector,
+    request: &ResolvedSweep,
+    index: u32,
+    monitor: &dyn Monitor,
+) -> Result<Option<LargestMotion>, AnalysisError> {
+    let watch = |fraction: f64| {
+        monitor.progress(fraction, PHASE);
+        !monitor.is_cancelled()
+    };
+    let speed_rad_s = request.speeds.rad_s()[index as usize];
+    let Ok(scene) = SpeedScene::new(reduced, Cow::Borrowed(request), speed_rad_s) else { return Ok(None) };
+    let recording = Recording { detail: None, states: Some(Revolutions::Last(1)) };
+    let Ok(simulated) = scene.simulate(Start::Scene, recording, &watch) else { return Ok(None) };
+    match &simulated.run.outcome {
+        Outcome::Cancelled => Err(AnalysisError::Cancelled),
+        Outcome::Completed(history) => {
+            let stiffening = request.scene.centrifugal_stiffening;
+            let states = history.states.as_ref();
+            let states = states
+                .and_then(|states| WheelStates::of(states, &scene.wheel, &reduced.wheel, stiffening).ok());
+            Ok(states.and_then(|states| {
+                LargestMotion::of(index, &states, &reduced.wheel, scene.lasting_clearance())
+            }))
+        }
+        _ => Ok(None),
+    }
+}
+
+/// Puts measures in the place of guesses by geometry. Where geometry raises a doubt at a speed that was not measured, measures of larger
+/// motions are scaled down, and the worst of them counts: the excess energy in proportion to the motion, in which it is of first order for a
+/// blade that is curved, the second-order motion by its square.
+pub fn judge_by_measures(
+    points: &mut [Point],
+    reduced: &ReducedSector,
+    measured: &Result<Vec<Bent>, NotMeasured>,
+) {
+    for point in points {
+        let Some(validity) = &point.validity else { continue };
+        if !geometric(validity).any(|check| check.is_doubtful()) {
+            continue;
+        }
+        let Some(displacement) = displacement(validity, reduced) else { continue };
+        match measured {
+            Err(error) => point.validity = Some(unmeasured(validity, &error.to_string())),
+            Ok(measured) => {
+                let own = measured.iter().find(|bent| bent.index == point.index);
+                let larger = measured.iter().filter(|bent| bent.displacement >= displacement);
+                let candidates: Vec<&Bent> = own.map_or_else(|| larger.collect(), |own| vec![own]);
+                let scale = |bent: &Bent| displacement / bent.displacement;
+                let worst = |of: &dyn Fn(&Bent) -> Option<f64>| {
+                    let values = candidates.iter().filter_map(|bent| Some((of(bent)?.abs(), bent.index)));
+                    values.max_by(|a, b| a.0.total_cmp(&b.0))
+                };
+                if let Some(excess) = worst(&|bent| Some(bent.excess * scale(bent))) {
+                    let from = |(value, index): (f64, u32)| (value, (index != point.index).then_some(index));
+                    point.validity = Some(beside(
+                        validity,
+                        from(excess),
+                        worst(&|bent| Some(bent.gap? * scale(bent).powi(2))).map(from),
+                    ));
+                }
+            }
+        }
+    }
+}
+
+/// Largest displacement of a contact node, from its ratio to a length of the blade.
+fn displacement(validity: &Validity, reduced: &ReducedSector) -> Option<f64> {
+    let positions: Vec<[f64; 3]> = reduced.wheel.contact.iter().map(|node| node.position).collect();
+    let chord = arc_lengths(&positions).last().copied();
+    geometric(validity).find_map(|check| match check.what {
+        ValidityMeasure::DisplacementOverThickness => Some(check.value * reduced.tip_thickness?),
+        ValidityMeasure::DisplacementOverChord => Some(check.value * chord?),
+        _ => None,
+    })
+}

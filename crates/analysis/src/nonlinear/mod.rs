@@ -1,0 +1,18 @@
+//! Strain energy of a sector that bends far, relaxed: measured validity of linear theory (docs/method.md, Stress).
+//!
+//! A linear field has no room for the in-plane shortening that bending brings, so its own energy under Green–Lagrange strain is mostly an
+//! artefact. What remains once everything has relaxed that carries no motion tells how far linear theory holds.
+
+mod measure;
+mod modes;
+mod quartic;
+mod relax;
+mod sector;
+
+pub(crate) use measure::PHASE;
+pub use measure::{Bent, LargestMotion, NotMeasured, measure, measuring_bytes};
+
+#[cfg(test)]
+mod tests;
+#[cfg(test)]
+mod wheel_tests;

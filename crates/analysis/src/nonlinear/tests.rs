@@ -1,0 +1,277 @@
+//! Relaxation against a non-linear static solution, closed forms, and its own limits.
+
+use std::collections::HashMap;
+
+use faer::linalg::solvers::Solve;
+use faer::{Col, Mat};
+use nalgebra::Vector3;
+
+use super::relax::{NotRelaxed, Relaxation};
+use super::sector::HeldSector;
+use rubmap_solid::element::ElementKind;
+use rubmap_solid::green_lagrange::BUBBLES;
+use rubmap_solid::material::Material;
+use rubmap_solid::mesh::{Element, ElementSet, SectorMesh};
+use rubmap_solid::topology::Topology;
+use rubmap_wheel::dynamics::nodes::{NodeDof, SectorNode};
+
+const YOUNG: f64 = 100e3;
+
+/// Strip along x of so many elements, one across and one through its thickness along z; clamped at x = 0 and, if asked for, at its other end.
+fn strip(
+    kind: ElementKind,
+    [length, width, thickness]: [f64; 3],
+    count: usize,
+    both_ends: bool,
+) -> (SectorMesh, Vec<SectorNode>) {
+    let mut found: HashMap<[usize; 3], u32> = HashMap::new();
+    let mut nodes: Vec<[f64; 3]> = Vec::new();
+    let mut elements = Vec::new();
+    for k in 0..count {
+        let place = |xi: &[f64; 3]| {
+            let lattice = [2 * k + (xi[0] + 1.0) as usize, (xi[1] + 1.0) as usize, (xi[2] + 1.0) as usize];
+            *found.entry(lattice).or_insert_with(|| {
+                let [x, y, z] = lattice.map(|at| at as f64 / 2.0);
+                nodes.push([x * length / count as f64, y * width, z * thickness]);
+                nodes.len() as u32 - 1
+            })
+        };
+        let element_nodes = Topology::of(kind).nodes().iter().map(place).collect();
+        elements.push(Element { id: k as u64 + 1, kind, set: 0, nodes: element_nodes });
+    }
+    let material = Material {
+        youngs_modulus: YOUNG,
+        poissons_ratio: 0.0,
+        density: 5e-9,
+        yield_strength: None,
+        ultimate_strength: None,
+        fatigue_strength: None,
+    };
+    let mut own = 0;
+    let sector_node = |(index, &position): (usize, &[f64; 3])| {
+        let clamped = position[0] == 0.0 || both_ends && (position[0] / length - 1.0).abs() < 1e-12;
+        let mut dof = |k: usize| {
+            let mut components = [0.0; 3];
+            components[k] = 1.0;
+            own += 1;
+            NodeDof { dof: own - 1, components }
+        };
+        let dofs = [0, 1, 2].map(|k| (!clamped).then(|| dof(k)));
+        // At θ = 0 the directions r, θ, z are x, y, z.
+        let coordinates = [position[0], 0.0, position[2]];
+        let contact = (position == [length, 0.0, 0.0]).then_some(0);
+        SectorNode { id: index as u64, position, coordinates, dofs, on_high_face: false, contact }
+    };
+    let sector_nodes = nodes.iter().enumerate().map(sector_node).collect();
+    let mesh = SectorMesh {
+        sectors: 1,
+        node_ids: (0..nodes.len() as u64).collect(),
+        nodes,
+        axis: ([0.0; 3], [0.0, 0.0, 1.0]),
+        cyclic: Vec::new(),
+        elements,
+        sets: vec![ElementSet { name: "STRIP".to_owned(), material }],
+    };
+    (mesh, sector_nodes)
+}
+
+/// Field of a mode, its largest displacement `amplitude`.
+fn mode(sector: &HeldSector, relaxation: &Relaxation<'_>, mode: usize, amplitude: f64) -> Vec<Vector3<f64>> {
+    let shape: Vec<f64> = relaxation.modes().col(mode).iter().copied().collect();
+    let field = sector.spread(&shape);
+    let largest = field.iter().map(|u| u.norm()).fold(0.0, f64::max);
+    field.iter().map(|u| u * (amplitude / largest)).collect()
+}
+
+/// Modes that bend out of the plane, lowest first.
+fn out_of_plane(sector: &HeldSector, relaxation: &Relaxation<'_>) -> Vec<usize> {
+    let bends = |&mode: &usize| {
+        let shape: Vec<f64> = relaxation.modes().col(mode).iter().copied().collect();
+        let sums = sector
+            .spread(&shape)
+            .iter()
+            .fold([0.0; 2], |[out, all], u| [out + u.z * u.z, all + u.norm_squared()]);
+        sums[0] > 0.9 * sums[1]
+    };
+    (0..relaxation.modes().ncols()).filter(bends).collect()
+}
+
+/// Non-linear static solution by Newton's method on all unknowns (v, β) and the multipliers of the held modes, the load in steps; the
+/// tangent by differences that are exact for a cubic force. Energy V(u + v, β).
+fn converged(sector: &HeldSector, modes: &Mat<f64>, field: &[Vector3<f64>]) -> f64 {
+    let rows = sector.rows.len();
+    let bubbles = if sector.elements.iter().any(|(_, element)| element.has_bubbles()) { 9 } else { 0 };
+    let size = rows + bubbles * sector.elements.len();
+    let held = &sector.stiffness * modes;
+    // The system below has no loads: K u does no work on what is not held.
+    let count = held.ncols();
+    let split = |x: &[f64], scale: f64| {
+        let moved = sector.spread(&x[..rows]);
+        let full: Vec<Vector3<f64>> = field.iter().zip(&moved).map(|(u, v)| u * scale + v).collect();
+        let beta: Vec<[Vector3<f64>; BUBBLES]> = (0..sector.elements.len())
+            .map(|e| {
+                std::array::from_fn(|b| {
+                    Vector3::from_fn(|d, _| if bubbles == 0 { 0.0 } else { x[rows + 9 * e + 3 * b + d] })
+                })
+            })
+            .collect();
+        (full, beta)
+    };
+    let force = |x: &[f64], scale: f64| -> Vec<f64> {
+        let (full, beta) = split(x, scale);
+        let (mut free, on_beta) = sector.force(&full, &beta);
+        if bubbles > 0 {
+            free.extend(on_beta.iter().flatten().flat_map(|f| [f.x, f.y, f.z]));
+        }
+        free
+    };
+    let mut x = vec![0.0; size];
+    for part in 1..=10 {
+        let scale = f64::from(part) / 10.0;
+        for iteration in 0.. {
+            assert!(iteration < 60, "Newton's method does not converge at {scale}");
+            let residual = force(&x, scale);
+            let mut tangent = Mat::<f64>::zeros(size + count, size + count);
+            let h = 1e-2;
+            for column in 0..size {
+                let at = |step: f64| {
+                    let mut moved = x.clone();
+                    moved[column] += step * h;
+                    force(&moved, scale)
+                };
+                let [a, b, c, d] = [-2.0, -1.0, 1.0, 2.0].map(at);
+                for row in 0..size {
+                    tangent[(row, column)] = (a[row] - 8.0 * b[row] + 8.0 * c[row] - d[row]) / (12.0 * h);
+                }
+            }
+            for k in 0..count {
+                // Of the size of the stiffness, so that the system is not badly scaled.
+                let size_of_row = held.col(k).norm_max() / YOUNG;
+                for row in 0..rows {
+                    let value = held[(row, k)] / size_of_row;
+                    (tangent[(row, size + k)], tangent[(size + k, row)]) = (value, value);
+                }
+            }
+            let right = Col::from_fn(size + count, |row| if row < size { -residual[row] } else { 0.0 });
+            let step = tangent.partial_piv_lu().solve(&right);
+            (0..size).for_each(|row| x[row] += step[row]);
+            let moved = (0..rows).map(|row| step[row].abs()).fold(0.0, f64::max);
+            if moved < 1e-9 {
+                break;
+            }
+        }
+    }
+    let (full, beta) = split(&x, 1.0);
+    let [energy] = sector.sum(|index, nodes, element| {
+        [element.energy(&element.values(&HeldSector::at(nodes, &full), &beta[index]))]
+    });
+    energy
+}
+
+#[test]
+fn a_relaxed_field_has_the_energy_of_a_converged_static_solution() {
+    for (kind, both_ends) in [
+        (ElementKind::C3D20, true),
+        (ElementKind::C3D20, false),
+        (ElementKind::QM6, true),
+        (ElementKind::QM6, false),
+    ] {
+        let (mesh, nodes) = strip(kind, [40.0, 4.0, 1.0], 6, both_ends);
+        let sector = HeldSector::new(&mesh, &nodes).unwrap();
+        let relaxation = Relaxation::new(&sector).unwrap();
+        let bending = out_of_plane(&sector, &relaxation);
+        let [first, second] = [(bending[0], 1.5), (bending[1], 0.4)]
+            .map(|(number, amplitude)| mode(&sector, &relaxation, number, amplitude));
+        let field: Vec<_> = first.iter().zip(&second).map(|(a, b)| a + b).collect();
+        let relaxed = relaxation.relax(&field).unwrap();
+        let held = relaxation.held(&sector.linear_force(&field));
+        let expected = converged(&sector, &held, &field);
+        let off = relaxed.relaxed / expected - 1.0;
+        println!(
+            "{kind:?} {both_ends}: raw {} relaxed {} {off:e}, {} steps",
+            relaxed.raw / relaxed.linear,
+            relaxed.relaxed / relaxed.linear,
+            relaxed.steps
+        );
+        assert!(off.abs() < 1e-4, "{kind:?} {both_ends}: {off:e}");
+    }
+}
+
+#[test]
+fn a_cantilever_stays_linear_and_draws_its_tip_back() {
+    // So thin that no mode along the strip is among the held ones.
+    let (length, thickness) = (60.0, 0.25);
+    let (mesh, nodes) = strip(ElementKind::C3D20, [length, 4.0, thickness], 10, false);
+    let sector = HeldSector::new(&mesh, &nodes).unwrap();
+    let relaxation = Relaxation::new(&sector).unwrap();
+    let bending = out_of_plane(&sector, &relaxation);
+    let amplitude = 3.0 * thickness;
+    let field = mode(&sector, &relaxation, bending[0], amplitude);
+    let found = relaxation.relax(&field).unwrap();
+    let (raw, relaxed) = (found.raw / found.linear, found.relaxed / found.linear);
+    println!("cantilever: raw {raw} relaxed {relaxed}, {} steps", found.steps);
+    assert!(raw > 3.0, "{raw}");
+    // A tenth of the limit of doubt.
+    assert!((relaxed - 1.0).abs() < 2e-3, "{relaxed}");
+    // An inextensible cantilever draws its tip back by ½ ∫w′².
+    let (beta, sigma) = (1.875_104_068_711_961 / length, 0.734_095_513_758_536);
+    let points = 4000;
+    let slope = |k: usize| {
+        let x = beta * length * (k as f64 + 0.5) / points as f64;
+        0.5 * amplitude * beta * (x.sinh() + x.sin() - sigma * (x.cosh() - x.cos()))
+    };
+    let drawn = 0.5 * (0..points).map(|k| slope(k).powi(2)).sum::<f64>() * length / points as f64;
+    let [back, _, _] = found.second_order[0];
+    assert!((back / -drawn - 1.0).abs() < 0.02, "{back} {drawn}");
+}
+
+#[test]
+fn a_strip_clamped_at_both_ends_stiffens_as_its_closed_form() {
+    let (length, thickness) = (100.0, 1.0);
+    let (mesh, nodes) = strip(ElementKind::C3D20, [length, 2.0, thickness], 16, true);
+    let sector = HeldSector::new(&mesh, &nodes).unwrap();
+    let relaxation = Relaxation::new(&sector).unwrap();
+    let bending = out_of_plane(&sector, &relaxation);
+    // Clamped–clamped beam: cosh βx − cos βx − σ (sinh βx − sin βx).
+    let (beta, sigma) = (4.730_040_744_862_704 / length, 0.982_502_214_576_238);
+    let [slope, curvature] = [
+        |b: f64, s: f64, x: f64| b * (x.sinh() + x.sin() - s * (x.cosh() - x.cos())),
+        |b: f64, s: f64, x: f64| b * b * (x.cosh() + x.cos() - s * (x.sinh() + x.sin())),
+    ];
+    let middle = {
+        let x: f64 = 0.5 * beta * length;
+        x.cosh() - x.cos() - sigma * (x.sinh() - x.sin())
+    };
+    let squared = |of: fn(f64, f64, f64) -> f64| {
+        let points = 4000;
+        let at = |k: usize| of(beta, sigma, beta * length * (k as f64 + 0.5) / points as f64) / middle;
+        (0..points).map(|k| at(k).powi(2)).sum::<f64>() * length / points as f64
+    };
+    let (slope, curvature) = (squared(slope), squared(curvature));
+    for amplitude in [0.25, 0.5, 1.0, 2.0] {
+        // Half EI ∫w″² of bending, EA/(8L) (∫w′²)² of the membrane.
+        let bent = 0.5 * thickness.powi(3) / 12.0 * curvature * amplitude * amplitude;
+        let membrane = thickness / (8.0 * length) * (slope * amplitude * amplitude).powi(2);
+        let field = mode(&sector, &relaxation, bending[0], amplitude);
+        let found = relaxation.relax(&field).unwrap();
+        let (excess, expected) = (found.relaxed / found.linear - 1.0, membrane / bent);
+        println!(
+            "strip {amplitude}: raw {} κ {excess} closed {expected}, {} steps",
+            found.raw / found.linear,
+            found.steps
+        );
+        assert!((excess / expected - 1.0).abs() < 0.02, "{amplitude}: {excess} {expected}");
+    }
+}
+
+#[test]
+fn a_small_motion_is_linear_and_no_motion_is_refused() {
+    let (mesh, nodes) = strip(ElementKind::QM6, [40.0, 4.0, 1.0], 6, true);
+    let sector = HeldSector::new(&mesh, &nodes).unwrap();
+    let relaxation = Relaxation::new(&sector).unwrap();
+    let found = relaxation.relax(&mode(&sector, &relaxation, 0, 1e-3)).unwrap();
+    assert!((found.relaxed / found.linear - 1.0).abs() < 1e-5, "{found:?}");
+    assert!(found.second_order[0].iter().all(|v| v.abs() < 1e-6), "{found:?}");
+    let still = vec![Vector3::zeros(); mesh.nodes.len()];
+    assert_eq!(relaxation.relax(&still).unwrap_err(), NotRelaxed::Still);
+}

@@ -1,0 +1,227 @@
+//! Measured validity on wheels: recovery of a sector's field, and the scene by which the thresholds were chosen.
+
+use std::sync::{LazyLock, Mutex};
+use std::time::Instant;
+
+use faer::{Mat, MatRef, c64};
+use nalgebra::Vector3;
+use rubmap_model::impeller::{ImpellerParameters, generate};
+use rubmap_model::package::{Limits, read, read_mesh, read_nodes, write};
+use rubmap_solid::frame::AxisFrame;
+use rubmap_solid::mesh::SectorMesh;
+use rubmap_wheel::dynamics::casing::arc_lengths;
+use rubmap_wheel::dynamics::nodes::SectorNode;
+use rubmap_wheel::dynamics::reduction::{BasisRows, Checkpoints};
+use rubmap_wheel::dynamics::sector::SectorModel;
+
+use super::measure::{Bent, LargestMotion, NotMeasured, fields, measure};
+use super::relax::Relaxation;
+use super::sector::HeldSector;
+use crate::measured::{judge_by_measures, largest_motion, speeds_to_measure};
+use crate::model::{MeshFacts, ModelFacts, ReducedSector};
+use crate::monitor::Unwatched;
+use crate::prepare::prepare;
+use crate::resolve::resolve_sweep;
+use crate::resolved::ResolvedSweep;
+use crate::result::{Point, Validity, ValidityCheck, ValidityMeasure, ValidityVerdict};
+use crate::speed::empty_point;
+
+/// Store that keeps whole bases in memory.
+#[derive(Default)]
+struct Bases(Mutex<Vec<(usize, Vec<Vec<f64>>)>>);
+
+impl Checkpoints for Bases {
+    fn load(&self, _part: &str) -> Option<Vec<u8>> {
+        None
+    }
+
+    fn save(&self, _part: &str, _bytes: Vec<u8>) {}
+
+    fn keep_basis(&self, rows: &BasisRows<'_>) {
+        let whole = (0..rows.dofs()).map(|dof| rows.row(dof).collect()).collect();
+        self.0.lock().unwrap().push((rows.harmonic(), whole));
+    }
+}
+
+struct Wheel {
+    sector: SectorModel,
+    mesh: SectorMesh,
+    nodes: Vec<SectorNode>,
+    reduced: ReducedSector,
+    bases: Vec<(usize, Vec<Vec<f64>>)>,
+}
+
+impl Wheel {
+    fn new(parameters: &ImpellerParameters, modes: u32) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("impeller.zip");
+        write(&generate(parameters).unwrap(), std::fs::File::create(&path).unwrap()).unwrap();
+        let limits = Limits::default();
+        let sector = read(&path, &limits).unwrap().sector;
+        let mesh = read_mesh(&path, &limits).unwrap().unwrap();
+        let nodes = read_nodes(&path, &limits).unwrap();
+        let bases = Bases::default();
+        let reduced = prepare(&sector, modes, None, &bases, &Unwatched).unwrap();
+        Self { sector, mesh, nodes, reduced, bases: bases.0.into_inner().unwrap() }
+    }
+
+    fn basis(&self, harmonic: usize, columns: MatRef<'_, c64>) -> Mat<c64> {
+        let (_, rows) = self.bases.iter().find(|(of, _)| *of == harmonic).unwrap();
+        Mat::from_fn(rows.len(), columns.ncols(), |dof, column| {
+            let row = rows[dof].chunks_exact(2).enumerate();
+            row.map(|(k, value)| c64::new(value[0], value[1]) * columns[(k, column)]).sum()
+        })
+    }
+
+    /// Scene of the demo at one speed.
+    fn sweep(&self, rpm: f64) -> ResolvedSweep {
+        let request = serde_json::json!({
+            "model": "wheel",
+            "modes_per_speed": 20,
+            "speeds": {"values": [rpm], "unit": "rpm"},
+            "scene": {
+                "centrifugal_stiffening": true,
+                "damping": {"modal_ratio": 0.005},
+                "casing": {
+                    "clearance": {"leading": 0.30, "trailing": 0.22},
+                    "lobes": {"count": 2, "amplitude": 0.425, "width_rad": 0.35}
+                },
+                "contact": {}
+            },
+        });
+        let mesh = Some(MeshFacts::of(&self.mesh, &self.sector));
+        let facts = ModelFacts { mesh, ..ModelFacts::of(&self.sector) };
+        resolve_sweep(serde_json::from_value(request).unwrap(), &facts).unwrap()
+    }
+
+    fn motion(&self, rpm: f64) -> LargestMotion {
+        largest_motion(&self.reduced, &self.sweep(rpm), 0, &Unwatched).unwrap().unwrap()
+    }
+}
+
+/// Small wheel of 8-node elements.
+static SMALL: LazyLock<Wheel> = LazyLock::new(|| {
+    let parameters = serde_json::from_value(serde_json::json!({
+        "sectors": 7, "contact_nodes": 5,
+        "mesh": {"between_contact_nodes": 2, "blade_height": 5, "blade_thickness": 1, "half_passage": 1, "disk": 1},
+    }));
+    Wheel::new(&parameters.unwrap(), 6)
+});
+
+/// Recovered fields have the displacements of the contact nodes, and go on from sector to sector.
+#[test]
+fn the_field_of_a_sector_is_that_of_its_tips_and_meets_the_next_sector() {
+    let wheel = &*SMALL;
+    let worst = wheel.motion(20_000.0);
+    let next = LargestMotion { sector: (worst.sector + 1) % 7, ..worst.clone() };
+    let mut basis = |harmonic: usize, columns: MatRef<'_, c64>| Ok(wheel.basis(harmonic, columns));
+    let (sector, reduced) = ((&wheel.mesh, &wheel.nodes[..]), &wheel.reduced.wheel);
+    let found = fields(sector, reduced, &[worst.clone(), next], &mut basis).unwrap();
+    let tips = wheel.nodes.iter().zip(&found[0]).filter(|(node, _)| node.contact.is_some());
+    let largest = tips.map(|(_, u)| u.norm()).fold(0.0, f64::max);
+    assert!((largest / worst.displacement - 1.0).abs() < 1e-9, "{largest} {}", worst.displacement);
+    // In the frame of its own sector the low face of the next one moves as this one's high face, turned back by a sector.
+    let frame = AxisFrame::new(wheel.mesh.axis.0, wheel.mesh.axis.1).unwrap();
+    let local = |field: &[Vector3<f64>], node: u32| {
+        frame.cylindrical(wheel.nodes[node as usize].coordinates[1]) * field[node as usize]
+    };
+    for &(low, high) in &wheel.mesh.cyclic {
+        let off = local(&found[0], high) - local(&found[1], low);
+        assert!(off.norm() < 1e-9 * largest, "{off}");
+    }
+    let measured = measure(sector, reduced, std::slice::from_ref(&worst), &mut basis, &Unwatched).unwrap();
+    assert_eq!((measured.len(), measured[0].displacement), (1, worst.displacement));
+    assert!(measured[0].excess.is_finite() && measured[0].gap.unwrap() > 0.0);
+}
+
+/// Measures count where they were taken, are scaled to smaller motions, and leave what geometry does not doubt.
+#[test]
+fn measures_are_scaled_to_smaller_motions_only() {
+    let reduced = &SMALL.reduced;
+    let request = SMALL.sweep(20_000.0);
+    let positions: Vec<[f64; 3]> = reduced.wheel.contact.iter().map(|node| node.position).collect();
+    let chord = *arc_lengths(&positions).last().unwrap();
+    let point = |index: u32, displacement: f64| {
+        let check = ValidityCheck {
+            what: ValidityMeasure::DisplacementOverChord,
+            value: displacement / chord,
+            doubtful_above: 0.05,
+            beyond_above: None,
+            scaled_from: None,
+        };
+        let validity = Validity { verdict: check.verdict(), checks: vec![check], lacking: Vec::new() };
+        Point { index, validity: Some(validity), ..empty_point(reduced, &request, 0, 2000.0) }
+    };
+    let sizes = [0.08, 0.16, 0.1, 0.02, 0.2].map(|share| share * chord);
+    let mut points: Vec<Point> = (0..).zip(sizes).map(|(index, size)| point(index, size)).collect();
+    assert_eq!(speeds_to_measure(&request, reduced, &points), [4]);
+    let bent =
+        |index: usize, excess, gap| Bent { index: index as u32, displacement: sizes[index], excess, gap };
+    let measured = Ok(vec![bent(1, -0.3, Some(0.01)), bent(2, 0.01, None)]);
+    judge_by_measures(&mut points, reduced, &measured);
+    let told = |index: usize| {
+        let validity = points[index].validity.as_ref().unwrap();
+        let checks = validity.checks.iter().map(|check| (check.what, check.value, check.scaled_from));
+        (validity.verdict, checks.collect::<Vec<_>>())
+    };
+    let (verdict, checks) = told(1);
+    assert_eq!((verdict, checks.len(), checks[0].2), (ValidityVerdict::Beyond, 2, None));
+    assert!((checks[0].1 - 0.3).abs() < 1e-12 && (checks[1].1 - 0.01).abs() < 1e-12, "{checks:?}");
+    assert_eq!(told(2).0, ValidityVerdict::Linear);
+    // Half the motion of speed 1: half its energy, a quarter of its second-order motion.
+    let (verdict, checks) = told(0);
+    assert_eq!((verdict, checks[0].2, checks[1].2), (ValidityVerdict::Beyond, Some(1), Some(1)));
+    assert!((checks[0].1 - 0.15).abs() < 1e-12 && (checks[1].1 - 0.0025).abs() < 1e-12, "{checks:?}");
+    // Geometry: without a doubt, and beyond all that was measured.
+    assert_eq!((told(3).0, told(4).0), (ValidityVerdict::Linear, ValidityVerdict::Doubtful));
+    judge_by_measures(&mut points, reduced, &Err(NotMeasured::Relaxed("no minimum".to_owned())));
+    assert_eq!(points[4].validity_lacking(), [ValidityMeasure::ExcessEnergy]);
+}
+
+/// The numbers by which the thresholds were chosen (docs/method.md, Stress): worst, middle and quiet sector of one instant.
+#[test]
+#[ignore = "takes minutes: reduces and simulates a wheel of 20-node elements"]
+fn sectors_of_the_demos_wheel_at_its_largest_motion() {
+    let parameters = serde_json::from_value(serde_json::json!({"element_order": "quadratic"})).unwrap();
+    let clock = Instant::now();
+    let wheel = Wheel::new(&parameters, 20);
+    println!("{} own DOF, reduced after {:.1?}", wheel.sector.own_dofs(), clock.elapsed());
+    let worst = wheel.motion(20_269.0);
+    println!("simulated after {:.1?}", clock.elapsed());
+    let motions: Vec<LargestMotion> =
+        (0..wheel.reduced.wheel.sectors).map(|sector| LargestMotion { sector, ..worst.clone() }).collect();
+    let mut basis = |harmonic: usize, columns: MatRef<'_, c64>| Ok(wheel.basis(harmonic, columns));
+    let fields = fields((&wheel.mesh, &wheel.nodes), &wheel.reduced.wheel, &motions, &mut basis).unwrap();
+    println!("fields after {:.1?}", clock.elapsed());
+    let sector = HeldSector::new(&wheel.mesh, &wheel.nodes).unwrap();
+    let relaxation = Relaxation::new(&sector).unwrap();
+    println!("factor and modes after {:.1?}", clock.elapsed());
+    for (motion, field) in motions.iter().zip(&fields) {
+        let tip = sector.contact.iter().map(|at| field[at.node as usize].norm()).fold(0.0, f64::max);
+        let relaxed = match relaxation.relax(field) {
+            Ok(relaxed) => relaxed,
+            Err(error) => {
+                println!("sector {}: tip {tip:.3} mm, {error}, {:.1?}", motion.sector, clock.elapsed());
+                continue;
+            }
+        };
+        let radial = relaxed
+            .second_order
+            .iter()
+            .map(|v| v[0])
+            .fold(0.0, |a: f64, b| if b.abs() > a.abs() { b } else { a });
+        let casing = relaxed
+            .to_casing
+            .iter()
+            .map(|v| v[0])
+            .fold(0.0, |a: f64, b| if b.abs() > a.abs() { b } else { a });
+        println!(
+            "sector {}: tip {tip:.3} mm, raw {:.4}, relaxed {:.4}, radial {radial:.4} mm, radius {casing:.4} mm, {} steps, {:.1?}",
+            motion.sector,
+            relaxed.raw / relaxed.linear,
+            relaxed.relaxed / relaxed.linear,
+            relaxed.steps,
+            clock.elapsed()
+        );
+    }
+}
