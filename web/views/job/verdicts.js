@@ -13,7 +13,7 @@ export const SETTLING = {
 /** Settling in one word, for tables. */
 export const SETTLED = { periodic: 'periodic', subharmonic: 'subharmonic', aperiodic: 'aperiodic', not_settled: 'not settled' };
 /** Validity of linear theory in one word, for tables. */
-export const LINEAR = { linear: 'holds', doubtful: 'doubtful', beyond: 'beyond' };
+export const LINEAR = { linear: 'holds', not_checked: 'not checked', doubtful: 'doubtful', beyond: 'beyond' };
 export const STABILITY = {
   stable: 'stable',
   narrow: 'stable against very small disturbances only',
