@@ -54,15 +54,17 @@ function step(most) {
 function diagram(campbell, ranges, asked) {
   const speeds = campbell?.speeds_rad_s ?? [];
   const right = 1.02 * Math.max(1, ...speeds, ...asked, ...ranges.map(({ to, aside }) => to * (1 + aside)));
-  const highest = campbell ? 1.05 * Math.max(...campbell.frequencies_hz.flat(2).filter(isNumber)) : 1;
+  const waves = campbell?.waves;
+  const tables = waves ? [['forward, ', waves.forward_hz], ['backward, ', waves.backward_hz]] : campbell ? [['', campbell.frequencies_hz]] : [];
+  const highest = 1.05 * Math.max(1, ...tables.flatMap(([, table]) => table.flat(2)).filter(isNumber));
   const x = (omega) => PLOT.left + (omega / right) * (PLOT.right - PLOT.left);
   const y = (hz) => PLOT.bottom - (hz / highest) * (PLOT.bottom - PLOT.top);
   const ticks = (most, place) => Array.from({ length: Math.floor(most / step(most)) + 1 }, (_, k) => place(k * step(most)));
   const band = (from, to, kind) => s('rect', { class: kind, x: x(Math.max(0, from)), y: PLOT.top, width: Math.max(1, x(to) - x(Math.max(0, from))), height: PLOT.bottom - PLOT.top });
-  const families = (campbell?.frequencies_hz[0] ?? []).flatMap((list, diameter) => list.map((_, family) => {
-    const points = speeds.map((omega, k) => [omega, campbell.frequencies_hz[k][diameter][family]]).filter(([, hz]) => isNumber(hz)).map(([omega, hz]) => [x(omega), y(hz)]);
-    return s('path', { class: `family family-${Math.min(family, 2)}`, d: line(points) }, s('title', {}, `nodal diameter ${diameter}, family ${family + 1}`));
-  }));
+  const families = tables.flatMap(([wave, table]) => table[0].flatMap((list, diameter) => list.map((_, family) => {
+    const points = speeds.map((omega, k) => [omega, table[k][diameter][family]]).filter(([, hz]) => isNumber(hz)).map(([omega, hz]) => [x(omega), y(hz)]);
+    return s('path', { class: `family family-${Math.min(family, 2)}`, d: line(points) }, s('title', {}, `${wave}nodal diameter ${diameter}, family ${family + 1}`));
+  })));
   const crossings = (campbell?.driven_crossings ?? []).filter((one) => one.speed_rad_s <= right && one.speed_rad_s > 0);
   const dots = crossings.map((one) => s('circle', { class: 'crossing', cx: x(one.speed_rad_s), cy: y(one.frequency_hz), r: 3.5 },
     s('title', {}, `${speed(one.speed_rad_s)}: engine order ${one.engine_order}, nodal diameter ${one.nodal_diameter}, family ${one.family}, ${number(one.frequency_hz, 5)} Hz`)));
@@ -124,15 +126,20 @@ export function speedsOver(model, signal) {
     return request.scene?.casing?.lobes?.count ?? request.lobes ?? 2;
   }
 
+  function isSplit(request) {
+    return Boolean(request.scene?.coriolis ?? request.coriolis);
+  }
+
   function show(request) {
     last = request;
     const ranges = rangesOf(request);
     const lobes = lobesOf(request);
-    const fits = known.find(({ settings }) => settings.lobes === lobes && Boolean(settings.coriolis) === Boolean(request.scene?.coriolis ?? request.coriolis));
+    const fits = known.find(({ settings }) => settings.lobes === lobes && Boolean(settings.coriolis) === isSplit(request));
     const campbell = fits ?? known[0] ?? null;
     replace(picture, diagram(campbell, ranges, askedSpeeds(request)));
     start.hidden = Boolean(fits) || !isNumber(lobes);
-    start.textContent = campbell ? `Compute for ${count(lobes, 'lobe')}` : 'Compute natural frequencies';
+    const forces = model.gyroscopic ? `, ${isSplit(request) ? 'with' : 'without'} Coriolis forces` : '';
+    start.textContent = campbell ? `Compute for ${count(lobes, 'lobe')}${forces}` : 'Compute natural frequencies';
     replace(told,
       h('p', { class: 'quiet' }, campbell
         ? `Lines: natural frequencies; dashed: engine orders. Dots: where an engine order of ${count(campbell.settings.lobes, 'lobe')} meets a mode that it drives. Ticks below: the speeds asked for.${ranges.length > 0 ? ' Bands: operating ranges, with their separation.' : ''}`
@@ -143,7 +150,7 @@ export function speedsOver(model, signal) {
   async function analyse() {
     start.disabled = true;
     const { to } = speedsOf(model);
-    const asked = { model: model.id, speeds: { from: 0, to, count: COUNT, unit: 'rpm' }, lobes: lobesOf(last), coriolis: last.scene?.coriolis ? true : undefined, name: `${model.name}: natural frequencies`.slice(0, 200) };
+    const asked = { model: model.id, speeds: { from: 0, to, count: COUNT, unit: 'rpm' }, lobes: lobesOf(last), coriolis: isSplit(last) || undefined, name: `${model.name}: natural frequencies`.slice(0, 200) };
     try {
       const { id } = await submit('/v1/modal-analyses', asked, signal);
       await follow(id, (now) => {
