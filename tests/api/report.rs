@@ -30,7 +30,7 @@ async fn a_report_has_what_was_asked_and_found() {
     let sweep = api.sweep(&request).await;
     api.finish(&sweep).await;
     let alone = page(api, &format!("/v1/jobs/{sweep}/report")).await;
-    assert_eq!(alone.matches("<svg").count(), 3, "map and contact: there is no modal analysis yet");
+    assert_eq!(alone.matches("<svg").count(), 4, "level, map and contact: there is no modal analysis yet");
     assert!(
         alone.contains("&lt;b&gt;Bold&lt;/b&gt; clearance")
             && !alone.contains("<b>Bold")
@@ -42,7 +42,7 @@ async fn a_report_has_what_was_asked_and_found() {
     let job = api.finish(&modal).await;
     assert!(job["links"].to_string().contains(&format!("/v1/jobs/{modal}/report")));
     let both = page(api, &format!("/v1/jobs/{sweep}/report?sensor=1")).await;
-    assert_eq!(both.matches("<svg").count(), 4);
+    assert_eq!(both.matches("<svg").count(), 5);
     assert!(both.contains(&format!("of modal analysis {modal}")));
     // The report has what the table of critical speeds has.
     for sensor in 0..2 {

@@ -1382,6 +1382,13 @@ class JudgedValue(TypedDict):
     value: float
 
 
+class LevelValue(TypedDict):
+    error: NotRequired[float]
+    quantity: LimitKind
+    standing: NotRequired[Standing]
+    value: float
+
+
 class LookRefusal(TypedDict):
     detail: str
     step: LookStep
@@ -1802,13 +1809,22 @@ class JobList(TypedDict):
 
 class JudgedSpeed(TypedDict):
     critical: bool
+    engine_order: NotRequired[float]
     index: int
     limits: list[JudgedValue]
+    nodal_diameter: NotRequired[int]
     ranges: list[RangePosition]
     resolved: NotRequired[bool]
     speed_error_rad_s: NotRequired[float]
     speed_rad_s: float
     tip: NotRequired[TipResponse]
+
+
+class LevelSpeed(TypedDict):
+    index: int
+    speed_rad_s: float
+    status: PointStatus
+    values: list[LevelValue]
 
 
 class MeasuredCasing(TypedDict):
@@ -2296,6 +2312,11 @@ class StudyPlan(TypedDict):
     steps: int
     version: str
     warnings: NotRequired[list[str]]
+
+
+class SweepLevel(TypedDict):
+    speeds: list[LevelSpeed]
+    verdict: SweepVerdict
 
 
 class SweepPlan(TypedDict):
