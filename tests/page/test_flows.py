@@ -504,7 +504,7 @@ def test_branches_are_followed_from_a_speed_of_a_sweep(service, model, new_page)
     request = sweep_of(model, name="damped", scene=damped(), speeds={"from": 19000, "to": 21000, "count": 5, "unit": "rpm"}, integration=integration, modes_per_speed=3, record={})
     swept = service.call("POST", "/v1/sweeps", request)["id"]
     assert service.finish(swept)["status"] == "successful"
-    page = new_page(f"{service.url}/#/jobs/{swept}?view=point&speed=2", expected=["422"])
+    page = new_page(f"{service.url}/#/jobs/{swept}?view=point&speed=2", expected=["409", "422"])
     page.get_by_role("button", name=re.compile("^Follow branches from")).click()
     dialog = page.get_by_role("dialog")
     assert dialog.get_by_label("From").input_value() == "18000" and dialog.get_by_label("To", exact=True).input_value() == "22000"

@@ -114,7 +114,7 @@ impl Heat<'_> {
     /// Words about merged speeds and bins, if there are any.
     pub(super) fn merged(&self) -> Option<String> {
         let bins = match self.view.axis {
-            VerticalAxis::EngineOrder => together(self.bins().len(), self.rows().len()),
+            VerticalAxis::EngineOrder => together(self.bins().len(), self.rows().len().max(1)),
             VerticalAxis::Frequency => 1,
         };
         let speeds = together(self.seen().len(), self.most.0);

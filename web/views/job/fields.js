@@ -2,7 +2,9 @@
 
 import { api } from '../../lib/api.js';
 import { h, newId, replace } from '../../lib/dom.js';
+import { ended } from '../../lib/events.js';
 import { speed as speedWords } from '../../lib/format.js';
+import { again } from '../../lib/place.js';
 import { unread } from '../../lib/problem.js';
 import { showWheel } from '../../wheel/index.js';
 import { select } from './choices.js';
@@ -18,6 +20,11 @@ const COLOURS = [
 
 export async function show(place, context, signal) {
   const { job, query } = context;
+  if (!ended(job)) {
+    replace(place, h('p', { class: 'note' }, 'The wheel is here when the job has ended.'));
+    context.onChange((now) => ended(now) && again());
+    return;
+  }
   if (job.kind === 'sweep' && await unrecorded(place, context, signal)) return;
   const order = query.get('engine_order') ?? '';
   const model = await api.get(`/v1/models/${job.model}`, { signal });

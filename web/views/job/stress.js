@@ -2,7 +2,9 @@
 
 import { api, submit } from '../../lib/api.js';
 import { h, replace } from '../../lib/dom.js';
+import { ended } from '../../lib/events.js';
 import { number, percent, speed } from '../../lib/format.js';
+import { again } from '../../lib/place.js';
 import { plot } from '../../lib/plot.js';
 import { problem } from '../../lib/problem.js';
 import { table } from '../../lib/table.js';
@@ -18,6 +20,11 @@ export async function show(place, context, signal) {
   const below = h('div');
   if (!has(job, 'stress')) {
     await offer(place, job, signal);
+    return;
+  }
+  if (job.status !== 'successful') {
+    replace(place, h('p', { class: 'note' }, ended(job) ? 'The job ended without stress.' : 'Stress is here when the job has ended.'));
+    context.onChange((now) => ended(now) && again());
     return;
   }
   const found = await api.get(path, { query: { speed: query.get('speed') }, signal });

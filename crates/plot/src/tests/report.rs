@@ -176,7 +176,7 @@ fn a_report_says_what_is_left_and_what_is_not_valid() {
     }
     let read = Document::parse(&full).unwrap();
     let drawings = read.descendants().filter(|node| node.tag_name().name() == "svg").count();
-    assert_eq!(drawings, 4, "map, Haigh diagram, and a sector from two sides");
+    assert_eq!(drawings, 5, "level, map, Haigh diagram, and a sector from two sides");
     // Drawings share the page, so equal ids must mean equal elements.
     let mut named = std::collections::BTreeMap::new();
     for node in
