@@ -76,7 +76,6 @@ async fn a_sweep_tells_stress_margin_and_validity() {
         let names: Vec<&str> = checks.iter().map(|check| check["what"].as_str().unwrap()).collect();
         // Measures take the place of geometry.
         let measured = names.contains(&"excess_energy");
-        println!("{validity}");
         let geometry = ["displacement_over_thickness", "displacement_over_chord", "rotation"];
         assert!(geometry.iter().all(|name| names.contains(name) != measured), "{validity}");
         assert!(names.contains(&"second_order_gap") == measured && names.contains(&"neighbour_approach"));

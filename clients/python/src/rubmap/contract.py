@@ -328,6 +328,12 @@ class GaugeEnd(TypedDict):
     position: list[float]
 
 
+class GivenStrengths(TypedDict, closed=True):
+    fatigue_strength: NotRequired[FatigueStrength | None]
+    ultimate_strength: NotRequired[float | None]
+    yield_strength: NotRequired[float | None]
+
+
 ModesPerSpeedItem: TypeAlias = int
 
 
@@ -874,6 +880,7 @@ class StressPeak(TypedDict):
 
 class StressRequest(TypedDict, closed=True):
     excluded_radius: NotRequired[float | None]
+    strengths: NotRequired[dict[str, GivenStrengths]]
 
 
 class StudyIntegration(TypedDict, closed=True):
@@ -976,7 +983,7 @@ Unresolvable: TypeAlias = Literal["end_of_range", "beside_missing", "too_coarse"
 
 class Unresolved(TypedDict):
     reason: Unresolvable
-    sensor: int
+    sensor: NotRequired[int]
     speed_rad_s: float
 
 
@@ -1488,6 +1495,7 @@ class PlannedPoint(TypedDict):
     computing_time_s: NotRequired[CostRange]
     index: int
     integrated_unknowns: int
+    interference: NotRequired[float]
     memory_bytes: int
     message: NotRequired[str]
     scheme: NotRequired[SchemeReport]
@@ -1981,7 +1989,7 @@ class SweepRequest(TypedDict, closed=True):
     operation: NotRequired[Operation | None]
     peak_prominence: NotRequired[float]
     record: NotRequired[Record]
-    refine: NotRequired[bool]
+    refine: NotRequired[bool | None]
     reproducible: NotRequired[bool]
     scene: Scene
     sensors: NotRequired[list[Sensor]]
@@ -2320,6 +2328,7 @@ class SweepLevel(TypedDict):
 
 
 class SweepPlan(TypedDict):
+    added_speeds_at_most: NotRequired[int]
     basis_bytes_at_most: NotRequired[int]
     casing_shape: NotRequired[FoundShape]
     choice: NotRequired[Choice]
