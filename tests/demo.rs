@@ -56,7 +56,7 @@ fn demo_leaves_results_and_drawings_and_runs_again() {
     assert!(!critical.driven_crossings.is_empty());
     let campbell: Campbell = read(&out.join("campbell.json"));
     assert!(!campbell.crossings.is_empty());
-    for drawing in ["interaction-map.svg", "interaction-map-frequency.svg", "campbell.svg"] {
+    for drawing in ["level.svg", "interaction-map.svg", "interaction-map-frequency.svg", "campbell.svg"] {
         assert!(is_svg(&out.join(drawing)), "{drawing}");
     }
     assert!(rubmap::package::read(&out.join("impeller.zip"), &rubmap::package::Limits::default()).is_ok());
@@ -167,7 +167,7 @@ fn the_demo_of_a_package_of_ones_own_chooses_and_says_so() {
         (fastest / highest - 1.0).abs() < 1e-3 && (slowest / highest * 3.0 - 1.0).abs() < 1e-3,
         "{map:?}"
     );
-    for drawing in ["interaction-map.svg", "interaction-map-frequency.svg", "campbell.svg"] {
+    for drawing in ["level.svg", "interaction-map.svg", "interaction-map-frequency.svg", "campbell.svg"] {
         assert!(is_svg(&out.join(drawing)), "{drawing}");
     }
     for part in

@@ -50,7 +50,7 @@ async fn all_structural_errors_come_at_once_in_words() {
           limits, max_engine_order, model, modes_per_speed, name, notes, operation, peak_prominence, record, refine, \
           reproducible, scene, sensors, speeds, sweep, tags",
         ),
-        ("/refine", "expected true or false, not the text \"yes\""),
+        ("/refine", "expected true or false, or null, not the text \"yes\""),
         ("/max_engine_order", "expected a whole number from 1 to 1000, not 5000000000"),
         ("/sweep", "expected one of independent, up, down, not an object"),
         ("/speeds/unit", "expected one of rad_s, rpm, hz, not the text \"furlongs\""),
@@ -231,6 +231,9 @@ fn example(schema: &Value, schemas: &Value) -> Value {
     }
     let r#type = if schema["type"].is_array() { &schema["type"][0] } else { &schema["type"] };
     match r#type.as_str().unwrap() {
+        "object" if schema["additionalProperties"].is_object() => {
+            json!({"m": example(&schema["additionalProperties"], schemas)})
+        }
         "object" => {
             assert_eq!(schema["additionalProperties"], false, "unknown fields would be taken: {schema}");
             let fields = schema["properties"].as_object().into_iter().flatten();
@@ -250,7 +253,7 @@ fn example(schema: &Value, schemas: &Value) -> Value {
 
 /// Asserts that the check of bodies knows all keywords of the contract: it would not check others.
 fn keywords_are_known(schema: &Value) {
-    const KNOWN: [&str; 19] = [
+    const KNOWN: [&str; 20] = [
         "$ref",
         "oneOf",
         "type",
@@ -262,6 +265,7 @@ fn keywords_are_known(schema: &Value) {
         "properties",
         "required",
         "additionalProperties",
+        "propertyNames",
         "items",
         "minItems",
         "maxItems",
@@ -283,7 +287,8 @@ fn all_schemas<'a>(schema: &'a Value, schemas: &'a Value, seen: &mut Vec<&'a Val
     }
     let choices = schema["oneOf"].as_array().into_iter().flatten();
     let fields = schema["properties"].as_object().into_iter().flat_map(|fields| fields.values());
-    for below in choices.chain(fields).chain(schema.get("items")) {
+    let named = schema.get("additionalProperties").filter(|values| values.is_object());
+    for below in choices.chain(fields).chain(schema.get("items")).chain(named) {
         all_schemas(below, schemas, seen);
     }
 }

@@ -180,7 +180,7 @@ fn nearest_driven(speed: &CriticalSpeed, driven: &[DrivenCrossing]) -> String {
 pub(super) fn own_places(out: &Path, request: &Path, package: &Path) -> String {
     let folder = out.display();
     format!(
-        "Look at   {folder}/report.html, interaction-map.svg, interaction-map-frequency.svg, campbell.svg
+        "Look at   {folder}/report.html, level.svg, interaction-map.svg, interaction-map-frequency.svg, campbell.svg
 Read      {folder}/verdict.json, interaction-map.json, critical-speeds.json, campbell.json
 Edit      {}, and again: rubmap demo --package {} --request {} --out {folder}
 Ask       rubmap serve --data {folder}/data
@@ -205,6 +205,7 @@ pub(super) fn places(out: &Path, map: &str, study: bool) -> String {
     };
     format!(
         "Look at   {folder}/report.html                    verdict, levels and limits, map, all on one page
+          {folder}/level.svg                      largest motion over speed, with ranges and limits
           {folder}/interaction-map.svg            amplitude over speed and engine order
           {folder}/interaction-map-frequency.svg  the same over speed and frequency
           {folder}/campbell.svg                   natural frequencies over speed{look}

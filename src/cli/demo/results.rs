@@ -30,6 +30,7 @@ pub(super) async fn download(
         client.download(sweep.link("critical-speeds")?, &out.join("critical-speeds.json")).await?;
     let verdict = client.download(sweep.link("verdict")?, &out.join("verdict.json")).await?;
     client.save(sweep.link("report")?, &out.join("report.html")).await?;
+    client.save(&format!("{}?format=svg", sweep.link("level")?), &out.join("level.svg")).await?;
     let draw = |axis| {
         plot::interaction_map(
             &map,

@@ -2,6 +2,7 @@
 //! at its RFC 6901 pointer. Nothing of the document is stored, and only values that have a place in the shape are descended into,
 //! so that neither size nor depth of wrong values costs anything.
 
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
 use serde::de::{DeserializeSeed, Deserializer, IgnoredAny, MapAccess, SeqAccess, Visitor};
@@ -12,6 +13,9 @@ use crate::analysis::error::Violation;
 
 /// Least similarity of a name that is suggested in place of an unknown one (Jaro; 1 is equal).
 const ALIKE: f64 = 0.75;
+
+/// Longest name of a field with any name, which pointers echo.
+const LONGEST_NAME: usize = 256;
 
 /// Violations found in a document.
 #[derive(Debug, Default)]
@@ -55,6 +59,12 @@ impl Reader {
         self.refuse(|| format!("expected {shape}, not one of {entries}"));
     }
 
+    fn refuse_twice(&mut self, name: &str) {
+        self.within(name, |reader| {
+            reader.refuse(|| "this field is given twice; give it once".to_owned());
+        });
+    }
+
     fn refuse_unknown_field(&mut self, name: &str, fields: &[Field]) {
         self.found.unknown_fields += 1;
         // A pointer echoes what it points at: a name of any length is rather cut in the message.
@@ -80,6 +90,27 @@ impl Reader {
         self.pointer.truncate(above);
         done
     }
+}
+
+/// Checks an object whose fields have any names.
+fn visit_named<'de, A: MapAccess<'de>>(
+    shape: &Shape,
+    reader: &mut Reader,
+    mut object: A,
+) -> Result<(), A::Error> {
+    let mut given = BTreeSet::new();
+    while let Some(name) = object.next_key::<String>()? {
+        if name.chars().nth(LONGEST_NAME).is_some() {
+            reader.refuse(|| format!("the name {:?} is too long", excerpt(&name)));
+            object.next_value::<IgnoredAny>()?;
+            continue;
+        }
+        reader.within(&name, |reader| object.next_value_seed(Place { shape, reader }))?;
+        if let Some(name) = given.replace(name) {
+            reader.refuse_twice(&name);
+        }
+    }
+    Ok(())
 }
 
 fn what_exists(name: &str, fields: &[Field]) -> String {
@@ -178,6 +209,9 @@ impl<'de> Visitor<'de> for Place<'_> {
 
     fn visit_map<A: MapAccess<'de>>(self, mut object: A) -> Result<(), A::Error> {
         let Self { shape, reader } = self;
+        if let Some(shape) = shape.named() {
+            return visit_named(shape, reader, object);
+        }
         let Some(fields) = shape.fields() else {
             reader.refuse(|| format!("expected {shape}, not an object"));
             while object.next_entry::<IgnoredAny, IgnoredAny>()?.is_some() {}
@@ -192,9 +226,7 @@ impl<'de> Visitor<'de> for Place<'_> {
                     reader.within(&name, |reader| object.next_value_seed(Place { shape, reader }))?;
                     continue;
                 }
-                Some(_) => reader.within(&name, |reader| {
-                    reader.refuse(|| "this field is given twice; give it once".to_owned())
-                }),
+                Some(_) => reader.refuse_twice(&name),
                 None => reader.refuse_unknown_field(&name, fields),
             }
             object.next_value::<IgnoredAny>()?;

@@ -21,6 +21,8 @@ pub(crate) enum Shape {
     List { entries: Box<Shape>, shortest: usize, longest: Option<usize> },
     /// An object that has these fields and no others.
     Object(Vec<Field>),
+    /// An object whose fields have any names and values of this shape.
+    Named(Box<Shape>),
     /// A value of one of these shapes.
     OneOf(Vec<Shape>),
 }
@@ -101,6 +103,9 @@ impl Shape {
                 shortest: size("minItems").unwrap_or(0),
                 longest: size("maxItems"),
             },
+            "object" if schema["additionalProperties"].is_object() => {
+                Self::Named(Box::new(Self::of(&schema["additionalProperties"], schemas)))
+            }
             "object" => {
                 let required = words(&schema["required"]);
                 let fields = schema["properties"].as_object().into_iter().flatten();
@@ -150,6 +155,15 @@ impl Shape {
         match self {
             Self::OneOf(choices) => choices.iter().find_map(Self::fields),
             Self::Object(fields) => Some(fields),
+            _ => None,
+        }
+    }
+
+    /// Shape of the values of an object whose fields have any names, if the shape admits one.
+    pub(super) fn named(&self) -> Option<&Self> {
+        match self {
+            Self::OneOf(choices) => choices.iter().find_map(Self::named),
+            Self::Named(values) => Some(values),
             _ => None,
         }
     }
@@ -204,6 +218,7 @@ impl std::fmt::Display for Shape {
                     }
                 }
             }
+            Self::Named(values) => write!(f, "an object whose fields are {values}"),
             Self::OneOf(choices) => {
                 for (index, choice) in choices.iter().enumerate() {
                     write!(f, "{}{choice}", if index == 0 { "" } else { ", or " })?;
