@@ -113,7 +113,7 @@ async fn the_program_writes_the_page_of_a_service_with_tokens() {
     assert!(std::fs::read_to_string(&out).unwrap().starts_with("<!DOCTYPE html>"));
     let (done, words) = program(arguments(&id), None).await;
     assert!(!done && words.contains("401"), "{words}");
-    let (done, words) = program(arguments("none"), None).await;
-    assert!(!done && words.contains("expected the id of a job"), "{words}");
+    let (done, words) = program(arguments("none"), Some(token)).await;
+    assert!(!done && words.contains("none of the jobs"), "{words}");
     app.stop().await;
 }
