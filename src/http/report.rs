@@ -18,9 +18,7 @@ use crate::analysis::kinds::document::Document;
 use crate::analysis::kinds::modal_analysis::{CAMPBELL, MODAL_ANALYSIS};
 use crate::analysis::kinds::sweep::{CRITICAL_SPEEDS, ERRORS, HISTORIES};
 use crate::analysis::resolved::ResolvedSweep;
-use crate::analysis::result::{
-    Campbell, CriticalSpeeds, InteractionMap, SpeedHistories, SpeedSpectra, Strengths,
-};
+use crate::analysis::result::{Campbell, CriticalSpeeds, InteractionMap, SpeedHistories, SpeedSpectra};
 use crate::analysis::run::{self, ModelFacts, VERSION};
 use crate::kinds::JobKind;
 use crate::plot::report::{self, Head, Sweep};
@@ -171,7 +169,7 @@ impl Found<'_> {
                     forces: forces.as_ref(),
                     histories: &histories,
                     campbell: campbell.as_ref(),
-                    strengths: &Strengths::of_sweep(request, facts),
+                    strengths: &run::strengths_of_sweep(request, facts),
                     surfaces: pictures.as_deref().unwrap_or_default(),
                 };
                 Ok(report::sweep(&head, &found))

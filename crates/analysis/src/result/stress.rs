@@ -2,8 +2,6 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::model::ModelFacts;
-use crate::resolved::ResolvedSweep;
 use rubmap_solid::material::{FatigueStrength, GivenStrengths, Material};
 use rubmap_solid::mesh::{ElementSet, SectorMesh};
 use rubmap_wheel::dynamics::sector::Units;
@@ -150,16 +148,10 @@ impl Strengths {
         mesh.sets.iter().map(of_set).collect()
     }
 
-    /// Strengths by which a sweep is judged: those that it gives itself in place of the model's.
-    pub fn of_sweep(request: &ResolvedSweep, facts: &ModelFacts) -> Vec<Self> {
-        let given = request.strengths();
-        let of_set = |set: &Self| match given(&set.set) {
-            None => set.clone(),
-            Some(GivenStrengths { yield_strength, ultimate_strength, fatigue_strength }) => {
-                Self::named(&set.set, *yield_strength, *ultimate_strength, fatigue_strength.as_ref())
-            }
-        };
-        facts.mesh.iter().flat_map(|mesh| &mesh.sets).map(of_set).collect()
+    /// Strengths of the same set as they are `given`.
+    pub(crate) fn given(&self, given: &GivenStrengths) -> Self {
+        let GivenStrengths { yield_strength, ultimate_strength, fatigue_strength } = given;
+        Self::named(&self.set, *yield_strength, *ultimate_strength, fatigue_strength.as_ref())
     }
 
     fn named(
