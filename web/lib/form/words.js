@@ -75,6 +75,7 @@ to|To||
 lobes|Lobes of the casing||Whose harmonics may drive the wheel.
 superharmonics|Harmonics of the lobes||Of the linear criterion, a list.
 families|Families of modes||Frequencies per nodal diameter.
+families_by|Families told by||Shape: a family keeps its shape over speed. Rank: by frequency at each speed.
 operation|Operating ranges||Speeds at which the machine runs: the verdict is about them. Off: all speeds are judged.
 # operation
 ranges|Range||
@@ -196,7 +197,7 @@ probe|Asymmetry of the probe
 # probe
 amplitude|Size|of the clearance
 #
-sensors|Sensors||Where the response is reported in detail. Left out: radial, at both ends of the tip of sector 0. The verdict looks at all tips.
+sensors|Sensors||Where the response is reported in detail. Left out: along the contact normal, at both ends of the tip of sector 0. The verdict looks at all tips.
 # sensors
 contact_node|Contact node||From the leading edge, from 0.
 sector|Sector||From 0.

@@ -65,7 +65,7 @@ export function beginning(pointer, model) {
     '/record/histories': { speeds: 'critical' },
     '/accuracy': { target: 0.01 },
     '/budget': { seconds: 600 },
-    '/sensors/-': { contact_node: 0, sector: 0, component: 'radial' },
+    '/sensors/-': { contact_node: 0, sector: 0, component: 'normal' },
   };
   return known[pointer];
 }
