@@ -97,7 +97,7 @@ fn add_ranges(ranges: &[RangeVerdict], top: f64, panel: &mut Panel<'_>) {
         format!("{name}: {} to {} rpm, {}", label(from, 0), label(to, 0), range.verdict)
     };
     let area = |across: (f64, f64), words: String| {
-        (across.0 < across.1).then(|| Area { across, upwards: Some((0.0, top)), words })
+        (across.0 < across.1).then_some(Area { across, upwards: Some((0.0, top)), words })
     };
     let inside = ranges.iter().filter_map(|range| {
         let (from, to) = ends(range);

@@ -87,12 +87,11 @@ const NOMINAL: f64 = 900.0;
 /// annotations named `above` anew.
 fn above(panels: &[Panel]) -> (Vec<Value>, usize) {
     let lines = panels.iter().filter(|panel| panel.across.is_none()).flat_map(|panel| {
-        let of = |layer| match layer {
-            &Layer::Uprights(ref uprights) => Some(uprights),
+        let uprights = panel.layers.iter().filter_map(|layer| match layer {
+            Layer::Uprights(uprights) => Some(uprights),
             _ => None,
-        };
-        let lines =
-            panel.layers.iter().filter_map(of).flat_map(|all| all.lines.iter().map(move |line| (all, line)));
+        });
+        let lines = uprights.flat_map(|all| all.lines.iter().map(move |line| (all, line)));
         let (low, high) = panel.x.range;
         lines.map(move |(all, line)| (NOMINAL * (line.x - low) / (high - low), all, line))
     });
