@@ -97,9 +97,7 @@ impl<T: Export + Serialize + Send + 'static> Forms<T> {
             None => answer.numbers(leave, result),
         })
     }
-}
 
-impl<T: Export + Serialize + Send + 'static> Forms<T> {
     /// Answers with what `made` makes of a document that was computed at the end of a job.
     pub(super) async fn made_of<D: DeserializeOwned>(
         self,

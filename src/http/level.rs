@@ -3,20 +3,18 @@
 use axum::extract::State;
 use axum::response::Response;
 use serde::Deserialize;
-use tokio::runtime::Handle;
 use utoipa::IntoParams;
 
-use super::download::{Download, DownloadQuery, lasting};
+use super::download::{Download, DownloadQuery};
 use super::extract::{JobPath, Parameters};
-use super::forms::{Forms, READ_MEMORY};
+use super::forms::Forms;
 use super::problem::Problem;
-use super::results::{find, sweep};
+use super::results::find;
 use super::state::AppState;
-use super::verdict::Judged;
+use super::verdict::judged;
 use crate::analysis::result::{LimitKind, SweepLevel};
 use crate::analysis::run;
 use crate::plot;
-use crate::store::StoreError;
 use crate::tokens::Principal;
 
 /// Parameters of a drawing of the level.
@@ -47,14 +45,6 @@ pub(super) async fn get_level(
     download: Download,
 ) -> Result<Response, Problem> {
     let job = find(&state, &whose, id).await?;
-    sweep(&job)?;
-    let bytes = READ_MEMORY * state.store.points_bytes(id).await?;
-    let (store, runtime, lasting) = (state.store.clone(), Handle::current(), lasting(&job));
-    let read = move || {
-        let judged = runtime.block_on(Judged::read(&store, &job))?;
-        Ok(judged.ok_or(StoreError::Unseen)?.by(run::level))
-    };
-    Forms::drawn_by(move |level: &SweepLevel| plot::wheel_level(level, query.quantity))
-        .answer(&state, download, lasting, bytes, read)
-        .await
+    let forms = Forms::drawn_by(move |level: &SweepLevel| plot::wheel_level(level, query.quantity));
+    judged(&state, job, download, forms, run::level).await
 }

@@ -2,6 +2,7 @@
 
 use axum::extract::State;
 use axum::response::Response;
+use serde::Serialize;
 use tokio::runtime::Handle;
 
 use super::download::{Download, DownloadQuery, lasting};
@@ -15,6 +16,7 @@ use crate::analysis::resolved::ResolvedSweep;
 use crate::analysis::result::{ErrorEstimate, Point, SweepVerdict};
 use crate::analysis::run::{self, ModelFacts};
 use crate::dynamics::sector::Units;
+use crate::export::Export;
 use crate::store::jobs::Job;
 use crate::store::{Store, StoreError};
 use crate::tokens::Principal;
@@ -36,14 +38,31 @@ pub(super) async fn get_verdict(
     download: Download,
 ) -> Result<Response, Problem> {
     let job = find(&state, &whose, id).await?;
+    judged(&state, job, download, Forms::undrawn(), run::judge).await
+}
+
+/// Function that makes a result of a sweep, its units, its finished speeds and their errors.
+type Judge<T> = fn(&ResolvedSweep, &Units, &[Point], Option<&ErrorEstimate>) -> T;
+
+/// Answers with what `judge` makes of the finished speeds of a job.
+///
+/// # Errors
+/// Problem of a job that is not a sweep; errors of the store.
+pub(super) async fn judged<T: Export + Serialize + Send + 'static>(
+    state: &AppState,
+    job: Job,
+    download: Download,
+    forms: Forms<T>,
+    judge: Judge<T>,
+) -> Result<Response, Problem> {
     sweep(&job)?;
-    let bytes = READ_MEMORY * state.store.points_bytes(id).await?;
+    let bytes = READ_MEMORY * state.store.points_bytes(job.id).await?;
     let (store, runtime, lasting) = (state.store.clone(), Handle::current(), lasting(&job));
     let read = move || {
         let judged = runtime.block_on(Judged::read(&store, &job))?;
-        Ok(judged.ok_or(StoreError::Unseen)?.by(run::judge))
+        Ok(judged.ok_or(StoreError::Unseen)?.by(judge))
     };
-    Forms::undrawn().answer(&state, download, lasting, bytes, read).await
+    forms.answer(state, download, lasting, bytes, read).await
 }
 
 /// Finished speeds of a sweep with their errors, from which its verdict is made.
@@ -65,10 +84,7 @@ impl<'a> Judged<'a> {
     }
 
     /// Result that `judge` makes of the speeds.
-    pub(super) fn by<T>(
-        &self,
-        judge: impl FnOnce(&ResolvedSweep, &Units, &[Point], Option<&ErrorEstimate>) -> T,
-    ) -> T {
+    pub(super) fn by<T>(&self, judge: Judge<T>) -> T {
         judge(self.request, &self.facts.units, &self.points, self.errors.as_ref())
     }
 }

@@ -53,3 +53,13 @@ export async function growing(context, { read, grown }, signal) {
   document.addEventListener('visibilitychange', () => !document.hidden && missed && soon(), { signal });
   await refresh();
 }
+
+/** Whether more speeds of a job are finished than when it was asked last. */
+export function moreSpeeds(job) {
+  let finished = job.speeds?.finished ?? 0;
+  return (now) => {
+    const before = finished;
+    finished = now.speeds?.finished ?? 0;
+    return finished > before;
+  };
+}

@@ -96,20 +96,8 @@ mod tests {
 
     /// Wheel of one sector with ω² = 100² + 1.5Ω² and 180², which are equal at 122.2 rad/s: between steps of 10 rad/s.
     fn wheel() -> ReducedWheel {
-        let diagonal = |a: f64, b: f64| {
-            Mat::from_fn(2, 2, |i, j| {
-                c64::new(
-                    if i != j {
-                        0.0
-                    } else if i == 0 {
-                        a
-                    } else {
-                        b
-                    },
-                    0.0,
-                )
-            })
-        };
+        let diagonal =
+            |a: f64, b: f64| Mat::from_fn(2, 2, |i, j| c64::new(if i == j { [a, b][i] } else { 0.0 }, 0.0));
         let coefficients = vec![diagonal(1e4, 3.24e4), diagonal(1.5, 0.0), diagonal(0.0, 0.0)];
         ReducedWheel {
             sectors: 1,

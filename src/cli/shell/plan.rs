@@ -97,6 +97,13 @@ fn sweep(plan: &SweepPlan) -> String {
             let _ = writeln!(words, "not         {:.2} rad/s: {message}", point.speed_rad_s);
         }
     }
+    if plan.validity_speeds_at_most > 0 {
+        let _ = writeln!(
+            words,
+            "afterwards  at most {} speeds once more, to measure the validity of linear theory where it is in doubt",
+            plan.validity_speeds_at_most
+        );
+    }
     let inside = plan.points.iter().filter_map(|point| point.interference).reduce(f64::max);
     if let Some(inside) = inside {
         let _ = writeln!(

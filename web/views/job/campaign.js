@@ -4,7 +4,7 @@ import { api } from '../../lib/api.js';
 import { h, replace } from '../../lib/dom.js';
 import { downloadButton } from '../../lib/download.js';
 import { count, known, number, speed } from '../../lib/format.js';
-import { growing } from '../../lib/growing.js';
+import { growing, moreSpeeds } from '../../lib/growing.js';
 import { plot } from '../../lib/plot.js';
 import { unread } from '../../lib/problem.js';
 import { table } from '../../lib/table.js';
@@ -41,13 +41,7 @@ export async function show(place, context, signal) {
       if (!signal.aborted) replace(told, unread(error, signal));
     }
   }
-  let finished = job.speeds?.finished;
-  const grown = (now) => {
-    const before = finished;
-    finished = now.speeds?.finished;
-    return finished !== before;
-  };
-  await growing(context, { read, grown }, signal);
+  await growing(context, { read, grown: moreSpeeds(job) }, signal);
 }
 
 function tables({ designs, sensitivities, threshold, comparison, settings, speeds_rad_s: speeds }) {

@@ -3,7 +3,7 @@
 import { api, Refusal } from '../../lib/api.js';
 import { h, replace } from '../../lib/dom.js';
 import { ended } from '../../lib/events.js';
-import { growing } from '../../lib/growing.js';
+import { growing, moreSpeeds } from '../../lib/growing.js';
 import { plot } from '../../lib/plot.js';
 import { unread } from '../../lib/problem.js';
 import { select, sensors } from './choices.js';
@@ -46,13 +46,7 @@ export async function show(place, context, signal) {
       if (!signal.aborted) replace(told, unread(error, signal));
     }
   }
-  let finished = job.speeds?.finished ?? 0;
-  const grown = (now) => {
-    const before = finished;
-    finished = now.speeds?.finished ?? 0;
-    return finished > before;
-  };
-  await growing(context, { read, grown }, signal);
+  await growing(context, { read, grown: moreSpeeds(job) }, signal);
 }
 
 /** Nodal diameters to choose from: their number follows from that of the sectors; none where the model is deleted. */

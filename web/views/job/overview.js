@@ -2,7 +2,7 @@
 
 import { api } from '../../lib/api.js';
 import { h, replace } from '../../lib/dom.js';
-import { growing } from '../../lib/growing.js';
+import { growing, moreSpeeds } from '../../lib/growing.js';
 import { count, number, percent, speed } from '../../lib/format.js';
 import { plot } from '../../lib/plot.js';
 import { unread } from '../../lib/problem.js';
@@ -61,13 +61,7 @@ export async function show(place, context, signal) {
       if (!signal.aborted) replace(told, unread(error, signal));
     }
   }
-  let finished = job.speeds?.finished ?? 0;
-  const grown = (now) => {
-    const before = finished;
-    finished = now.speeds?.finished ?? 0;
-    return finished > before;
-  };
-  await growing(context, { read, grown }, signal);
+  await growing(context, { read, grown: moreSpeeds(job) }, signal);
 }
 
 /** Takes the title out of a figure, which stands below the verdict, and the room that it has. */
