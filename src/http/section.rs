@@ -8,19 +8,19 @@ use utoipa::{IntoParams, ToSchema};
 use super::download::{Download, DownloadQuery};
 use super::extract::{ModelPath, Parameters};
 use super::forms::Forms;
+use super::histories::recorded_sweep;
 use super::models::model_not_found;
 use super::problem::Problem;
-use super::results::{find, sweep};
+use super::results::find;
 use super::state::AppState;
 use crate::analysis::result::{ContactPlace, NodeKind, SectorGeometry, SectorNode};
 use crate::analysis::run::{self, ModelFacts};
-use crate::package::{Face, Limits, PlacedNode, SectorNodes, read_places};
+use crate::jobs;
+use crate::package::{Face, Limits, PlacedNode, SectorNodes, read_mesh, read_places};
 use crate::plot::{self, SectionView};
+use crate::solid::silhouette::silhouette;
 use crate::store::jobs::JobId;
 use crate::tokens::Principal;
-
-/// Memory of a node while its table is read, shown and drawn, bytes; a node has three unknowns, seldom fewer.
-const NODE_MEMORY: u64 = 1 << 10;
 
 /// Section to download, and its drawing.
 #[derive(Debug, Deserialize, IntoParams)]
@@ -29,7 +29,7 @@ pub(super) struct SectionQuery {
     /// Direction from which a drawing shows the sector; default `meridional`.
     #[param(inline)]
     view: Option<ViewWord>,
-    /// Id of a sweep of this model, whose casing is shown with its clearance.
+    /// Id of a sweep or case study of this model, whose casing is shown with its clearance.
     #[param(max_length = 36)]
     sweep: Option<String>,
 }
@@ -67,7 +67,7 @@ pub(super) async fn get_section(
             let job = find(&state, &whose, JobId::parse(of).ok_or_else(unknown)?)
                 .await
                 .map_err(|problem| if problem.status == 404 { unknown() } else { problem })?;
-            let (request, _) = sweep(&job).map_err(|_| unknown())?;
+            let request = recorded_sweep(&job).map_err(|_| unknown())?;
             Some(request.clone()).filter(|request| request.model() == id).ok_or_else(unknown).map(Some)?
         }
     };
@@ -76,7 +76,7 @@ pub(super) async fn get_section(
         Some(ViewWord::Meridional) | None => SectionView::Meridional,
     };
     let path = state.store.package(&id).await?;
-    let bytes = NODE_MEMORY * u64::from(model.facts.own_dofs);
+    let bytes = jobs::sector_memory(model.facts.own_dofs);
     Forms::drawn_by(move |geometry: &SectorGeometry| plot::section(geometry, view))
         .answer(&state, download, Some(format!("model {id}")), bytes, move || {
             let places = read_places(&path, &Limits::default()).map_err(Box::new)?;
@@ -85,7 +85,12 @@ pub(super) async fn get_section(
             let normals: Vec<[f64; 3]> = places.contact.iter().map(|(_, normal)| *normal).collect();
             let clearances = request.as_ref().and_then(|request| run::clearances(request, &positions));
             let heights = request.and_then(|request| run::heights(&request, &positions, &normals));
-            Ok(geometry(&model.facts, &places, clearances.as_deref(), heights))
+            let mesh = read_mesh(&path, &Limits::default()).map_err(Box::new)?;
+            let silhouette = mesh.as_ref().map(silhouette).unwrap_or_default();
+            Ok(SectorGeometry {
+                silhouette,
+                ..geometry(&model.facts, &places, clearances.as_deref(), heights)
+            })
         })
         .await
 }
@@ -123,5 +128,6 @@ fn geometry(
         units: facts.units.clone(),
         nodes,
         contact: contact.collect(),
+        silhouette: Vec::new(),
     }
 }

@@ -119,6 +119,8 @@ pub(super) struct Curve {
     pub(super) class: &'static str,
     /// Opacity; 1 unless something below shows through.
     pub(super) opacity: f64,
+    /// Whether the closed lines of the strokes bound an area, with holes in it where they run the other way round.
+    pub(super) is_area: bool,
     /// Whether the legend of the figure names the curve.
     pub(super) is_listed: bool,
     /// Group of the legend whose curves are shown and hidden together, where that is not the name.
@@ -145,6 +147,7 @@ impl Curve {
             look: None,
             class: "",
             opacity: 1.0,
+            is_area: false,
             is_listed: true,
             group: None,
         }
@@ -153,6 +156,11 @@ impl Curve {
     /// Sets the group of the legend.
     pub(super) fn group(self, group: String) -> Self {
         Self { group: Some(group), ..self }
+    }
+
+    /// Makes the closed lines of the strokes the border of an area.
+    pub(super) fn area(self) -> Self {
+        Self { is_area: true, ..self }
     }
 
     /// Sets the title of all strokes in the drawing.

@@ -65,7 +65,6 @@ mod marched;
 mod margin;
 mod marks;
 mod merged;
-mod outline;
 mod pen;
 mod pixels;
 mod raster;

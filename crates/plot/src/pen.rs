@@ -19,6 +19,9 @@ use super::trace::Trace;
 /// Size of an empty frame with a message.
 const EMPTY: (f64, f64) = (800.0, 420.0);
 
+/// Colour of areas, of which as much shows as in figures.
+const AREA: &str = "#808a94";
+
 /// Height of a strip along the upper edge of a panel.
 const STRIP: f64 = 7.0;
 
@@ -149,7 +152,13 @@ fn areas(panel: &Panel, areas: &Areas) -> Element {
 /// Draws the strokes of a curve within a clipping region, the marks at their points, and the words at their ends.
 fn curve(panel: &Panel, curve: &Curve, clip: Option<String>) -> Element {
     let diagram = &panel.diagram;
-    let strokes = group().children(curve.strokes.iter().map(|one| stroke(panel, curve, one)));
+    let area = curve.is_area.then(|| {
+        let ring = |one: &Stroke| one.places.iter().copied().chain([None]).collect::<Vec<_>>();
+        let places = curve.strokes.iter().flat_map(ring);
+        let area = polyline(places.map(|place| place.map(|(x, y)| diagram.point(x, y))));
+        area.set("class", "area").set("style", format!("fill:{AREA};fill-opacity:0.22;fill-rule:evenodd"))
+    });
+    let strokes = group().children(area).children(curve.strokes.iter().map(|one| stroke(panel, curve, one)));
     let strokes = match clip {
         Some(clip) => strokes.set("clip-path", clip),
         None => strokes,

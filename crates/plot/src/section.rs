@@ -7,10 +7,9 @@ use super::diagram::Diagram;
 use super::drawing::Drawing;
 use super::key::MARK_WIDTH;
 use super::layer::{Course, Curve, Mark, Marks, Stroke};
-use super::outline::outline;
 use super::sketch::{Axis, Panel, Sketch};
 use super::style::{Colour, Dash, Look, Pen, Symbol};
-use super::svg::{Element, group, line, polyline, rectangle, text, text_width};
+use super::svg::{Element, group, line, rectangle, text, text_width};
 use rubmap_analysis::result::{NodeKind, SectorGeometry, SectorNode};
 use serde_json::json;
 
@@ -68,8 +67,8 @@ fn class(kind: NodeKind) -> &'static str {
     }
 }
 
-/// Nodes of the sector, one of those that cover each other, at the same scale in both directions; across the axis with the contact line and
-/// the casing at its clearance.
+/// Sector at the same scale in both directions: across the axis its silhouette with the contact line, the casing at its clearance, what is
+/// clamped and the axis of rotation; along the axis, and without elements, its nodes, one of those that cover each other.
 pub fn section(geometry: &SectorGeometry, view: SectionView) -> Drawing<'static> {
     let mut sketch = Sketch::new("section", title(geometry, view), vec![words(geometry, view)]).high(640);
     sketch = sketch.meta("units", json!({"x": geometry.units.length, "y": geometry.units.length}));
@@ -136,6 +135,8 @@ struct Section<'a> {
     diagram: Diagram,
     /// Magnification of the clearance.
     stretch: f64,
+    /// Ends of the axis of rotation where it is drawn.
+    axis: Option<[(f64, f64); 2]>,
 }
 
 impl<'a> Section<'a> {
@@ -143,12 +144,14 @@ impl<'a> Section<'a> {
     fn new(geometry: &'a SectorGeometry, view: SectionView, top: f64) -> Self {
         let nodes = geometry.nodes.iter().map(|node| node.position);
         let places = nodes.chain(geometry.contact.iter().map(|place| place.position));
-        let places: Vec<(f64, f64)> = places.map(|position| project(view, position)).collect();
+        let mut places: Vec<(f64, f64)> = places.map(|position| project(view, position)).collect();
+        let axis = axis(view, &places);
+        places.extend(axis.into_iter().flatten());
         let diagram = Diagram::of_one_scale(&places, (LEFT, top), (PLOT.0, f64::min(PLOT.1, 734.0 - top)));
         let scale = diagram.width / (diagram.x.values.1 - diagram.x.values.0);
         let clearance = geometry.contact.iter().filter_map(|place| place.clearance).fold(0.0, f64::max);
         let stretch = if clearance > 0.0 { round_up(VISIBLE / (clearance * scale)) } else { 1.0 };
-        Self { geometry, view, diagram, stretch }
+        Self { geometry, view, diagram, stretch, axis }
     }
 
     fn place(&self, position: [f64; 3]) -> (f64, f64) {
@@ -167,18 +170,27 @@ impl<'a> Section<'a> {
     fn panel(&self) -> Panel<'static> {
         let [x, y] = axes(self.geometry, self.view);
         let Diagram { left, top, width, height, .. } = self.diagram;
-        let x = Axis::linear(x, self.diagram.x.values, 9.0).free();
+        let x = Axis::linear(x, self.diagram.x.values, 9.0).one_scale();
         let y = Axis::linear(y, self.diagram.y.values, 8.0).one_scale();
         let mut panel = Panel::new((left, top), (width, height), x, y);
-        let area = self.area(&mut panel);
+        let has_silhouette = self.add_silhouette(&mut panel);
         let wall = self.add_wall(&mut panel);
         for (kind, words) in KINDS {
+            if has_silhouette && !matches!(kind, NodeKind::Clamped | NodeKind::Contact) {
+                continue;
+            }
             self.add_nodes(&mut panel, kind, words);
         }
         self.add_contact_line(&mut panel);
-        if area {
+        if has_silhouette {
             let patch = rectangle(2.0, -6.0, MARK_WIDTH - 4.0, 12.0).set("fill", "#e3e8ee");
-            panel.sample(patch.set("stroke", "#5a6672"), COVER);
+            panel.sample(patch.set("stroke", "#5a6672"), SILHOUETTE);
+        }
+        if let Some(ends) = self.axis {
+            let pen = Pen::new(Colour::neutral("#444444"), Dash::Mixed, 1.0);
+            let curve = Curve::new("axis of rotation", ends.map(Some), pen).class("axis");
+            panel.sample(curve.sample(), "axis of rotation");
+            panel.push(curve);
         }
         if let Some(wall) = wall {
             panel.sample(wall, "casing at rest");
@@ -209,23 +221,18 @@ impl<'a> Section<'a> {
         panel.push(marks);
     }
 
-    /// Adds the outline of the area that the nodes cover, turned into one plane; in the drawing, the area as well. Returns whether there
-    /// is one.
-    fn area(&self, panel: &mut Panel) -> bool {
-        let places = self.geometry.nodes.iter().map(|node| project(self.view, node.position));
-        let places: Vec<(f64, f64)> = places.filter(|_| self.view == SectionView::Meridional).collect();
-        let (triangles, edges) = outline(&places);
-        if edges.is_empty() {
+    /// Adds the silhouette of the elements; returns whether there is one in this view.
+    fn add_silhouette(&self, panel: &mut Panel) -> bool {
+        let rings = &self.geometry.silhouette;
+        if rings.is_empty() || self.view == SectionView::Cyclic {
             return false;
         }
-        let point = |(x, y): (f64, f64)| Some(self.diagram.point(x, y));
-        let corners = |[a, b, c]: [(f64, f64); 3]| [point(a), point(b), point(c), point(a), None];
-        let area = polyline(triangles.into_iter().flat_map(corners)).set("style", "fill:#e3e8ee");
-        // The stroke covers the slits between the triangles.
-        panel.push(area.set("class", "area").set("stroke", "#e3e8ee").set("stroke-width", "0.8"));
-        let rim = edges.into_iter().flat_map(|[a, b]| [Some(a), Some(b), None]);
-        let pen = Pen::new(Colour::neutral("#5a6672"), Dash::Solid, 1.2);
-        panel.push(Curve::new(COVER, rim, pen).class("outline"));
+        let stroke = |ring: &Vec<[f64; 2]>| Stroke {
+            places: ring.iter().chain(ring.first()).map(|&[z, r]| Some((z, r))).collect(),
+            title: String::new(),
+        };
+        let pen = Pen::new(Colour::neutral("#5a6672"), Dash::Solid, 1.4);
+        panel.push(Curve::of(SILHOUETTE, rings.iter().map(stroke), pen).class("silhouette").area());
         true
     }
 
@@ -302,8 +309,20 @@ impl<'a> Section<'a> {
     }
 }
 
-/// Name of the area that the nodes cover.
-const COVER: &str = "what the nodes cover";
+/// Name of the area that the elements cover.
+const SILHOUETTE: &str = "wheel";
+
+/// Ends of the axis of rotation across the axis, somewhat longer than the wheel; none where it is so far away that the wheel would be small.
+fn axis(view: SectionView, places: &[(f64, f64)]) -> Option<[(f64, f64); 2]> {
+    let ends = |value: fn(&(f64, f64)) -> f64| {
+        let values = places.iter().map(value);
+        values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), value| (a.min(value), b.max(value)))
+    };
+    let (z, r) = (ends(|place| place.0), ends(|place| place.1));
+    let beyond = 0.06 * (z.1 - z.0);
+    let is_near = view == SectionView::Meridional && r.0 <= 0.5 * r.1;
+    is_near.then_some([(z.0 - beyond, 0.0), (z.1 + beyond, 0.0)])
+}
 
 /// Projects cylindrical coordinates into the plane of a view.
 fn project(view: SectionView, [r, theta, z]: [f64; 3]) -> (f64, f64) {

@@ -173,7 +173,7 @@ impl Axis {
         Self::new(title, range, Kind::Names, ticks)
     }
 
-    /// Lets the figure show the range of its values at the scale of the horizontal axis.
+    /// Lets the figure show the range of its values, with one scale for both axes of the panel.
     pub(super) fn one_scale(self) -> Self {
         Self { zoom: Zoom::OneScale, ..self }
     }

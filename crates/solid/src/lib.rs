@@ -20,6 +20,7 @@ pub mod natural;
 pub mod place;
 pub mod rule;
 pub mod shape;
+pub mod silhouette;
 pub mod skin;
 pub mod stress;
 pub mod topology;

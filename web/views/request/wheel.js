@@ -8,41 +8,16 @@ import { shapeOf } from './shape.js';
 const [WIDTH, HEIGHT, MARGIN] = [360, 270, 26];
 /** Pixels that the larger of clearance and height is drawn as. */
 const SHOWN = 26;
-/** Places along the axis at which the outline of the wheel is drawn, and the shares of the axis to either side in which its highest and its lowest node are looked for. */
-const PLACES = 40;
-const BESIDE = { most: 0.05, least: 0.13 };
 
-/** Radius of a line of points (z, r) at a z within it; nothing beside it. */
-function radiusAt(points, z) {
-  const k = points.findIndex(([at], n) => n > 0 && (at - z) * (points[n - 1][0] - z) <= 0);
-  if (k < 0) return Infinity;
-  const [a, b] = [points[k - 1], points[k]];
-  return b[0] === a[0] ? Math.max(a[1], b[1]) : a[1] + ((z - a[0]) / (b[0] - a[0])) * (b[1] - a[1]);
-}
-
-/** Radius and z of the wheel's outline: the highest and the lowest node about every place along the axis, no higher than the tips. */
-function outline(nodes, tips) {
-  const points = nodes.map(({ position: [r, , z] }) => [z, r]).sort((a, b) => a[0] - b[0]);
-  const [low, high] = [points[0][0], points.at(-1)[0]];
-  const extreme = (of, z, share) => {
-    const near = points.filter(([at]) => Math.abs(at - z) <= share * (high - low)).map(([, r]) => r);
-    return near.length > 0 ? near.reduce((a, b) => of(a, b)) : null;
-  };
-  const zs = Array.from({ length: PLACES + 1 }, (_, k) => low + ((high - low) * k) / PLACES);
-  const side = (of, share) => zs.map((z) => [z, extreme(of, z, share)]).filter(([, r]) => r !== null);
-  const top = side(Math.max, BESIDE.most).map(([z, r]) => [z, Math.min(r, radiusAt(tips, z))]);
-  return [...top, ...side(Math.min, BESIDE.least).reverse()];
-}
-
-/** What is drawn of a model's section whatever the casing: the line of the tips, its normals, the outline. */
-function profileOf({ contact, nodes }) {
+/** What is drawn of a model's section whatever the casing: the line of the tips, its normals, and the silhouette, or nodes where there are no elements. */
+function profileOf({ contact, nodes, silhouette = [] }) {
   const points = contact.map(({ position: [r, , z] }) => [z, r]);
-  return { points, normals: contact.map(({ normal: [r, , z] }) => [z, r]), body: outline(nodes, points) };
+  return { points, normals: contact.map(({ normal: [r, , z] }) => [z, r]), body: silhouette, dots: silhouette.length > 0 ? [] : nodes.map(({ position: [r, , z] }) => [z, r]) };
 }
 
 /** The meridional section: the wheel, its casing in the distance of the clearance, and where lobes stand. */
-function meridian({ points, normals, body }, shape) {
-  const all = [...body, ...points];
+function meridian({ points, normals, body, dots }, shape) {
+  const all = [...body.flat(), ...dots, ...points];
   const extreme = (of, k) => all.reduce((so, point) => of(so, point[k]), all[0][k]);
   const [left, right, top] = [extreme(Math.min, 0), extreme(Math.max, 0), extreme(Math.max, 1)];
   const scale = Math.min((WIDTH - 2 * MARGIN - SHOWN) / (right - left || 1), (HEIGHT - MARGIN - SHOWN - 20) / (top || 1));
@@ -55,10 +30,11 @@ function meridian({ points, normals, body }, shape) {
   });
   const casing = offset((share) => shape.at(share));
   const crest = shape.highest > 0 ? offset((share) => shape.at(share) - shape.highest) : null;
-    return {
+  return {
     times,
     picture: drawing('Meridional section: wheel, casing and crest of its shape', WIDTH, HEIGHT,
-      s('path', { class: 'body', d: line(body.map(at), true) }),
+      s('path', { class: 'body', d: body.map((ring) => line(ring.map(at), true)).join('') }),
+      s('path', { class: 'dots', d: dots.map((dot) => `${line([at(dot)])}h0`).join('') }),
       s('path', { class: 'tip', d: line(points.map(at)) }),
       s('path', { class: 'casing', d: line(casing) }),
       crest ? s('path', { class: 'crest', d: line(crest) }) : null,

@@ -18,6 +18,9 @@ pub struct SectorGeometry {
     pub nodes: Vec<SectorNode>,
     /// Contact line, from the leading to the trailing edge.
     pub contact: Vec<ContactPlace>,
+    /// Closed lines `[z, r]` around the area that the elements cover when they are turned into one plane; absent without elements.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub silhouette: Vec<Vec<[f64; 2]>>,
 }
 
 /// A node of the sector.

@@ -156,6 +156,6 @@ attributes! {
         kind: &'static str, title: Title, range: [f64; 2], rangemode: &'static str, domain: [f64; 2], anchor: String,
         matches: &'static str, visible: bool, automargin: bool, separatethousands: bool, exponentformat: &'static str, dtick: f64,
         nticks: u32, tickangle: f64, tickvals: Vec<f64>, ticktext: Vec<String>, ticksuffix: &'static str, zeroline: bool,
-        scaleanchor: &'static str, scaleratio: f64,
+        scaleanchor: &'static str, scaleratio: f64, constrain: &'static str,
     }
 }

@@ -219,6 +219,7 @@ fn curve(curve: &Curve, sampled: usize, thinned_by: &mut usize) -> Scatter {
         }
     };
     let trace = if curve.opacity < 1.0 { trace.opacity(curve.opacity) } else { trace };
+    let trace = if curve.is_area { trace.fill("toself").fillcolor("rgba(128,138,148,0.22)") } else { trace };
     let trace = match curve.labels.is_empty() {
         true => trace,
         false => trace.text(ends(curve)).textposition("bottom left"),
@@ -427,6 +428,7 @@ fn axes(figure: Figure, panels: &[Panel]) -> Figure {
             false if index == lowest => y,
             false => y.anchor("x"),
         };
+        let y = if panel.y.zoom == Zoom::OneScale { y.scaleanchor("x").scaleratio(1.0) } else { y };
         let y = match panel.domain {
             Some(domain) => y.domain(domain),
             None => y,
@@ -463,7 +465,7 @@ fn axis_of(described: &sketch::Axis) -> Axis {
     match described.zoom {
         Zoom::Same => axis.range([low, high]),
         Zoom::Free => axis,
-        Zoom::OneScale => axis.scaleanchor("x").scaleratio(1.0),
+        Zoom::OneScale => axis.constrain("domain"),
         Zoom::FromZero => axis.rangemode("tozero"),
     }
 }
