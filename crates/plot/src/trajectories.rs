@@ -74,15 +74,18 @@ fn words(histories: &SpeedHistories) -> Vec<String> {
         origin(&histories.settings.model, &histories.version)
     );
     let mut paragraphs = vec![words];
-    let growing = f64::from(first) < histories.settings.integration.ramp_revolutions;
-    let shaped = histories.sensors.iter().any(|s| s.tip.as_ref().is_some_and(|tip| !tip.heights.is_empty()));
-    if growing && shaped {
-        let ramp = histories.settings.integration.ramp_revolutions;
-        let words = if ramp == 1.0 { "revolution".to_owned() } else { format!("{ramp} revolutions") };
-        paragraphs
-            .push(format!("the shape of the casing, drawn at full height, grows over the first {words}"));
-    }
+    paragraphs.extend(growing(histories, first));
     paragraphs
+}
+
+/// Words about a shape of the casing that is drawn at full height and has not grown to it by the revolution `first`.
+pub(super) fn growing(histories: &SpeedHistories, first: u32) -> Option<String> {
+    let ramp = histories.settings.integration.ramp_revolutions;
+    let is_shaped =
+        histories.sensors.iter().any(|s| s.tip.as_ref().is_some_and(|tip| !tip.heights.is_empty()));
+    let words = if ramp == 1.0 { "revolution".to_owned() } else { format!("{ramp} revolutions") };
+    let is_growing = is_shaped && f64::from(first) < ramp;
+    is_growing.then(|| format!("the shape of the casing, drawn at full height, grows over the first {words}"))
 }
 
 /// Tip whose outward motion and position before the casing are known.
