@@ -4,7 +4,7 @@ use super::axis::{label, significant};
 use super::cells::rpm;
 use super::drawing::Drawing;
 use super::frame::Frame;
-use super::layer::{Mark, Marks};
+use super::layer::{Curve, Mark, Marks, Stroke};
 use super::marks;
 use super::sketch::{Axis, Panel, Sketch};
 use super::style::{Colour, Dash, Look, Pen, Symbol};
@@ -18,6 +18,12 @@ const QUIETEST: f64 = 1e-4;
 
 /// Largest number of lines drawn; more would be a black area.
 const MOST: usize = 4000;
+
+/// Number of lines from which only peaks stand on stems, and what lies between them is a curve: stems side by side would cover those behind.
+const DENSE: usize = 300;
+
+/// Largest number of nodal diameters that the key names, one for each distinct colour; the others are one entry.
+const NAMED: usize = 6;
 
 /// Spectra of the sensor of index `sensor` at one speed: in the rotating frame its amplitude above those of the wheel's nodal diameters, in
 /// the fixed frame the latter where they may be seen, a name for each nodal diameter. Amplitudes are logarithmic over four decades.
@@ -61,13 +67,22 @@ pub fn spectrum(
     let y = Axis::logarithmic(format!("amplitude, {unit}"), range, 9);
     let above = Panel::new((92.0, top), (864.0, height), x(), y);
     let mut above = above.domain(0.56, 1.0);
-    let mark = |(order, amplitude): &(f64, f64)| {
-        let words = format!("engine order {}: {} {unit}", marks::order(*order), significant(*amplitude));
-        Mark { more: hertz(*order, point), ..Mark::new((*order, *amplitude), words) }
+    let mark = |line: &Bin| {
+        let words =
+            format!("engine order {}: {} {unit}", marks::order(line.order), significant(line.amplitude));
+        Mark { more: hertz(line.order, point), ..Mark::new((line.order, line.amplitude), words) }
     };
     let colour = Colour { paper: INK.to_owned(), ..Colour::curve() };
+    let is_dense = largest.len() > DENSE;
+    if is_dense {
+        let places = largest.iter().map(|line| (line.bin, (line.order, line.amplitude)));
+        skirts(&found.sensor.to_string(), places, colour.clone())
+            .into_iter()
+            .for_each(|curve| above.push(curve));
+    }
     let look = Look::filled(Symbol::Circle, (0.0, 4.0), colour);
-    let stems = Marks::new(&found.sensor.to_string(), look, largest.iter().map(mark));
+    let shown = largest.iter().filter(|line| line.is_peak || !is_dense);
+    let stems = Marks::new(&found.sensor.to_string(), look, shown.map(mark)).unlisted();
     above.push(Marks { stems: Some(Dash::Solid), ..stems.class("whole") });
     sketch.with(panel.domain(0.0, 0.47)).with(above).into()
 }
@@ -111,17 +126,47 @@ fn verdict(point: &Point) -> String {
     format!("{settled} · amplitudes are single-sided, the mean is left out · rubmap {}", point.version)
 }
 
-/// Range of amplitudes, and engine orders with amplitudes.
-type WholeLines = ((f64, f64), Vec<(f64, f64)>);
+/// Amplitude at one engine order of a spectrum.
+struct Bin {
+    /// Index of the engine order.
+    bin: usize,
+    order: f64,
+    amplitude: f64,
+    /// Whether neither neighbour is larger.
+    is_peak: bool,
+}
 
-/// Lines of the spectrum of the sensor that are drawn, as engine orders with amplitudes, the largest first, and the range of amplitudes;
-/// none if it does not move.
-fn whole_lines(spectra: &SpeedSpectra, found: &SensorSpectrum) -> Option<WholeLines> {
-    let lines = spectra.engine_orders.iter().copied().zip(found.amplitude.iter().copied());
-    let mut shown: Vec<(f64, f64)> = lines.filter(|(order, _)| *order > 0.0).collect();
-    let range = range(shown.iter().map(|line| line.1))?;
-    shown.retain(|(_, amplitude)| (range.0..=range.1).contains(amplitude));
-    shown.sort_by(|a, b| b.1.total_cmp(&a.1));
+/// Amplitudes of a spectrum at engine orders above 0 where they are numbers.
+fn bins<'a>(orders: &'a [f64], amplitudes: &'a [f64]) -> impl Iterator<Item = Bin> + 'a {
+    let at = |bin: usize| amplitudes.get(bin).copied().unwrap_or(0.0);
+    let found = orders.iter().zip(amplitudes).enumerate().map(move |(bin, (&order, &amplitude))| {
+        let before = if bin > 0 { at(bin - 1) } else { 0.0 };
+        Bin { bin, order, amplitude, is_peak: amplitude >= before && amplitude >= at(bin + 1) }
+    });
+    found.filter(|bin| bin.order > 0.0 && bin.amplitude.is_finite())
+}
+
+/// Curve along the lines of a dense spectrum, given with their indices; it is interrupted where lines are left out, and absent where none is
+/// beside another.
+fn skirts(name: &str, lines: impl Iterator<Item = (usize, (f64, f64))>, colour: Colour) -> Option<Curve> {
+    let mut lines: Vec<(usize, (f64, f64))> = lines.collect();
+    lines.sort_by_key(|(bin, _)| *bin);
+    let stroke = |run: &[(usize, (f64, f64))]| Stroke {
+        places: run.iter().map(|(_, place)| Some(*place)).collect(),
+        title: String::new(),
+    };
+    let runs = lines.chunk_by(|a, b| b.0 == a.0 + 1).filter(|run| run.len() > 1);
+    let curve =
+        Curve::of(name, runs.map(stroke), Pen::new(colour, Dash::Solid, 1.1)).class("skirts").unlisted();
+    Some(curve).filter(|curve| !curve.strokes.is_empty())
+}
+
+/// Lines of the spectrum of the sensor that are drawn, the largest first, and the range of amplitudes; none if it does not move.
+fn whole_lines(spectra: &SpeedSpectra, found: &SensorSpectrum) -> Option<((f64, f64), Vec<Bin>)> {
+    let mut shown: Vec<Bin> = bins(&spectra.engine_orders, &found.amplitude).collect();
+    let range = range(shown.iter().map(|line| line.amplitude))?;
+    shown.retain(|line| (range.0..=range.1).contains(&line.amplitude));
+    shown.sort_by(|a, b| b.amplitude.total_cmp(&a.amplitude));
     shown.truncate(MOST);
     Some((range, shown))
 }
@@ -146,6 +191,9 @@ struct Line {
     seen: f64,
     forward: bool,
     amplitude: f64,
+    /// Index of the engine order, and whether neither neighbour is larger.
+    bin: usize,
+    is_peak: bool,
 }
 
 /// Lines of all nodal diameters.
@@ -166,16 +214,30 @@ struct Shown<'a> {
     all: bool,
 }
 
+impl Shown<'_> {
+    /// Nodal diameters with the largest lines, which have a name each, and the others that move; both in their order.
+    fn named(&self) -> (Vec<usize>, Vec<usize>) {
+        let mut all: Vec<usize> = Vec::new();
+        for line in &self.lines {
+            if !all.contains(&line.nodal_diameter) {
+                all.push(line.nodal_diameter);
+            }
+        }
+        let mut others = all.split_off(all.len().min(NAMED));
+        all.sort_unstable();
+        others.sort_unstable();
+        (all, others)
+    }
+}
+
 impl Lines {
     fn of(spectra: &SpeedSpectra, found: &SensorSpectrum, frame: Frame) -> Self {
         let mut lines = Vec::new();
         for (nodal_diameter, row) in found.nodal_diameters.iter().enumerate() {
-            for (&order, &amplitude) in spectra.engine_orders.iter().zip(row) {
-                if order <= 0.0 || !amplitude.is_finite() {
-                    continue;
-                }
+            for Bin { bin, order, amplitude, is_peak } in bins(&spectra.engine_orders, row) {
                 let n = nodal_diameter as f64;
-                let here = |seen, forward| Line { nodal_diameter, order, seen, forward, amplitude };
+                let here =
+                    |seen, forward| Line { nodal_diameter, order, seen, forward, amplitude, bin, is_peak };
                 match frame {
                     Frame::Rotating => lines.push(here(order, true)),
                     // A standing wave is seen at its own order.
@@ -241,25 +303,39 @@ impl Lines {
             }
         };
         panel.heading("nodal diameter");
-        for (i, forward) in (0..self.harmonics).flat_map(|i| [(i, true), (i, false)]) {
-            let here = shown.lines.iter().filter(|line| line.nodal_diameter == i && line.forward == forward);
-            let mark = |line: &&Line| Mark {
-                more: hertz(line.seen, point),
-                ..Mark::new((line.seen, line.amplitude), self.words(line, unit))
+        let is_dense = shown.lines.len() > DENSE;
+        let (named, others) = shown.named();
+        let of = |i: usize| move |line: &&&Line| line.nodal_diameter == i;
+        for &i in others.iter().chain(&named) {
+            let (name, colour, words) = match named.iter().position(|&other| other == i) {
+                Some(_) if self.harmonics <= NAMED => {
+                    (format!("nodal diameter {i}"), Colour::ordinal(i, self.harmonics), i.to_string())
+                }
+                Some(place) => {
+                    (format!("nodal diameter {i}"), Colour::ordinal(place, named.len()), i.to_string())
+                }
+                None => ("other nodal diameters".to_owned(), Colour::neutral("#999999"), "others".to_owned()),
             };
-            let colour = Colour::ordinal(i, self.harmonics);
-            let way = if forward { "" } else { ", |k−n|" };
-            let marks = Marks::new(
-                &format!("nodal diameter {i}{way}"),
-                look(i, forward, colour.clone()),
-                here.map(mark),
-            );
-            if forward && !marks.marks.is_empty() {
-                let stem = Pen::new(colour, Dash::Solid, 1.4).sample();
-                panel.sample(group().child(stem).child(marks.look.sample()), &i.to_string());
+            for forward in [true, false] {
+                let here = || shown.lines.iter().filter(of(i)).filter(|line| line.forward == forward);
+                if is_dense {
+                    let places = here().map(|line| (line.bin, (line.seen, line.amplitude)));
+                    skirts(&name, places, colour.clone()).into_iter().for_each(|curve| panel.push(curve));
+                }
+                let mark = |line: &&Line| Mark {
+                    more: hertz(line.seen, point),
+                    ..Mark::new((line.seen, line.amplitude), self.words(line, unit))
+                };
+                let peaks = here().filter(|line| line.is_peak || !is_dense);
+                let marks = Marks::new(&name, look(i, forward, colour.clone()), peaks.map(mark));
+                let is_last_other = named.contains(&i) || others.last() == Some(&i);
+                if forward && is_last_other && !marks.marks.is_empty() {
+                    let stem = Pen::new(colour.clone(), Dash::Solid, 1.4).sample();
+                    panel.sample(group().child(stem).child(marks.look.sample()), &words);
+                }
+                let dash = if forward { Dash::Solid } else { Dash::Dotted };
+                panel.push(Marks { stems: Some(dash), ..marks });
             }
-            let dash = if forward { Dash::Solid } else { Dash::Dotted };
-            panel.push(Marks { stems: Some(dash), ..marks });
         }
         if self.frame == Frame::Fixed && shown.lines.iter().any(|line| line.nodal_diameter > 0) {
             panel.heading("direction of travel");

@@ -149,7 +149,11 @@ fn all() -> Vec<Drawing> {
             "Revolutions 0 to 4: contact of the wheel",
             &["contact nodes that touch", "length in contact, mm"],
         ),
-        (history(HistoryQuantity::Energy), "Revolutions 0 to 4: energy", &["energy, N·mm"]),
+        (
+            history(HistoryQuantity::Energy),
+            "Revolutions 0 to 4: energy",
+            &["stored: kinetic and potential, N·mm", "added up since the start, N·mm"],
+        ),
         (
             histories(&first_revolutions(&[1, 2], 20, 9), 0),
             "First 2 revolutions",
@@ -465,6 +469,49 @@ fn trajectories_stand_where_the_tip_is() {
     let wall = super::corners(super::of_class(&read, "casing").next().unwrap());
     let lowest = wall.iter().map(|corner| corner.1).fold(0.0, f64::max);
     assert!(super::is_near(lowest, super::level(&read, "−0.1")), "0.3 less lobes of 0.4: {lowest}");
+}
+
+/// Casing of two lobes of 0.4 in a clearance of 0.3, before a tip that stands at 90°: nearest after a quarter of a revolution.
+#[test]
+fn histories_have_the_casing_that_the_tip_meets() {
+    let mut recorded = recorded([3, 4], 8);
+    let tip = recorded.sensors[0].tip.as_mut().unwrap();
+    tip.angle_rad = std::f64::consts::FRAC_PI_2;
+    let wave = |i: u32| (std::f64::consts::TAU * f64::from(i) / 360.0).cos().max(0.0);
+    tip.heights = (0..720).map(|i| 0.4 * wave(i).powi(4)).collect();
+    let drawing = speed_histories(&recorded, HistoryQuantity::Displacement, 0);
+    let read = Document::parse(&drawing).unwrap();
+    let wall = super::corners(super::of_class(&read, "casing").next().unwrap());
+    assert_eq!(wall.len(), 8);
+    assert!(super::is_near(wall[1].1, super::level(&read, "−0.1")), "{wall:?}");
+    assert!(
+        super::is_near(wall[1].0, 0.5 * (super::tick(&read, "3.2") + super::tick(&read, "3.3"))),
+        "{wall:?}"
+    );
+    let clearance = super::corners(super::of_class(&read, "casing").nth(1).unwrap());
+    assert!(
+        clearance.iter().all(|corner| super::is_near(corner.1, super::level(&read, "0.3"))),
+        "{clearance:?}"
+    );
+}
+
+/// Silhouette where the axes have its corners, and no dots of the nodes that it bounds.
+#[test]
+fn a_section_with_elements_is_an_area() {
+    let mut geometry = sector(5);
+    geometry.silhouette = vec![vec![[10.0, 20.0], [60.0, 20.0], [60.0, 90.0], [10.0, 90.0]]];
+    let drawing = section(&geometry, SectionView::Meridional);
+    let read = Document::parse(&drawing).unwrap();
+    let ring = super::corners(super::of_class(&read, "silhouette").next().unwrap());
+    assert!(
+        super::is_near(ring[2].0, super::tick(&read, "60"))
+            && super::is_near(ring[0].1, super::level(&read, "20")),
+        "{ring:?}"
+    );
+    assert!(
+        super::of_class(&read, "internal").next().is_none()
+            && super::of_class(&read, "axis").next().is_some()
+    );
 }
 
 /// Results with the fewest and emptiest entries make drawings without numbers that are not finite.

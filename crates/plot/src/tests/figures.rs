@@ -199,6 +199,32 @@ fn the_fixed_frame_has_no_engine_orders_of_the_wheel() {
     }
 }
 
+/// Ten nodal diameters, each a resonance at its own engine order: marks at those orders only, and at most eight entries.
+#[test]
+fn dense_spectra_mark_peaks_and_name_the_largest() {
+    let mut dense = spectra(10);
+    for (n, row) in dense.sensors[0].nodal_diameters.iter_mut().enumerate() {
+        let away = |bin: usize| (bin as f64 - 4.0 * n as f64) / 2.0;
+        row.iter_mut()
+            .enumerate()
+            .for_each(|(bin, value)| *value = 0.01 * (1.0 + n as f64) / (1.0 + away(bin).powi(2)));
+    }
+    let figure = json!(figure::spectrum(&dense, &credentials(), &mm(), 0, Frame::Rotating));
+    let traces = figure["data"].as_array().unwrap();
+    let listed: Vec<&str> = traces
+        .iter()
+        .filter(|one| one["showlegend"] != json!(false))
+        .filter_map(|one| one["name"].as_str())
+        .collect();
+    assert_eq!(listed.iter().filter(|name| name.starts_with("nodal diameter ")).count(), 6, "{listed:?}");
+    assert!(listed.contains(&"other nodal diameters") && listed.len() <= 8, "{listed:?}");
+    for n in 4..10 {
+        let name = json!(format!("nodal diameter {n}"));
+        let marks = traces.iter().find(|one| one["name"] == name && one["mode"] == json!("markers")).unwrap();
+        assert_eq!(numbers(&marks["x"]), [n as f64]);
+    }
+}
+
 #[test]
 fn histories_keep_their_extremes() {
     let long = recorded([10, 50], 512);
