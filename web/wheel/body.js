@@ -21,15 +21,17 @@ function turned(values, turn) {
 }
 
 /**
- * A surface about its axis: points, displacement, and pairs of points along the contact line.
+ * A surface about its axis: points, displacement (that of another field on it as well), and pairs of points along the contact line.
  * @param {ReturnType<import('./vtp.js').readSurface>} surface
  */
 export function aboutAxis(surface) {
   const frame = axisFrame(surface);
-  const vectors = (name) => (surface.arrays.has(name) ? turned(surface.arrays.get(name), frame.vector) : null);
+  const vectors = (name, { arrays } = surface) => (arrays.has(name) ? turned(arrays.get(name), frame.vector) : null);
   const points = turned(surface.points, frame.point);
   const line = contactLine(surface);
-  return { points, real: vectors('displacement'), imaginary: vectors('displacement_imaginary'), line, front: opensUp(points, line), triangles: surface.triangles, edges: surface.edges };
+  const axes = [[1, 0, 0], [0, 1, 0], [0, 0, 1]].map(frame.vector);
+  const displacement = (other) => vectors('displacement', other);
+  return { points, axes, displacement, real: displacement(surface), imaginary: vectors('displacement_imaginary'), line, front: opensUp(points, line), triangles: surface.triangles, edges: surface.edges };
 }
 
 /** Points of the contact lines in their order: pairs to join, and all of them. */

@@ -3,8 +3,8 @@
 /** Half of the angle that is seen, rad. */
 const HALF = 0.35;
 
-/** Tilt of the axis of rotation towards the reader at first, rad: 0 is along it. */
-const TILT = 0.9;
+/** Tilt of the axis of rotation towards the reader at first, rad: 0 is along it. Blades do not hide each other's tips so. */
+const TILT = 0.7;
 
 function multiply(a, b) {
   const product = new Float32Array(16);
@@ -19,19 +19,21 @@ function multiply(a, b) {
 }
 
 /**
- * A camera about a point of the axis for what lies within `radius` of it; at first on the side where z is positive if `front`.
+ * A camera about a point of the axis for what lies within `radius` of it; at first on the side where z is positive if `front`. The side
+ * that is looked at is up.
  * @param {number} middle its z
  * @param {number} radius
  * @param {boolean} front
  */
 export function camera(middle, radius, front) {
+  const up = front ? 1 : -1;
   const first = () => ({ around: 0.5, tilt: front ? TILT : Math.PI - TILT, far: 1, x: 0, y: 0 });
   let at = first();
   const distance = () => at.far * radius / Math.sin(HALF);
   return {
     turn(around, tilt) {
-      at.around += around;
-      at.tilt = Math.max(0, Math.min(Math.PI, at.tilt + tilt));
+      at.around += up * around;
+      at.tilt = Math.max(0, Math.min(Math.PI, at.tilt + up * tilt));
     },
     shift(x, y) {
       at.x += x * at.far;
@@ -47,7 +49,7 @@ export function camera(middle, radius, front) {
     view() {
       const [s, c] = [Math.sin(at.around), Math.cos(at.around)];
       const [t, u] = [-Math.sin(at.tilt), Math.cos(at.tilt)];
-      const turned = new Float32Array([c, u * s, t * s, 0, -s, u * c, t * c, 0, 0, -t, u, 0, 0, 0, 0, 1]);
+      const turned = new Float32Array([up * c, up * u * s, t * s, 0, -up * s, up * u * c, t * c, 0, 0, -up * t, u, 0, 0, 0, 0, 1]);
       const moved = new Float32Array([1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, -middle, 1]);
       const view = multiply(turned, moved);
       view[12] += at.x * radius;
@@ -55,6 +57,10 @@ export function camera(middle, radius, front) {
       view[14] -= distance();
       return view;
     },
+    /** A plane through the axis, as a, b, c, d of ax + by + cz + d = 0; the reader is where that is negative. */
+    plane: () => [Math.sin(at.around), Math.cos(at.around), 0, 0],
+    /** Pixels of a length at the middle of the wheel, in a picture of this size. */
+    pixels: (width, height) => height * Math.min(1, width / height) / (2 * Math.tan(HALF) * distance()),
     /** From the wheel's coordinates to those of a picture with this ratio of width to height. */
     through(aspect) {
       return multiply(this.projection(aspect), this.view());

@@ -2,6 +2,7 @@
 
 import { h } from '../lib/dom.js';
 import { number } from '../lib/format.js';
+import { round } from './overlay.js';
 
 /** From low to high, red, green, blue from 0 to 1, evenly spaced. */
 const CIVIDIS = [
@@ -15,13 +16,22 @@ export function texels() {
 }
 
 /**
- * A key of the colours.
+ * A key of the colours, with ticks at round values.
  * @param {number} most the value at the upper end; the lower is 0
  * @param {string} words quantity and unit
+ * @param {{value: number, words: string} | null} [limit] above which values are striped
  */
-export function colourKey(most, words) {
+export function colourKey(most, words, limit = null) {
   const bar = h('span', { class: 'colour-bar', role: 'img', 'aria-label': `Colours from 0 to ${number(most, 3)}` });
   const stops = CIVIDIS.map((colour) => `rgb(${colour.map((part) => Math.round(255 * part)).join(' ')})`);
   bar.style.setProperty('background-image', `linear-gradient(to right, ${stops.join(', ')})`);
-  return h('div', { class: 'row small' }, h('span', {}, words), '0', bar, number(most, 3));
+  const step = round(most / 4);
+  const rounds = Array.from({ length: Math.floor(most / step) + 1 }, (_, k) => k * step).filter((value) => value < 0.88 * most);
+  const ticks = [...rounds, most].map((value) => {
+    const tick = h('span', { class: 'tick' }, number(value, 3));
+    tick.style.setProperty('left', `${100 * value / most}%`);
+    return tick;
+  });
+  return h('div', { class: 'row small' }, h('span', {}, words), h('span', { class: 'colour-scale' }, bar, ticks),
+    limit ? h('span', {}, `${most > limit.value ? 'striped' : 'nothing'}: above ${limit.words}`) : null);
 }

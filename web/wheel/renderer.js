@@ -45,13 +45,13 @@ export function renderer(canvas) {
   return {
     /**
      * What is drawn, in this order: `points` (x, y, z each), `real` and `imaginary` displacement, `values` (0 to 1 along the colours, below 0 for the body's
-     * own colour), and `parts`: {mode: 'triangles' | 'lines' | 'points', indices, colour: [r, g, b, a], nearer, size}.
+     * own colour), `spins` (whether it turns against the wheel), and `parts`: {mode: 'triangles' | 'lines' | 'points', indices, colour: [r, g, b, a], nearer, size}.
      */
     show(list) {
       for (const body of bodies) body.buffers?.forget();
       bodies = list.map((body) => ({ ...body, buffers: buffers(gl, body) }));
     },
-    draw({ view, projection, phase, ground, hidden, moving }) {
+    draw({ view, projection, phase, spin, cut, limit, ground, hidden, moving }) {
       if (gl.isContextLost()) return;
       gl.viewport(0, 0, canvas.width, canvas.height);
       gl.clearColor(...ground, 1);
@@ -68,10 +68,14 @@ export function renderer(canvas) {
           gl.uniform1f(at.nearer, part.nearer ?? 0);
           gl.uniform1f(at.size, part.size ?? 1);
           gl.uniform4f(at.plain, ...part.colour);
+          gl.uniform2f(at.spin, ...(body.spins ? [Math.cos(spin), Math.sin(spin)] : [1, 0]));
+          gl.uniform4f(at.cut, ...(cut ?? [0, 0, 0, 1]));
+          gl.uniform1f(at.limit, limit);
           const translucent = part.colour[3] < 1;
+          gl.uniform1i(at.opened, Number(cut !== null && !translucent));
           if (translucent) gl.enable(gl.BLEND);
-          // A skin is closed, and nobody sees its inside.
-          if (!translucent) gl.enable(gl.CULL_FACE);
+          // A skin is closed, and nobody sees its inside unless it is cut.
+          if (!translucent && !cut) gl.enable(gl.CULL_FACE);
           gl.depthMask(!translucent);
           gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, body.buffers.indices[number]);
           gl.drawElements({ triangles: gl.TRIANGLES, lines: gl.LINES, points: gl.POINTS }[part.mode], part.indices.length, gl.UNSIGNED_INT, 0);

@@ -1,6 +1,5 @@
 // The skin of a sector, whose patches and sharp edges can be pointed at.
 
-import { under } from './pick.js';
 import { rgb, stage } from './stage.js';
 
 /** Colours of parts by their role, which readers with any kind of colour vision can distinguish. */
@@ -38,7 +37,7 @@ function placed({ positions, axis, contact_line: line }) {
   points.forEach((value, k) => { points[k] = value - middle[k % 3]; });
   const radius = Math.hypot(...high.map((value, d) => (value - low[d]) / 2));
   const up = line.reduce((sum, node) => sum + points[3 * node + 2], 0);
-  return { points, radius, front: up >= 0 };
+  return { points, radius, front: up >= 0, axes: [0, 1, 2].map((d) => frame.map((direction) => direction[d])) };
 }
 
 /** Everything of a look that does not change with the pointer. */
@@ -95,7 +94,7 @@ function partsOf(body, lit) {
  */
 export function sectorStage(first, { label, over, clicked }, signal) {
   let body = bodyOf(first);
-  const shown = stage({ label, middle: 0, radius: CLOSE * body.radius, front: body.front }, signal);
+  const shown = stage({ label, middle: 0, radius: CLOSE * body.radius, front: body.front, axes: body.axes }, signal);
   if (!shown) return null;
   let lit = null;
   let down = null;
@@ -106,9 +105,7 @@ export function sectorStage(first, { label, over, clicked }, signal) {
     draw();
   };
   const at = (event) => {
-    const box = shown.canvas.getBoundingClientRect();
-    const place = { x: event.clientX - box.left, y: event.clientY - box.top, width: box.width, height: box.height };
-    const { triangle, chain } = under(body, shown.through(), place);
+    const { triangle, chain } = shown.under(body, event);
     if (chain >= 0) return { chain };
     return triangle < 0 ? null : { patch: body.starts.findIndex((start) => start > triangle) - 1 };
   };
@@ -129,7 +126,7 @@ export function sectorStage(first, { label, over, clicked }, signal) {
   });
   draw();
   return {
-    canvas: shown.canvas,
+    element: shown.element,
     reset: shown.reset,
     light,
     /** Another look at the mesh, from the same side. */

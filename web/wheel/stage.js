@@ -3,6 +3,8 @@
 import { h } from '../lib/dom.js';
 import { colour, onTheme } from '../lib/theme.js';
 import { camera } from './camera.js';
+import { overlay } from './overlay.js';
+import { under } from './pick.js';
 import { renderer } from './renderer.js';
 
 /** Revolutions of the phase a second while it is animated. */
@@ -24,18 +26,21 @@ export function rgb(name) {
 
 /**
  * A stage; nothing where the browser cannot draw in 3D.
- * @param {{label: string, middle: number, radius: number, front: boolean}} what the label for those who do not see it, and what the camera is about
+ * @param {{label: string, middle: number, radius: number, front: boolean, axes?: number[][], unit?: string}} what the label for those who do not see it, what the
+ *   camera is about, the directions x, y and z of the reader's coordinates, and the unit of length
  * @param {AbortSignal} signal
  */
-export function stage({ label, middle, radius, front }, signal) {
+export function stage({ label, middle, radius, front, axes, unit }, signal) {
   const canvas = h('canvas', { class: 'stage', tabindex: '0', role: 'application', 'aria-label': `${label}. Arrow keys turn it, plus and minus zoom, 0 resets the view.` });
   const drawn = renderer(canvas);
   if (!drawn) return null;
   const eye = camera(middle, radius, front);
-  const state = { scale: 0, angle: 0, playing: false, hidden: new Set(), asked: false, last: 0, resting: 0 };
+  const over = overlay(axes, unit);
+  const state = { scale: 0, angle: 0, pace: PACE, weights: (angle) => [Math.cos(angle), Math.sin(angle)], spin: 0, cut: null, limit: Infinity, playing: false, hidden: new Set(), asked: false, last: 0, resting: 0 };
   let ground = rgb('ground');
   canvas.dataset.frames = '0';
 
+  const phase = () => state.weights(state.angle).map((weight) => state.scale * weight);
   function frame(now) {
     state.asked = false;
     if (signal.aborted) return;
@@ -44,12 +49,12 @@ export function stage({ label, middle, radius, front }, signal) {
     if (width === 0 || height === 0) return;
     if (canvas.width !== width || canvas.height !== height) [canvas.width, canvas.height] = [width, height];
     if (state.playing) {
-      state.angle += 2 * Math.PI * PACE * Math.min(0.1, (now - state.last) / 1000);
+      state.angle += 2 * Math.PI * state.pace * Math.min(0.1, (now - state.last) / 1000);
       state.last = now;
       ask();
     }
-    const phase = [state.scale * Math.cos(state.angle), state.scale * Math.sin(state.angle)];
-    drawn.draw({ view: eye.view(), projection: eye.projection(width / height), phase, ground, hidden: state.hidden, moving: state.resting !== 0 || state.playing });
+    drawn.draw({ ...state, view: eye.view(), projection: eye.projection(width / height), phase: phase(), ground, moving: state.resting !== 0 || state.playing });
+    over.draw(eye, canvas.clientWidth, canvas.clientHeight);
     canvas.dataset.frames = String(Number(canvas.dataset.frames) + 1);
   }
   function ask() {
@@ -83,11 +88,26 @@ export function stage({ label, middle, radius, front }, signal) {
   });
   return {
     canvas,
+    element: h('div', { class: 'stage-frame' }, canvas, over.element),
     reset: moved(eye.reset),
-    /** From the coordinates of what is shown to those of the picture, by columns. */
-    through: () => eye.through(canvas.clientWidth / canvas.clientHeight),
+    /** The triangle and the chain of a body under the pointer, as it is drawn now. */
+    under(body, event) {
+      const box = canvas.getBoundingClientRect();
+      const place = { x: event.clientX - box.left, y: event.clientY - box.top, width: box.width, height: box.height };
+      return under(body, eye.through(box.width / box.height), place, { phase: phase(), cut: state.cut });
+    },
+    /** Marks a point of the picture, or none. */
+    mark: moved(over.mark),
     show: moved(drawn.show),
     scale: moved((factor) => { state.scale = factor; }),
+    /** Takes the half away that faces the reader, or puts it back. */
+    halve: moved((on) => { state.cut = on ? eye.plane() : null; }),
+    /** Stripes values above this share of the largest. */
+    limit: moved((share) => { state.limit = share; }),
+    /** Turns by an angle what turns against the wheel. */
+    spin: moved((angle) => { state.spin = angle; }),
+    /** Has every angle that is played give the weights of both displacements, at so many revolutions a second. */
+    pace: moved((pace, weights) => { Object.assign(state, { pace, weights, angle: 0 }); }),
     hide: moved((name, on) => (on ? state.hidden.add(name) : state.hidden.delete(name))),
     play(on) {
       state.playing = on;

@@ -3,13 +3,16 @@
 import { api } from '../../lib/api.js';
 import { h, newId, replace } from '../../lib/dom.js';
 import { ended } from '../../lib/events.js';
-import { speed as speedWords } from '../../lib/format.js';
+import { number, speed as speedWords } from '../../lib/format.js';
 import { again } from '../../lib/place.js';
 import { unread } from '../../lib/problem.js';
 import { showWheel } from '../../wheel/index.js';
 import { select } from './choices.js';
 import { recorder } from './histories.js';
 import { recordedSpeeds } from './recorded.js';
+
+/** Instants of a revolution that is played. */
+const FRAMES = 36;
 
 /** What colours show, and what is asked for: stress alone or with that of the centrifugal load, which only instants have. */
 const COLOURS = [
@@ -41,16 +44,24 @@ export async function show(place, context, signal) {
       Array.isArray(recorded) && recorded.length > 1 ? select('Speed', recorded.map((index) => [String(index), `index ${index}`]), speed, (chosen) => context.go({ speed: chosen })) : null,
       h('span', {}, h('label', { for: id }, 'Deflection shape of engine order '), field),
       select('Colour', colours.map(([one, text]) => [one, text]), name, (chosen) => context.go({ colour: chosen }))),
-    order === '' ? h('p', { class: 'quiet small' }, 'Without an engine order: the instant of the largest tip motion.') : null,
+    order === '' ? h('p', { class: 'quiet small' }, 'Without an engine order: the instant of the largest tip motion, or a revolution of recorded instants.') : null,
     wheel);
   const { length, force } = model.units;
+  const unit = asked.stress ? `${force}/${length}²` : length;
+  const yields = (model.mesh?.sets ?? []).map((set) => job.request.record?.stress?.strengths?.[set.set]?.yield_strength ?? set.yield_strength).filter(Number.isFinite);
   try {
+    const casing = order === '' ? await api.get(`/v1/models/${job.model}/section`, { query: { sweep: job.id }, signal }) : null;
     await showWheel(wheel, {
       path: `/v1/jobs/${job.id}/fields`,
       query: { speed, engine_order: order, ...asked },
       animated: order !== '',
       scalar: asked.stress ? 'von_mises' : 'displacement',
-      words: asked.stress ? `${words}, ${force}/${length}²` : `displacement, ${length}`,
+      words,
+      unit,
+      length,
+      limit: name === 'total' && yields.length > 0 ? { value: Math.min(...yields), words: `the yield strength, ${number(Math.min(...yields))} ${unit}` } : null,
+      contact: casing?.contact,
+      instants: casing && (() => instantsOf(job, speed, signal)),
       label: 'Wheel in 3D',
     }, signal);
   } catch (error) {
@@ -58,6 +69,12 @@ export async function show(place, context, signal) {
     // What is asked for stays there to be changed.
     replace(wheel, unread(error, signal));
   }
+}
+
+/** Instants of the last revolution that was recorded. */
+async function instantsOf(job, speed, signal) {
+  const { revolutions: [begin, end], samples_per_revolution: samples } = await api.get(`/v1/jobs/${job.id}/histories`, { query: { speed }, signal });
+  return Array.from({ length: FRAMES }, (_, k) => (end - begin - 1) * samples + Math.floor(k * samples / FRAMES));
 }
 
 /** Where no state of the speed was recorded: a button that records it, of a speed that can be chosen. */

@@ -69,6 +69,8 @@ export async function show(place, { model, query, go }, signal) {
       animated: true,
       scalar: stress ? 'von_mises' : 'displacement',
       words: stress ? `von Mises stress for a largest displacement of 1 ${model.units.length}` : 'displacement, the largest 1',
+      unit: stress ? `${model.units.force}/${model.units.length}²` : '',
+      length: model.units.length,
       label: `Mode ${mode} of nodal diameter ${diameter}`,
     }, signal);
   } catch (error) {

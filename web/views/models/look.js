@@ -107,7 +107,7 @@ export function meshLook(fields, signal) {
       return { element: h('p', { class: 'note' }, 'This browser does not support WebGL 2, which the picture needs; choose in the tables.'), update() {}, light() {}, end() {} };
     }
     modes.element.hidden = false;
-    const element = h('div', {}, stage.canvas, legend(),
+    const element = h('div', {}, stage.element, legend(),
       h('div', { class: 'row' }, h('button', { type: 'button', on: { click: stage.reset } }, 'Reset view')),
       h('p', { class: 'quiet small' }, 'Drag to turn, with shift to move; arrow keys turn, + and − zoom, 0 resets the view. The tables below choose by keyboard.'));
     return { element, update: stage.update, light: stage.light, end: () => stop.abort() };
