@@ -86,9 +86,10 @@ pub(super) async fn get_section(
             let clearances = request.as_ref().and_then(|request| run::clearances(request, &positions));
             let heights = request.and_then(|request| run::heights(&request, &positions, &normals));
             let mesh = read_mesh(&path, &Limits::default()).map_err(Box::new)?;
-            let silhouette = mesh.as_ref().map(silhouette).unwrap_or_default();
+            let [silhouette, disk] = mesh.as_ref().map(silhouette).unwrap_or_default();
             Ok(SectorGeometry {
                 silhouette,
+                disk,
                 ..geometry(&model.facts, &places, clearances.as_deref(), heights)
             })
         })
@@ -129,5 +130,6 @@ fn geometry(
         nodes,
         contact: contact.collect(),
         silhouette: Vec::new(),
+        disk: Vec::new(),
     }
 }

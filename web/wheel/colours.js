@@ -26,7 +26,7 @@ export function colourKey(most, words, limit = null) {
   const stops = CIVIDIS.map((colour) => `rgb(${colour.map((part) => Math.round(255 * part)).join(' ')})`);
   bar.style.setProperty('background-image', `linear-gradient(to right, ${stops.join(', ')})`);
   const step = round(most / 4);
-  const rounds = Array.from({ length: Math.floor(most / step) + 1 }, (_, k) => k * step).filter((value) => value < 0.88 * most);
+  const rounds = Array.from({ length: Math.floor(most / step) + 1 }, (_, k) => k * step).filter((value) => value < 0.76 * most);
   const ticks = [...rounds, most].map((value) => {
     const tick = h('span', { class: 'tick' }, number(value, 3));
     tick.style.setProperty('left', `${100 * value / most}%`);

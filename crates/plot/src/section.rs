@@ -173,19 +173,15 @@ impl<'a> Section<'a> {
         let x = Axis::linear(x, self.diagram.x.values, 9.0).one_scale();
         let y = Axis::linear(y, self.diagram.y.values, 8.0).one_scale();
         let mut panel = Panel::new((left, top), (width, height), x, y);
-        let has_silhouette = self.add_silhouette(&mut panel);
+        let has_areas = self.add_areas(&mut panel);
         let wall = self.add_wall(&mut panel);
         for (kind, words) in KINDS {
-            if has_silhouette && !matches!(kind, NodeKind::Clamped | NodeKind::Contact) {
+            if has_areas && !matches!(kind, NodeKind::Clamped | NodeKind::Contact) {
                 continue;
             }
             self.add_nodes(&mut panel, kind, words);
         }
         self.add_contact_line(&mut panel);
-        if has_silhouette {
-            let patch = rectangle(2.0, -6.0, MARK_WIDTH - 4.0, 12.0).set("fill", "#e3e8ee");
-            panel.sample(patch.set("stroke", "#5a6672"), SILHOUETTE);
-        }
         if let Some(ends) = self.axis {
             let pen = Pen::new(Colour::neutral("#444444"), Dash::Mixed, 1.0);
             let curve = Curve::new("axis of rotation", ends.map(Some), pen).class("axis");
@@ -221,18 +217,27 @@ impl<'a> Section<'a> {
         panel.push(marks);
     }
 
-    /// Adds the silhouette of the elements; returns whether there is one in this view.
-    fn add_silhouette(&self, panel: &mut Panel) -> bool {
-        let rings = &self.geometry.silhouette;
-        if rings.is_empty() || self.view == SectionView::Cyclic {
+    /// Adds the areas of all elements and of the disk; returns whether there are any in this view.
+    fn add_areas(&self, panel: &mut Panel) -> bool {
+        let SectorGeometry { silhouette, disk, .. } = self.geometry;
+        if silhouette.is_empty() || self.view == SectionView::Cyclic {
             return false;
         }
         let stroke = |ring: &Vec<[f64; 2]>| Stroke {
             places: ring.iter().chain(ring.first()).map(|&[z, r]| Some((z, r))).collect(),
             title: String::new(),
         };
-        let pen = Pen::new(Colour::neutral("#5a6672"), Dash::Solid, 1.4);
-        panel.push(Curve::of(SILHOUETTE, rings.iter().map(stroke), pen).class("silhouette").area());
+        for (name, class, rings, opacity) in
+            [(WHEEL, "silhouette", silhouette, "0.22"), (DISK, "disk", disk, "0.4")]
+        {
+            if rings.is_empty() {
+                continue;
+            }
+            let pen = Pen::new(Colour::neutral("#5a6672"), Dash::Solid, 1.4);
+            panel.push(Curve::of(name, rings.iter().map(stroke), pen).class(class).area());
+            let patch = rectangle(2.0, -6.0, MARK_WIDTH - 4.0, 12.0).set("fill", "#808a94");
+            panel.sample(patch.set("fill-opacity", opacity).set("stroke", "#5a6672"), name);
+        }
         true
     }
 
@@ -309,8 +314,9 @@ impl<'a> Section<'a> {
     }
 }
 
-/// Name of the area that the elements cover.
-const SILHOUETTE: &str = "wheel";
+/// Names of the areas that all elements cover, and those between the blades.
+const WHEEL: &str = "wheel";
+const DISK: &str = "disk, where sectors meet";
 
 /// Ends of the axis of rotation across the axis, somewhat longer than the wheel; none where it is so far away that the wheel would be small.
 fn axis(view: SectionView, places: &[(f64, f64)]) -> Option<[(f64, f64); 2]> {

@@ -7,10 +7,10 @@ use std::collections::BTreeMap;
 
 use crate::frame::AxisFrame;
 use crate::mesh::SectorMesh;
-use crate::skin::skin;
+use crate::skin::{Cut, SkinFace, skin};
 
 /// Point of the meridional plane: axial coordinate and radius.
-type Point = [f64; 2];
+pub type Point = [f64; 2];
 
 /// Corner of the grid.
 type Corner = (i32, i32);
@@ -24,34 +24,31 @@ const STRAIGHT: f64 = 1.1;
 /// Distance, in cells, within which a corner moves to a node.
 const NEAR: f64 = 2.0;
 
-/// Closed lines `[z, r]` around the area that a sector covers when it is turned into one plane; none for a mesh without an axis or an extent.
-pub fn silhouette(mesh: &SectorMesh) -> Vec<Vec<Point>> {
-    let Some(frame) = AxisFrame::new(mesh.axis.0, mesh.axis.1) else { return Vec::new() };
+/// Closed lines `[z, r]`, counter-clockwise around areas and clockwise around holes in them.
+pub type Outline = Vec<Vec<Point>>;
+
+/// Outlines of a sector that is turned into one plane: of all its elements, and of its low cyclic face, which is the wheel without what stands on
+/// it. Both are empty for a mesh without an axis or an extent.
+pub fn silhouette(mesh: &SectorMesh) -> [Outline; 2] {
+    let Some(frame) = AxisFrame::new(mesh.axis.0, mesh.axis.1) else { return Default::default() };
     let place = |node: u32| {
         let [r, _, z] = frame.coordinates(mesh.nodes[node as usize]);
         [z, r]
     };
+    let polygon = |face: &SkinFace| -> Vec<Point> {
+        let (corners, middles) = face.nodes.split_at(face.corners);
+        let behind = |k: usize| middles.get(k).copied();
+        let ring = corners.iter().enumerate().flat_map(|(k, &node)| [Some(node), behind(k)]);
+        ring.flatten().map(place).collect()
+    };
     // Faces on cuts count: where the wheel is a full ring, nothing else bounds it.
-    let faces: Vec<Vec<Point>> = skin(mesh)
-        .faces
-        .iter()
-        .map(|face| {
-            let (corners, middles) = face.nodes.split_at(face.corners);
-            let behind = |k: usize| middles.get(k).copied();
-            corners
-                .iter()
-                .enumerate()
-                .flat_map(|(k, &node)| [Some(node), behind(k)])
-                .flatten()
-                .map(place)
-                .collect()
-        })
-        .collect();
-    outline(&faces)
+    let faces = skin(mesh).faces;
+    let low = faces.iter().filter(|face| face.cut == Some(Cut::Low));
+    [outline(&faces.iter().map(polygon).collect::<Vec<_>>()), outline(&low.map(polygon).collect::<Vec<_>>())]
 }
 
 /// Closed lines around the union of polygons.
-fn outline(faces: &[Vec<Point>]) -> Vec<Vec<Point>> {
+fn outline(faces: &[Vec<Point>]) -> Outline {
     let Some(grid) = Grid::about(faces) else { return Vec::new() };
     let mut nodes: Vec<Point> = faces.iter().flatten().map(|&point| grid.place(point)).collect();
     nodes.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));

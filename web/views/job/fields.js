@@ -48,7 +48,7 @@ export async function show(place, context, signal) {
     wheel);
   const { length, force } = model.units;
   const unit = asked.stress ? `${force}/${length}²` : length;
-  const yields = (model.mesh?.sets ?? []).map((set) => job.request.record?.stress?.strengths?.[set.set]?.yield_strength ?? set.yield_strength).filter(Number.isFinite);
+  const yields = (model.mesh?.sets ?? []).map((set) => (job.request.sweep ?? job.request).record?.stress?.strengths?.[set.set]?.yield_strength ?? set.yield_strength).filter(Number.isFinite);
   try {
     const casing = order === '' ? await api.get(`/v1/models/${job.model}/section`, { query: { sweep: job.id }, signal }) : null;
     await showWheel(wheel, {

@@ -10,13 +10,13 @@ const [WIDTH, HEIGHT, MARGIN] = [360, 270, 26];
 const SHOWN = 26;
 
 /** What is drawn of a model's section whatever the casing: the line of the tips, its normals, and the silhouette, or nodes where there are no elements. */
-function profileOf({ contact, nodes, silhouette = [] }) {
+function profileOf({ contact, nodes, silhouette = [], disk = [] }) {
   const points = contact.map(({ position: [r, , z] }) => [z, r]);
-  return { points, normals: contact.map(({ normal: [r, , z] }) => [z, r]), body: silhouette, dots: silhouette.length > 0 ? [] : nodes.map(({ position: [r, , z] }) => [z, r]) };
+  return { points, normals: contact.map(({ normal: [r, , z] }) => [z, r]), body: silhouette, disk, dots: silhouette.length > 0 ? [] : nodes.map(({ position: [r, , z] }) => [z, r]) };
 }
 
 /** The meridional section: the wheel, its casing in the distance of the clearance, and where lobes stand. */
-function meridian({ points, normals, body, dots }, shape) {
+function meridian({ points, normals, body, disk, dots }, shape) {
   const all = [...body.flat(), ...dots, ...points];
   const extreme = (of, k) => all.reduce((so, point) => of(so, point[k]), all[0][k]);
   const [left, right, top] = [extreme(Math.min, 0), extreme(Math.max, 0), extreme(Math.max, 1)];
@@ -33,7 +33,7 @@ function meridian({ points, normals, body, dots }, shape) {
   return {
     times,
     picture: drawing('Meridional section: wheel, casing and crest of its shape', WIDTH, HEIGHT,
-      s('path', { class: 'body', d: body.map((ring) => line(ring.map(at), true)).join('') }),
+      [['body', body], ['body disk', disk]].map(([name, rings]) => s('path', { class: name, d: rings.map((ring) => line(ring.map(at), true)).join('') })),
       s('path', { class: 'dots', d: dots.map((dot) => `${line([at(dot)])}h0`).join('') }),
       s('path', { class: 'tip', d: line(points.map(at)) }),
       s('path', { class: 'casing', d: line(casing) }),

@@ -1613,9 +1613,11 @@ RunUpSpeed = TypedDict(
 
 class SectorGeometry(TypedDict):
     contact: list[ContactPlace]
+    disk: NotRequired[list[list[list[float]]]]
     name: str
     nodes: list[SectorNode]
     sectors: int
+    silhouette: NotRequired[list[list[list[float]]]]
     units: Units
 
 

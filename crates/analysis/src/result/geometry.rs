@@ -21,6 +21,9 @@ pub struct SectorGeometry {
     /// Closed lines `[z, r]` around the area that the elements cover when they are turned into one plane; absent without elements.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub silhouette: Vec<Vec<[f64; 2]>>,
+    /// Closed lines `[z, r]` around the low cyclic face, turned into the same plane: the wheel without its blades; absent without elements.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub disk: Vec<Vec<[f64; 2]>>,
 }
 
 /// A node of the sector.

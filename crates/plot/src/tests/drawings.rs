@@ -499,15 +499,17 @@ fn histories_have_the_casing_that_the_tip_meets() {
 #[test]
 fn a_section_with_elements_is_an_area() {
     let mut geometry = sector(5);
-    geometry.silhouette = vec![vec![[10.0, 20.0], [60.0, 20.0], [60.0, 90.0], [10.0, 90.0]]];
+    geometry.silhouette = vec![vec![[10.0, 20.0], [60.0, 20.0], [60.0, 80.0], [10.0, 80.0]]];
+    geometry.disk = vec![vec![[30.0, 20.0], [60.0, 20.0], [60.0, 80.0]]];
     let drawing = section(&geometry, SectionView::Meridional);
     let read = Document::parse(&drawing).unwrap();
     let ring = super::corners(super::of_class(&read, "silhouette").next().unwrap());
     assert!(
         super::is_near(ring[2].0, super::tick(&read, "60"))
-            && super::is_near(ring[0].1, super::level(&read, "20")),
+            && super::is_near(ring[2].1, super::level(&read, "80")),
         "{ring:?}"
     );
+    assert_eq!(super::of_class(&read, "area").count(), 2);
     assert!(
         super::of_class(&read, "internal").next().is_none()
             && super::of_class(&read, "axis").next().is_some()
