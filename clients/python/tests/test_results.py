@@ -117,7 +117,7 @@ def test_spectra_histories_forces_and_stress_have_their_dimensions(swept: rubmap
 def test_files_are_whole(swept: rubmap.Sweep, model: rubmap.Model, tmp_path: Path) -> None:
     assert swept.download("interaction-map", tmp_path / "map.svg").read_bytes().startswith(b"<?xml")
     lines = swept.download("critical-speeds", tmp_path / "table.txt", format="csv").read_text().splitlines()
-    assert any("speed_rad_s" in line for line in lines)
+    assert any("speed_rpm" in line for line in lines)
     assert b"<html" in swept.report(tmp_path / "report.html").read_bytes()[:200]
     assert zipfile.ZipFile(swept.archive(tmp_path / "all.zip")).testzip() is None
     assert b"PolyData" in model.download("mesh", tmp_path / "mesh.vtp").read_bytes()[:400]

@@ -66,14 +66,17 @@ impl Verb for GetArgs {
             format!("/v1/jobs/{}", find::job(client, &self.whose).await?)
         };
         let got = client.get_to(&format!("{path}/{}", self.result), &query, &target).await;
-        let bytes = match got {
+        let copied = match got {
             Err(error) if !of_model && error.downcast_ref().is_some_and(ClientError::is_no_route) => {
                 return Err(error).context(self.known(client, &path).await?);
             }
             got => got?,
         };
         if let Target::File(file) = &target {
-            client.terminal.say(&format!("{}: {}", file.display(), size(bytes)));
+            client.terminal.say(&format!("{}: {}", file.display(), size(copied.bytes)));
+        }
+        if copied.lines == 1 && query.iter().any(|(name, form)| (&**name, &**form) == ("format", "csv")) {
+            client.terminal.say(&format!("the table has its header only: {}", self.why_empty()));
         }
         Ok(())
     }
@@ -105,6 +108,19 @@ impl GetArgs {
                     ),
                 }
             }
+        }
+    }
+
+    /// Reason why the table of the result has no line.
+    fn why_empty(&self) -> &'static str {
+        match self.result.as_str() {
+            "critical-speeds" => {
+                "no response of this sensor peaks within the range of speeds; critical-speeds/wheel looks at all tips, sensor=1 at another sensor"
+            }
+            "critical-speeds/wheel" | "verdict" => {
+                "no response of the wheel peaks within the range of speeds"
+            }
+            _ => "nothing of this is known yet, or the job found none",
         }
     }
 
