@@ -495,6 +495,29 @@ def test_a_form_says_what_branches_take(service, swept, model, new_page):
     plan.get_by_text("exact_modal: ").wait_for()
 
 
+def test_critical_speeds_lead_to_what_looks_closer(service, swept, new_page):
+    worst = service.call("GET", f"/v1/jobs/{swept}/critical-speeds/wheel")["critical_speeds"][0]
+    page = new_page(f"{service.url}/#/jobs/{swept}?view=critical")
+    table = page.get_by_role("region", name="Critical speeds of the wheel")
+    table.get_by_role("button", name=re.compile("^Follow branches from")).first.click()
+    page.get_by_role("dialog").get_by_role("button", name="Close").click()
+    table.get_by_role("link", name=re.compile("^Run-up through")).first.click()
+    at = worst["speed_rad_s"] * 9.549296585513721
+
+    def asked(field):
+        page.get_by_text("The request as JSON").click()
+        request = json.loads(page.get_by_label("Request; the form follows what you write").input_value())
+        assert request["scene"]["casing"]["lobes"]["count"] == 2
+        return request[field]
+
+    speed = asked("speed")
+    assert abs(speed["from"] - 0.9 * at) <= 0.5 and abs(speed["to"] - 1.1 * at) <= 0.5
+    page.go_back()
+    table.get_by_role("link", name=re.compile("^Campaign at")).first.click()
+    speeds = asked("speeds")
+    assert abs(speeds["from"] - 0.98 * at) <= 0.5 and abs(speeds["to"] - 1.02 * at) <= 0.5
+
+
 def test_branches_are_followed_from_a_speed_of_a_sweep(service, model, new_page):
     integration = {"revolutions": 30, "window_revolutions": 10}
     request = sweep_of(model, name="damped", scene=damped(), speeds={"from": 19000, "to": 21000, "count": 5, "unit": "rpm"}, integration=integration, modes_per_speed=3, record={})
