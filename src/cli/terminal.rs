@@ -7,6 +7,9 @@ use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 
 use super::size::size;
 
+/// Characters of a name before a bar.
+const PREFIX: usize = 14;
+
 /// Time between two frames of a bar.
 const TICK: Duration = Duration::from_millis(150);
 
@@ -52,10 +55,16 @@ impl Terminal {
     }
 
     fn begin(&self, name: &str, last: Option<Instant>) -> Bar {
-        let name = format!("{name:<14}");
+        let name = format!("{name:<PREFIX$}");
         if !std::io::stderr().is_terminal() {
             return Bar::Lines { name, begin: Instant::now(), last };
         }
+        // The words behind the bar need their room.
+        let name = if name.chars().count() > PREFIX {
+            name.chars().take(PREFIX - 1).chain(['…']).collect()
+        } else {
+            name
+        };
         let bar = self.bars.add(ProgressBar::new(100).with_prefix(name));
         // The template is a constant; should it ever be wrong, the library's own bar does as well.
         let style = ProgressStyle::with_template("{prefix} [{bar:36}] {percent:>3} %  {elapsed}  {wide_msg}")

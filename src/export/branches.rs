@@ -2,6 +2,7 @@
 
 use super::Export;
 use super::array::Array;
+use crate::analysis::request::BranchParameter;
 use crate::analysis::result::{BranchPoint, BranchTrack, Branches};
 
 impl Export for Branches {
@@ -14,13 +15,14 @@ impl Export for Branches {
             .collect();
         let of = || points.iter().map(|(_, point)| *point);
         let leading = || of().map(|point| point.multipliers.first());
+        let value = if self.head.parameter == BranchParameter::Speed { "value_rad_s" } else { "value" };
         let mut columns = vec![
             Array::whole("branch", points.iter().map(|(branch, _)| branch.track.branch)),
-            Array::reals("value", of().map(|point| point.value)),
+            Array::reals(value, of().map(|point| point.value)),
             Array::reals("speed_rad_s", of().map(|point| point.speed_rad_s)),
         ];
-        for sensor in 0..self.head.sensors.len() {
-            let name = format!("half_peak_to_peak_{sensor}_{}", self.head.units.length);
+        for (sensor, place) in self.head.sensors.iter().enumerate() {
+            let name = format!("half_peak_to_peak_{sensor}_{}", place.unit(&self.head.units));
             columns.push(Array::some_reals(
                 name,
                 of().map(|point| point.half_peak_to_peak.get(sensor).copied()),

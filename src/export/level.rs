@@ -2,6 +2,7 @@
 
 use super::Export;
 use super::array::Array;
+use super::verdict::with_unit;
 use crate::analysis::result::{LevelSpeed, LimitKind, SweepLevel};
 
 impl Export for SweepLevel {
@@ -23,9 +24,10 @@ impl Export for SweepLevel {
                 continue;
             }
             let name = kind.as_str();
+            let with_unit = |what| with_unit(kind, what, &self.verdict.units);
             columns.extend([
-                Array::some_reals(format!("{name}_value"), all().map(|speed| Some(of(speed)?.value))),
-                Array::some_reals(format!("{name}_error"), all().map(|speed| of(speed)?.error)),
+                Array::some_reals(with_unit("value"), all().map(|speed| Some(of(speed)?.value))),
+                Array::some_reals(with_unit("error"), all().map(|speed| of(speed)?.error)),
             ]);
             if self.limit(kind).is_some() {
                 columns

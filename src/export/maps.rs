@@ -2,8 +2,8 @@
 
 use std::io::{self, Write};
 
-use super::array::Array;
-use super::{add_to_arrays, csv, npz};
+use super::array::{Array, Values};
+use super::{add_to_arrays, csv, for_reading, npz};
 use crate::analysis::request::{Sensor, SpeedUnit};
 use crate::analysis::result::{InteractionMap, Point, PointStatus};
 use crate::package::NpzWriter;
@@ -41,12 +41,17 @@ impl<R: Fn(u32, u32) -> io::Result<Option<Vec<f64>>>> Maps<R> {
             if self.map.settings.record.stress.is_some() {
                 left.push(Array::some_reals("utilisation", self.found(Point::utilisation)));
             }
-            add_to_arrays(left, unit)
+            for_reading(left, unit)
         };
         let unit_of_all = Sensor::common_unit(self.sensors.iter().map(|(_, sensor)| sensor), &self.map.units);
         let orders = self.map.engine_orders.iter();
-        let orders: Vec<Array> =
-            orders.map(|order| Array::reals(format!("order_{order}_{unit_of_all}"), [])).collect();
+        // One row of ones: what the columns of orders are multiplied by.
+        let orders = orders.map(|order| Array::reals(format!("order_{order}_{unit_of_all}"), [1.0]));
+        let orders = for_reading(orders.collect(), unit);
+        let factor = orders.first().map_or(1.0, |order| match &order.values {
+            Values::Real(values) => values[0],
+            _ => 1.0,
+        });
         csv::names(&left(0), out)?;
         out.write_all(b",")?;
         csv::names(&orders, out)?;
@@ -58,7 +63,7 @@ impl<R: Fn(u32, u32) -> io::Result<Option<Vec<f64>>>> Maps<R> {
                 let row = self.row(sensor, index)?;
                 for column in 0..columns {
                     out.write_all(b",")?;
-                    csv::real(row.as_ref().map_or(f64::NAN, |row| row[column]), out)?;
+                    csv::real(row.as_ref().map_or(f64::NAN, |row| factor * row[column]), out)?;
                 }
                 csv::end_line(out)?;
             }

@@ -1,5 +1,5 @@
 //! Results as files of numbers: one table for spreadsheets (CSV), arrays for numpy (`.npz`). Pure functions from results to numbers
-//! with names; where speeds are wanted in another unit, they are added by these names, in JSON as well.
+//! with names, by which they are put into other units.
 
 mod array;
 mod branches;
@@ -28,7 +28,7 @@ use std::io::{self, Write};
 
 pub use array::{Array, Values};
 pub use npz::write as write_npz;
-pub use unit::{add_to_arrays, add_to_json};
+pub use unit::{add_to_arrays, add_to_json, for_reading};
 
 use crate::analysis::request::SpeedUnit;
 
@@ -41,10 +41,10 @@ pub trait Export {
     fn arrays(&self) -> Vec<Array>;
 }
 
-/// Writes the table of a result as comma-separated values (RFC 4180), with speeds in `unit` as well.
+/// Writes the table of a result as comma-separated values (RFC 4180): speeds in `unit`, rpm without one, and motions in micrometres.
 ///
 /// # Errors
 /// Errors of writing.
 pub fn write_csv(result: &impl Export, unit: Option<SpeedUnit>, out: &mut dyn Write) -> io::Result<()> {
-    csv::write(&add_to_arrays(result.table(), unit), out)
+    csv::write(&for_reading(result.table(), unit), out)
 }

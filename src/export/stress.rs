@@ -78,6 +78,7 @@ mod tests {
     use serde_json::json;
 
     use super::*;
+    use crate::analysis::request::SpeedUnit;
     use crate::export::{Values, write_csv};
 
     /// Example of one speed with two cycles, the second without strengths.
@@ -105,7 +106,7 @@ mod tests {
     #[test]
     fn a_line_is_a_cycle() {
         let mut text = Vec::new();
-        write_csv(&found(), None, &mut text).unwrap();
+        write_csv(&found(), Some(SpeedUnit::RadS), &mut text).unwrap();
         let expected = "index,speed_rad_s,node,x_mm,y_mm,z_mm,sector,set,mean_MPa,alternating_MPa,principal_mean_MPa,\
             principal_alternating_MPa,utilisation,over_yield\r\n\
             7,10.0,9007199254740993,1.0,2.0,3.5,4,\"A,B\",100.0,40.0,101.0,41.0,0.5,\r\n\

@@ -1,4 +1,5 @@
-//! Speeds in another unit: beside every `…_rad_s` the same speed as `…_rpm` or `…_hz`.
+//! Units by the ends of names. Documents and arrays have speeds in another unit beside every `…_rad_s`, as `…_rpm` or `…_hz`. Tables for
+//! spreadsheets have every speed once, in rpm or the unit that is asked for, and motions in micrometres.
 
 use serde_json::Value;
 
@@ -7,6 +8,41 @@ use crate::analysis::request::SpeedUnit;
 
 /// End of the names of speeds in rad/s.
 const RAD_S: &str = "_rad_s";
+
+/// End of the names of rates in rad/s².
+const RAD_S2: &str = "_rad_s2";
+
+/// Ends of the names of lengths, with micrometres per unit.
+const LENGTHS: [(&str, f64); 2] = [("_mm", 1e3), ("_m", 1e6)];
+
+/// Beginnings of the names of lengths that are no motion, and of energies.
+const NO_MOTION: [&str; 6] = ["r_", "x_", "y_", "z_", "contact_length_", "energy_"];
+
+/// Name of a column as engineers read it, and the factor of its values; `None` if it stays as it is.
+pub(super) fn as_read(name: &str, unit: SpeedUnit) -> Option<(String, f64)> {
+    if let Some(what) = name.strip_suffix(RAD_S2) {
+        let (speed, factor) = converted(&format!("{what}{RAD_S}"), unit)?;
+        return Some((format!("{speed}_s"), factor));
+    }
+    let is_motion = NO_MOTION.iter().all(|beginning| !name.starts_with(beginning));
+    let motion = || {
+        LENGTHS.iter().find_map(|(end, factor)| Some((format!("{}_um", name.strip_suffix(end)?), *factor)))
+    };
+    converted(name, unit).or_else(|| motion().filter(|_| is_motion))
+}
+
+/// Puts a table into the units in which engineers read it: speeds in `unit`, rpm without one, and motions in micrometres.
+pub fn for_reading(mut table: Vec<Array>, unit: Option<SpeedUnit>) -> Vec<Array> {
+    for column in &mut table {
+        if let Values::Real(values) = &mut column.values
+            && let Some((name, factor)) = as_read(&column.name, unit.unwrap_or(SpeedUnit::Rpm))
+        {
+            column.name = name;
+            values.iter_mut().for_each(|value| *value *= factor);
+        }
+    }
+    table
+}
 
 /// Name of `name` in `unit`, and number of these units in one rad/s; `None` if `name` is no speed, or is in that unit already.
 pub(super) fn converted(name: &str, unit: SpeedUnit) -> Option<(String, f64)> {
@@ -89,5 +125,50 @@ mod tests {
         let names: Vec<&str> = arrays.iter().map(|array| array.name.as_str()).collect();
         assert_eq!(names, ["speeds_rad_s", "speeds_hz", "rms_mm"]);
         assert_eq!(arrays[1].values, Values::Real(vec![1.0]));
+    }
+
+    #[test]
+    fn tables_are_in_the_units_of_engineers() {
+        let turn_per_second = std::f64::consts::TAU;
+        let table = |unit| {
+            let reals = |name: &str, value: f64| Array::reals(name, [value]);
+            let table = vec![
+                reals("speed_rad_s", turn_per_second),
+                reals("rate_rad_s2", turn_per_second),
+                reals("rms_mm", 0.25),
+                reals("order_0.5_m", 1e-6),
+                reals("z_mm", 0.25),
+                reals("contact_length_mm", 0.25),
+                reals("energy_mechanical_N_mm", 0.25),
+                reals("displacement_mm_or_strain", 0.25),
+                reals("prominence_in", 0.25),
+                reals("theta_rad", 0.25),
+            ];
+            let read = for_reading(table, unit).into_iter().map(|column| match column.values {
+                Values::Real(values) => (column.name, values[0]),
+                other => panic!("{other:?}"),
+            });
+            read.collect::<Vec<_>>()
+        };
+        let wanted = [
+            ("speed_rpm", 60.0),
+            ("rate_rpm_s", 60.0),
+            ("rms_um", 250.0),
+            ("order_0.5_um", 1.0),
+            ("z_mm", 0.25),
+            ("contact_length_mm", 0.25),
+            ("energy_mechanical_N_mm", 0.25),
+            ("displacement_mm_or_strain", 0.25),
+            ("prominence_in", 0.25),
+            ("theta_rad", 0.25),
+        ];
+        for ((name, value), (wanted_name, wanted)) in table(None).into_iter().zip(wanted) {
+            assert_eq!(name, wanted_name);
+            assert!((value - wanted).abs() < 1e-12 * wanted, "{name}: {value}");
+        }
+        assert_eq!(
+            table(Some(SpeedUnit::RadS))[..2],
+            [("speed_rad_s".to_owned(), turn_per_second), ("rate_rad_s2".to_owned(), turn_per_second)]
+        );
     }
 }

@@ -3,6 +3,15 @@
 use super::Export;
 use super::array::Array;
 use crate::analysis::result::{JudgedSpeed, JudgedValue, LimitKind, Position, SweepVerdict};
+use crate::dynamics::sector::Units;
+
+/// Name of a column of a limited quantity, such as `tip_motion_value_mm`; a share has no unit.
+pub(super) fn with_unit(kind: LimitKind, what: &str, units: &Units) -> String {
+    match kind.unit(units) {
+        "" => format!("{}_{what}", kind.as_str()),
+        unit => format!("{}_{what}_{unit}", kind.as_str()),
+    }
+}
 
 impl Export for SweepVerdict {
     /// A line per critical speed of the wheel, the most severe first; a limit that the request does not give has no columns.
@@ -28,13 +37,13 @@ impl Export for SweepVerdict {
         for kind in LimitKind::ALL.into_iter().filter(|kind| kind.limit(&limits).is_some()) {
             let name = kind.as_str();
             let of = |speed: &JudgedSpeed| speed.limits.iter().find(|judged| judged.limit == kind).copied();
-            let reals = |what: &str, number: fn(JudgedValue) -> Option<f64>| {
-                Array::some_reals(format!("{name}_{what}"), all().map(|speed| number(of(speed)?)))
+            let reals = |name: String, number: fn(JudgedValue) -> Option<f64>| {
+                Array::some_reals(name, all().map(|speed| number(of(speed)?)))
             };
             columns.extend([
-                reals("value", |judged| Some(judged.value)),
-                reals("error", |judged| judged.error),
-                reals("above_percent", |judged| Some(judged.above_percent)),
+                reals(with_unit(kind, "value", &self.units), |judged| Some(judged.value)),
+                reals(with_unit(kind, "error", &self.units), |judged| judged.error),
+                reals(format!("{name}_above_percent"), |judged| Some(judged.above_percent)),
                 Array::words(
                     format!("{name}_standing"),
                     all().map(|speed| of(speed).map(|judged| judged.standing)),

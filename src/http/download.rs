@@ -41,8 +41,8 @@ pub(super) struct DownloadQuery {
     /// Width of a png in pixels; default 1200.
     #[param(minimum = 200, maximum = 4000)]
     width: Option<u32>,
-    /// Unit in which json, csv and npz have speeds as well: beside everything whose name ends with `_rad_s` the same in this unit,
-    /// under a name that ends with `_rpm` or `_hz`.
+    /// Unit of speeds: csv has them in it, by default in rpm; json and npz have them in it as well, beside everything whose name ends with
+    /// `_rad_s`, under a name that ends with `_rpm` or `_hz`.
     #[param(inline)]
     units: Option<SpeedUnit>,
 }
@@ -137,7 +137,7 @@ impl Answer {
         }
     }
 
-    /// Answers with the numbers of the result in json, csv or npz.
+    /// Answers with the numbers of the result in json, csv (in units for reading) or npz.
     pub(super) fn numbers<T>(self, leave: Leave, result: T) -> Response
     where
         T: Export + Serialize + Send + 'static,

@@ -24,7 +24,7 @@ pub(super) struct JobBody {
     id: String,
     /// Kind of the job.
     kind: JobKind,
-    /// Name that the owner gave the job.
+    /// Name of the job.
     #[serde(skip_serializing_if = "Option::is_none")]
     name: Option<String>,
     /// Words to group the job by.

@@ -28,7 +28,7 @@ const NOTES: usize = 4000;
 #[derive(Debug, Default, Deserialize, ToSchema)]
 #[serde(default)]
 pub(super) struct Given {
-    /// Name of the job or model; nothing is computed from it.
+    /// Name of the job or model; a job without one is called by model, speeds and clearance.
     #[schema(max_length = 200)]
     name: Option<String>,
     /// Words to group by, of up to 50 characters without commas.

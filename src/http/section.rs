@@ -8,7 +8,7 @@ use utoipa::{IntoParams, ToSchema};
 use super::download::{Download, DownloadQuery};
 use super::extract::{ModelPath, Parameters};
 use super::forms::Forms;
-use super::histories::recorded_sweep;
+
 use super::models::model_not_found;
 use super::problem::Problem;
 use super::results::find;
@@ -17,7 +17,7 @@ use crate::analysis::result::{ContactPlace, NodeKind, SectorGeometry, SectorNode
 use crate::analysis::run::{self, ModelFacts};
 use crate::jobs;
 use crate::package::{Face, Limits, PlacedNode, SectorNodes, read_mesh, read_places};
-use crate::plot::{self, SectionView};
+use crate::plot::{self, Drawing, SectionView};
 use crate::solid::silhouette::silhouette;
 use crate::store::jobs::JobId;
 use crate::tokens::Principal;
@@ -29,7 +29,7 @@ pub(super) struct SectionQuery {
     /// Direction from which a drawing shows the sector; default `meridional`.
     #[param(inline)]
     view: Option<ViewWord>,
-    /// Id of a sweep or case study of this model, whose casing is shown with its clearance.
+    /// Id of a sweep or another job of this model, whose casing is shown with its clearance.
     #[param(max_length = 36)]
     sweep: Option<String>,
 }
@@ -42,6 +42,8 @@ pub(super) enum ViewWord {
     Meridional,
     /// View along the axis: the cyclic faces and the clamped nodes.
     Cyclic,
+    /// View along the axis of the whole wheel: all tips in the casing, whose distance is exaggerated.
+    Around,
 }
 
 /// Download the positions of a model's nodes, or a section through its sector.
@@ -63,21 +65,22 @@ pub(super) async fn get_section(
     let request = match &query.sweep {
         None => None,
         Some(of) => {
-            let unknown = || Problem::parameter("sweep", "there is no such sweep of this model");
+            let unknown = || Problem::parameter("sweep", "there is no such job of this model");
             let job = find(&state, &whose, JobId::parse(of).ok_or_else(unknown)?)
                 .await
                 .map_err(|problem| if problem.status == 404 { unknown() } else { problem })?;
-            let request = recorded_sweep(&job).map_err(|_| unknown())?;
-            Some(request.clone()).filter(|request| request.model() == id).ok_or_else(unknown).map(Some)?
+            let request = job.request.scene().filter(|request| request.model() == id);
+            Some(request.cloned().ok_or_else(unknown)?)
         }
     };
-    let view = match query.view {
-        Some(ViewWord::Cyclic) => SectionView::Cyclic,
-        Some(ViewWord::Meridional) | None => SectionView::Meridional,
+    let draw: fn(&SectorGeometry) -> Drawing<'static> = match query.view {
+        Some(ViewWord::Cyclic) => |geometry| plot::section(geometry, SectionView::Cyclic),
+        Some(ViewWord::Meridional) | None => |geometry| plot::section(geometry, SectionView::Meridional),
+        Some(ViewWord::Around) => plot::around,
     };
     let path = state.store.package(&id).await?;
     let bytes = jobs::sector_memory(model.facts.own_dofs);
-    Forms::drawn_by(move |geometry: &SectorGeometry| plot::section(geometry, view))
+    Forms::drawn_by(move |geometry: &SectorGeometry| draw(geometry))
         .answer(&state, download, Some(format!("model {id}")), bytes, move || {
             let places = read_places(&path, &Limits::default()).map_err(Box::new)?;
             let positions: Vec<[f64; 3]> =

@@ -9,6 +9,7 @@ use super::planner::Permit;
 use super::plans;
 use crate::analysis::error::{AnalysisError, Violation};
 use crate::analysis::kinds::kind::{Asked, GivenModel, NamedModel, ResolvedJob, Resolving, Unchecked};
+use crate::analysis::kinds::name::name;
 use crate::analysis::kinds::plan::PlannedModel;
 use crate::analysis::monitor::Unwatched;
 use crate::analysis::request::Sensor;
@@ -127,20 +128,21 @@ impl Jobs {
         Ok(Checked { job, facts, reduced, placed_sensors, _permit: permit })
     }
 
-    /// Stores a checked job of `whose` as job `id`, and queues it. `answer` is what its idempotency key will repeat.
+    /// Stores a checked job of `whose` as job `id`, named if it has no name, and queues it. `answer` is what its idempotency key will repeat.
     pub async fn submit(
         &self,
         whose: &Principal,
         id: JobId,
         checked: Checked,
         posted: Option<Posted>,
-        labels: Labels,
+        mut labels: Labels,
         answer: Option<&Answer>,
     ) -> Result<(), SubmitError> {
         let (engine, owner, answer) = (Arc::clone(&self.engine), whose.owner.clone(), answer.cloned());
         // Reductions are not held while the job waits to be stored.
         let Checked { job, facts, reduced, placed_sensors: _, _permit } = checked;
         drop(reduced);
+        labels.name = labels.name.or_else(|| Some(name(&*job, facts.first()?)));
         let model = job.models().first().copied().unwrap_or_default().to_owned();
         let (kind, speeds) = (job.kind().name, job.speeds());
         tracing::info!(job.id = %id, kind, model.id = model, speeds, "submitted");

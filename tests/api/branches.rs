@@ -311,7 +311,7 @@ async fn branches_are_told_in_all_forms_and_of_other_jobs_not_at_all() {
     let csv = get(api, &format!("{path}?format=csv"), &[]).await.good();
     let found = api.get(&path).await.body;
     assert_eq!(csv.text().lines().count(), 1 + values(&found["branches"][0]).len(), "{}", csv.text());
-    assert!(csv.text().starts_with("branch,value,speed_rad_s,"), "{}", csv.text());
+    assert!(csv.text().starts_with("branch,value_rpm,speed_rpm,"), "{}", csv.text());
     for form in ["svg", "plotly", "npz", "png"] {
         get(api, &format!("{path}?format={form}"), &[]).await.good();
     }

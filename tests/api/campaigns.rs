@@ -101,7 +101,7 @@ async fn designs_are_what_their_sweeps_are() {
     let csv = get(api, &format!("/v1/jobs/{id}/campaign?format=csv"), &[]).await.good();
     let lines = table(csv.text());
     assert_eq!(lines.len(), 5);
-    let columns = ["design", "clearance", "damping", "amplitude_mm", "worst_speed_rad_s", "meets_limit"];
+    let columns = ["design", "clearance", "damping", "amplitude_um", "worst_speed_rpm", "meets_limit"];
     assert!(lines[0].starts_with(&columns), "{:?}", lines[0]);
     get(api, &format!("/v1/jobs/{id}/campaign?format=npz"), &[]).await.good();
     let svg = get(api, &format!("/v1/jobs/{id}/campaign?format=svg&parameter=damping"), &[]).await.good();
@@ -218,7 +218,7 @@ async fn two_models_are_compared() {
     assert_eq!(steps(&plan), 4 * (steps(&plan["scene"]) + steps(&plan["compared"])));
     assert_eq!(found["plan"]["steps"], plan["estimate"]["steps"]);
     let csv = get(api, &format!("/v1/jobs/{id}/campaign?format=csv"), &[]).await.good();
-    assert!(table(csv.text())[0].contains(&"compared_amplitude_mm"), "{}", csv.text());
+    assert!(table(csv.text())[0].contains(&"compared_amplitude_um"), "{}", csv.text());
     columns_are_no_names(api, &request, &id).await;
     let svg = get(api, &format!("/v1/jobs/{id}/campaign?format=svg"), &[]).await.good();
     assert!(svg.text().contains("difference, compared less own"));

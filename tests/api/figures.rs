@@ -149,7 +149,7 @@ async fn spectra_and_critical_speeds_have_the_numbers_of_their_tables() {
     peaks.sort_by(|a, b| a.0.total_cmp(&b.0));
     let listed = rows[1..].iter().map(|row| {
         let number = |name: &str| row[column(name)].parse::<f64>().unwrap();
-        (number("speed_rad_s") * 60.0 / TAU, number("rms_"))
+        (number("speed_rpm"), 1e-3 * number("rms_um"))
     });
     let mut listed: Vec<(f64, f64)> = listed.collect();
     listed.sort_by(|a, b| a.0.total_cmp(&b.0));

@@ -279,10 +279,15 @@ async fn what_is_selected_is_a_part_of_the_whole() {
 
     let csv = get(api, &format!("{map}?format=csv&sensors=0-1&speeds=1&orders=0-0.5"), &[]).await.good();
     let rows_of = table(csv.text());
-    let head = ["sensor", "index", "speed_rad_s", "status", "order_0_mm", "order_0.25_mm", "order_0.5_mm"];
+    let head = ["sensor", "index", "speed_rpm", "status", "order_0_um", "order_0.25_um", "order_0.5_um"];
     assert_eq!(rows_of[0], head);
-    assert_eq!(rows_of[2][..4], ["1", "1", "420.0", "completed"]);
-    assert_eq!(rows_of[2][5].parse::<f64>().ok(), whole[1]["amplitude"][1][1].as_f64());
+    assert_eq!((rows_of[2][0], rows_of[2][1], rows_of[2][3]), ("1", "1", "completed"));
+    let micrometres = 1e3 * whole[1]["amplitude"][1][1].as_f64().unwrap();
+    for (cell, wanted) in
+        [(rows_of[2][2], 420.0 * 60.0 / std::f64::consts::TAU), (rows_of[2][5], micrometres)]
+    {
+        assert!((cell.parse::<f64>().unwrap() - wanted).abs() < 1e-12 * wanted, "{cell} is not {wanted}");
+    }
 
     let spectra = format!("/v1/jobs/{sweep}/spectra/2");
     let whole = api.get(&spectra).await.body;
@@ -324,11 +329,25 @@ async fn speeds_come_in_other_units_as_well() {
     }
     let spectra = api.get(&format!("/v1/jobs/{sweep}/spectra/0?units=hz")).await.body;
     near(&spectra["point"]["speed_hz"], 300.0 / std::f64::consts::TAU);
-    let csv = get(api, &format!("/v1/jobs/{sweep}/critical-speeds?format=csv&units=rpm"), &[]).await.good();
-    let rows = table(csv.text());
-    assert_eq!(rows[0][1..5], ["speed_rad_s", "speed_rpm", "speed_error_rad_s", "speed_error_rpm"]);
-    for row in &rows[1..] {
-        near(&json!(row[2].parse::<f64>().unwrap()), rpm * row[1].parse::<f64>().unwrap());
+    // A table has every speed once.
+    let peaks = api.get(&format!("/v1/jobs/{sweep}/critical-speeds")).await.body;
+    for (units, unit, factor) in [
+        ("", "rpm", rpm),
+        ("&units=rpm", "rpm", rpm),
+        ("&units=rad_s", "rad_s", 1.0),
+        ("&units=hz", "hz", rpm / 60.0),
+    ] {
+        let csv = format!("/v1/jobs/{sweep}/critical-speeds?format=csv{units}");
+        let csv = get(api, &csv, &[]).await.good();
+        let rows = table(csv.text());
+        let head = [format!("speed_{unit}"), format!("speed_error_{unit}")];
+        assert_eq!(rows[0][1..3], head, "{units}");
+        assert!(rows.len() > 1);
+        let level = rows[0].iter().position(|name| *name == "rms_um").unwrap();
+        for (row, peak) in rows[1..].iter().zip(peaks["critical_speeds"].as_array().unwrap()) {
+            near(&json!(row[1].parse::<f64>().unwrap()), factor * peak["speed_rad_s"].as_f64().unwrap());
+            near(&json!(row[level].parse::<f64>().unwrap()), 1e3 * peak["rms"].as_f64().unwrap());
+        }
     }
     let file = get(api, &format!("/v1/jobs/{sweep}/interaction-map?format=npz&units=rpm"), &[]).await.good();
     near(&json!(Npz::read(&file.body).array("speeds_rpm").reals()[5]), 900.0 * rpm);

@@ -38,7 +38,8 @@ async fn a_job_is_called_what_its_owner_likes_and_computes_the_same() {
     let unnamed = api.sweep(&plain).await;
     let (job, other) = (api.finish(&id).await, api.finish(&unnamed).await);
     assert_eq!(labels(&job), json!(["Clearance 0.3, “tight”", ["series B", "tight"], "two\nlines"]));
-    assert_eq!(labels(&other), json!([null, [], null]));
+    let called = "springs: 2,865 to 8,594 rpm, clearance 0.3–0.25 mm, 2 lobes of 0.4 mm";
+    assert_eq!(labels(&other), json!([called, [], null]));
 
     // The request is as it was asked for and can be asked for again; the labels are no part of it, nor of what was computed.
     assert_eq!(job["request"], other["request"]);
@@ -66,6 +67,72 @@ async fn a_job_is_called_what_its_owner_likes_and_computes_the_same() {
     let as_json = api.request("PATCH", &path).json(&json!({"name": "B", "tags": null})).send().await.unwrap();
     assert_eq!(labels(&Answer::of(as_json).await.body), json!(["B", [], null]));
     assert_eq!(labels(&api.job(&id).await.body), json!(["B", [], null]));
+    app.stop().await;
+}
+
+#[tokio::test]
+async fn a_job_without_a_name_is_called_by_what_it_computes() {
+    let app = TestApp::start().await;
+    let api = &app.api;
+    let model = api.model(model::package(1.0)).await;
+    let scene = json!({
+        "damping": {"modal_ratio": 0.01},
+        "casing": {"clearance": {"leading": 0.3, "trailing": 0.2212}, "lobes": {"count": 2, "amplitude": 0.425, "width_rad": 0.35}},
+        "contact": {},
+    });
+    let round = json!({"casing": {"clearance": {"values": [0.25, 0.25]}}, "contact": {}});
+    let gap = "clearance 0.3–0.221 mm, 2 lobes of 0.425 mm";
+    let cases = [
+        (
+            "sweeps",
+            json!({"scene": scene, "speeds": {"values": [24000.0, 12000.0], "unit": "rpm"}}),
+            format!("12,000 to 24,000 rpm, {gap}"),
+        ),
+        (
+            "sweeps",
+            json!({"scene": round, "speeds": {"values": [200.0], "unit": "hz"}}),
+            "12,000 rpm, clearance 0.25 mm".to_owned(),
+        ),
+        (
+            "modal-analyses",
+            json!({"speeds": {"from": 0.0, "to": 2000.0, "count": 3, "unit": "rad_s"}, "lobes": 2}),
+            "modal analysis, 0 to 19,100 rpm".to_owned(),
+        ),
+        (
+            "branches",
+            json!({"scene": scene, "speed": {"value": 15000.0, "unit": "rpm"}, "along": {"parameter": "speed", "from": 14000.0, "to": 16000.0}}),
+            format!("branches, 14,000 to 16,000 rpm, {gap}"),
+        ),
+        (
+            "branches",
+            json!({"scene": scene, "speed": {"value": 15000.0, "unit": "rpm"}, "along": {"parameter": "damping", "from": 0.5, "to": 2.0}}),
+            format!("branches, 15,000 rpm, {gap}"),
+        ),
+        (
+            "run-ups",
+            json!({"scene": scene, "speed": {"unit": "rpm", "from": 16000.0, "to": 14000.0, "rates": [50000.0]}}),
+            format!("run up, 14,000 to 16,000 rpm, {gap}"),
+        ),
+        (
+            "case-studies",
+            json!({"scene": scene, "speed": {"value": 15000.0, "unit": "rpm"}}),
+            format!("case study, 15,000 rpm, {gap}"),
+        ),
+        (
+            "studies",
+            json!({"scene": scene, "speeds": {"values": [15000.0], "unit": "rpm"}}),
+            format!("study, 15,000 rpm, {gap}"),
+        ),
+    ];
+    for (route, mut request, name) in cases {
+        request["model"] = json!(model);
+        let answer = api.post(&format!("/v1/{route}"), &request).await;
+        assert_eq!(answer.status, 202, "{route}: {}", answer.body);
+        let path = format!("/v1/jobs/{}", answer.text("/id"));
+        assert_eq!(api.get(&path).await.body["name"], format!("springs: {name}"), "{route}");
+        // An owner who wants none has none.
+        assert_eq!(patch(api, &path, &json!({"name": null})).await.body["name"], Value::Null);
+    }
     app.stop().await;
 }
 

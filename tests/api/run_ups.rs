@@ -98,9 +98,7 @@ async fn run_ups_take_what_was_planned_and_are_told_in_all_forms() {
     let csv = get(api, &format!("{path}?format=csv&units=rpm"), &[]).await.good();
     let frames: usize = runs.iter().map(|run| run["frames"].as_array().unwrap().len()).sum();
     assert_eq!(csv.text().lines().count(), 1 + frames);
-    assert!(
-        csv.text().starts_with("run,rate_rad_s2,revolution,start_s,end_s,speed_start_rad_s,speed_start_rpm,")
-    );
+    assert!(csv.text().starts_with("run,rate_rpm_s,revolution,start_s,end_s,speed_start_rpm,speed_end_rpm,"));
     let spectrogram = format!("/v1/jobs/{id}/spectrogram");
     for form in ["svg", "plotly", "npz", "png"] {
         get(api, &format!("{path}?format={form}"), &[]).await.good();

@@ -92,7 +92,7 @@ async fn a_sweep_is_judged_by_its_ranges_and_limits() {
         .text()
         .await
         .unwrap();
-    assert!(csv.starts_with("index,speed_rad_s,status,critical,"), "{csv}");
+    assert!(csv.starts_with("index,speed_rpm,status,critical,"), "{csv}");
     assert_eq!(csv.lines().count(), 1 + points.len());
     app.stop().await;
 }

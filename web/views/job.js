@@ -56,6 +56,15 @@ const FOR_ALL = [
   ['downloads', 'Downloads', () => import('./job/downloads.js')],
 ];
 
+/** Kinds whose results come as a whole, at the end, and kinds that have none before their first part; all others have what is finished. */
+const WHOLE = new Set(['modal_analysis', 'study', 'case_study']);
+const IN_PARTS = new Set(['branches', 'run_up']);
+
+/** Whether the results of a job can be asked for. */
+function hasResults(job) {
+  return WHOLE.has(job.kind) ? job.status === 'successful' : !IN_PARTS.has(job.kind) || job.stored_bytes > 0;
+}
+
 export async function show(main, { id, query }, signal) {
   const job = await readJob(id, signal);
   const tabs = [...(TABS[job.kind] ?? []), ...FOR_ALL].filter(([name]) => name !== 'forces' || job.request.scene.contact);
@@ -94,6 +103,12 @@ export async function show(main, { id, query }, signal) {
     follow(id, tell, signal).catch((error) => {
       if (!signal.aborted) state.append(problem(error));
     });
+  }
+  if (!hasResults(job) && !FOR_ALL.includes(tab)) {
+    const words = WHOLE.has(job.kind) ? 'Results are here when the job has ended.' : 'Nothing has been found yet: the first response is being computed.';
+    replace(place, h('p', { class: 'note' }, ended(job) ? 'The job ended without a result.' : words));
+    listeners.push((now) => (ended(now) || hasResults(now)) && again());
+    return;
   }
   try {
     // The verdict is there before the view below it, which then stays where it is.

@@ -114,10 +114,24 @@ def test_spectra_histories_forces_and_stress_have_their_dimensions(swept: rubmap
     plot.spectrum(spectrum)
 
 
+def test_a_casing_stands_where_its_lobes_say(swept: rubmap.Sweep) -> None:
+    casing = swept.casing()
+    asked = swept.json("interaction-map")["settings"]["scene"]["casing"]
+    lobes = asked["lobes"]
+    angle = casing.index.to_numpy()
+    height = sum(
+        lobes["amplitude"] * np.exp(-((((angle - k * 2 * np.pi / lobes["count"] + np.pi) % (2 * np.pi) - np.pi) / lobes["width_rad"]) ** 2))
+        for k in range(lobes["count"])
+    )
+    np.testing.assert_allclose(casing[0], asked["clearance"]["leading"] - height, atol=1e-3 * lobes["amplitude"])
+    assert casing.attrs["length"] == "mm" and len(casing.attrs["radius"]) == casing.shape[1]
+    assert "times as large" in plot.casing(casing).get_title()
+
+
 def test_files_are_whole(swept: rubmap.Sweep, model: rubmap.Model, tmp_path: Path) -> None:
     assert swept.download("interaction-map", tmp_path / "map.svg").read_bytes().startswith(b"<?xml")
     lines = swept.download("critical-speeds", tmp_path / "table.txt", format="csv").read_text().splitlines()
-    assert any("speed_rad_s" in line for line in lines)
+    assert any("speed_rpm" in line for line in lines)
     assert b"<html" in swept.report(tmp_path / "report.html").read_bytes()[:200]
     assert zipfile.ZipFile(swept.archive(tmp_path / "all.zip")).testzip() is None
     assert b"PolyData" in model.download("mesh", tmp_path / "mesh.vtp").read_bytes()[:400]

@@ -30,6 +30,7 @@
 //! # Ok::<(), serde_json::Error>(())
 //! ```
 
+mod around;
 mod axis;
 mod branch_line;
 mod branches;
@@ -99,6 +100,7 @@ mod wheel_level;
 mod window;
 mod work_precision;
 
+pub use around::around;
 pub use branches::branches;
 pub use campaign::campaign;
 pub use campbell::campbell;

@@ -339,7 +339,7 @@ fn project(view: SectionView, [r, theta, z]: [f64; 3]) -> (f64, f64) {
 }
 
 /// Rounds up to the next of 1, 2 and 5 times a power of ten; at least 1.
-fn round_up(value: f64) -> f64 {
+pub(super) fn round_up(value: f64) -> f64 {
     if value <= 1.0 || !value.is_finite() {
         return 1.0;
     }

@@ -25,6 +25,14 @@ pub(in crate::cli) enum Target {
     File(PathBuf),
 }
 
+/// Size of a body that was copied.
+#[derive(Debug, Clone, Copy, Default)]
+pub(in crate::cli) struct Copied {
+    pub(in crate::cli) bytes: u64,
+    /// Number of ends of lines.
+    pub(in crate::cli) lines: u64,
+}
+
 impl Client {
     /// Downloads a result to a file, byte by byte as the service gave it, and reads it.
     ///
@@ -49,7 +57,7 @@ impl Client {
         self.patiently(|| async { self.write(self.send(request()).await?, file, None).await.map(drop) }).await
     }
 
-    /// Downloads the resource at `path` with `query`; returns its number of bytes.
+    /// Downloads the resource at `path` with `query`; returns its size.
     ///
     /// # Errors
     /// As [`Client::save`]; or binary data that no terminal shows.
@@ -58,7 +66,7 @@ impl Client {
         path: &str,
         query: &[(String, String)],
         target: &Target,
-    ) -> anyhow::Result<u64> {
+    ) -> anyhow::Result<Copied> {
         let request = || self.request(Method::GET, path).query(query);
         match target {
             Target::Stdout => {
@@ -79,7 +87,7 @@ impl Client {
         }
     }
 
-    async fn write(&self, response: Response, file: &Path, bar: Option<Bar>) -> anyhow::Result<u64> {
+    async fn write(&self, response: Response, file: &Path, bar: Option<Bar>) -> anyhow::Result<Copied> {
         let failed = || format!("cannot write {}", file.display());
         let refused = |error: std::io::Error| anyhow::Error::new(error).context(failed());
         let (exists, is_file) = match file.metadata() {
@@ -96,30 +104,31 @@ impl Client {
         let place = if exists { file.canonicalize().with_context(failed)? } else { file.to_owned() };
         let folder = place.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let part = new_file(folder).with_context(failed)?;
-        let bytes = self.copy(response, part.as_file(), refused, bar).await?;
+        let copied = self.copy(response, part.as_file(), refused, bar).await?;
         part.persist(&place).map_err(|error| refused(error.error))?;
-        Ok(bytes)
+        Ok(copied)
     }
 
-    /// Copies a body; returns its number of bytes.
+    /// Copies a body; returns its size.
     async fn copy(
         &self,
         mut response: Response,
         mut out: impl Write,
         refused: impl Fn(std::io::Error) -> anyhow::Error,
         mut bar: Option<Bar>,
-    ) -> anyhow::Result<u64> {
-        let (mut bytes, total) = (0, response.content_length());
+    ) -> anyhow::Result<Copied> {
+        let (mut copied, total) = (Copied::default(), response.content_length());
         loop {
             let piece = response.chunk().await;
             let Some(piece) = piece.map_err(|error| ClientError::unreachable(&self.server, &error))? else {
                 out.flush().map_err(&refused)?;
-                return Ok(bytes);
+                return Ok(copied);
             };
             out.write_all(&piece).map_err(&refused)?;
-            bytes += piece.len() as u64;
+            copied.bytes += piece.len() as u64;
+            copied.lines += piece.iter().filter(|byte| **byte == b'\n').count() as u64;
             if let Some(bar) = &mut bar {
-                bar.show_bytes(bytes, total);
+                bar.show_bytes(copied.bytes, total);
             }
         }
     }

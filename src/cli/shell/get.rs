@@ -15,6 +15,9 @@ use crate::cli::verdict;
 /// Results of models; all others are of jobs.
 const OF_MODELS: [&str; 3] = ["mesh", "modes", "section"];
 
+/// Result of a job that is drawn from its scene and the section of its model.
+const CASING: &str = "casing";
+
 /// Forms of files whose names end with them.
 const FORMS: [&str; 8] = ["json", "csv", "npz", "svg", "png", "vtu", "vtp", "pvd"];
 
@@ -28,7 +31,7 @@ pub(in crate::cli) struct GetArgs {
     #[arg(value_name = "JOB")]
     whose: String,
     /// Result, as its path ends: verdict, level, interaction-map, critical-speeds, critical-speeds/wheel, spectra/20, campbell, interference, forces, stress, histories,
-    /// fields, wear/0, work-precision, report, archive; of a model mesh, modes, section
+    /// fields, wear/0, work-precision, casing (around the circumference), report, archive; of a model mesh, modes, section
     #[arg(value_parser = result)]
     result: String,
     /// Parameters of the result, such as sensor=1 or units=rpm; all are in openapi.yaml
@@ -60,20 +63,35 @@ impl Verb for GetArgs {
         if self.result == "verdict" && self.format.as_deref() == Some("text") {
             return self.verdict(client, &target).await;
         }
+        let mut result = self.result.as_str();
         let path = if of_model {
             format!("/v1/models/{}", find::model(client, &self.whose).await?)
         } else {
-            format!("/v1/jobs/{}", find::job(client, &self.whose).await?)
+            let id = find::job(client, &self.whose).await?;
+            if result == CASING {
+                // Drawn before the contact line of the model.
+                result = "section";
+                query.extend(
+                    [("view", "around"), ("sweep", &id)]
+                        .map(|(name, value)| (name.to_owned(), value.to_owned())),
+                );
+                client.job(&id).await?.link("model")?.to_owned()
+            } else {
+                format!("/v1/jobs/{id}")
+            }
         };
-        let got = client.get_to(&format!("{path}/{}", self.result), &query, &target).await;
-        let bytes = match got {
+        let got = client.get_to(&format!("{path}/{result}"), &query, &target).await;
+        let copied = match got {
             Err(error) if !of_model && error.downcast_ref().is_some_and(ClientError::is_no_route) => {
                 return Err(error).context(self.known(client, &path).await?);
             }
             got => got?,
         };
         if let Target::File(file) = &target {
-            client.terminal.say(&format!("{}: {}", file.display(), size(bytes)));
+            client.terminal.say(&format!("{}: {}", file.display(), size(copied.bytes)));
+        }
+        if copied.lines == 1 && query.iter().any(|(name, form)| (&**name, &**form) == ("format", "csv")) {
+            client.terminal.say(&format!("the table has its header only: {}", self.why_empty()));
         }
         Ok(())
     }
@@ -105,6 +123,19 @@ impl GetArgs {
                     ),
                 }
             }
+        }
+    }
+
+    /// Reason why the table of the result has no line.
+    fn why_empty(&self) -> &'static str {
+        match self.result.as_str() {
+            "critical-speeds" => {
+                "no response of this sensor peaks within the range of speeds; critical-speeds/wheel looks at all tips, sensor=1 at another sensor"
+            }
+            "critical-speeds/wheel" | "verdict" => {
+                "no response of the wheel peaks within the range of speeds"
+            }
+            _ => "nothing of this is known yet, or the job found none",
         }
     }
 

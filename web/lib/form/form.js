@@ -36,13 +36,6 @@ export function form(what) {
     value: () => context.value,
     /** Shows another value. */
     set,
-    /** Writes a text into a field as if by hand, without a word to `onChange`. */
-    write(pointer, text) {
-      const place = context.places.get(pointer);
-      if (!place) return;
-      place.control.value = text;
-      context.value = { ...context.value, [pointer.slice(1)]: text };
-    },
     /** Says at each field what the service finds wrong there; returns those errors that have no field. */
     complain(errors, focus) {
       for (const place of context.places.values()) place.complain(null);

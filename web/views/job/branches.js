@@ -1,6 +1,6 @@
 // Branches of periodic responses: they grow while the job runs.
 
-import { api, Refusal } from '../../lib/api.js';
+import { api } from '../../lib/api.js';
 import { h, replace } from '../../lib/dom.js';
 import { downloadButton } from '../../lib/download.js';
 import { growing } from '../../lib/growing.js';
@@ -57,9 +57,7 @@ export async function show(place, context, signal) {
       await plot(figure, drawn, { signal, label: 'Branches' });
       replace(found, tables(await api.get(path, { signal }), sensor));
     } catch (error) {
-      if (signal.aborted) return;
-      const early = error instanceof Refusal && error.type.endsWith('result-not-ready');
-      replace(told, early ? h('p', { class: 'note' }, 'No point has been found yet: the search for the first periodic response is running.') : unread(error, signal));
+      if (!signal.aborted) replace(told, unread(error, signal));
     }
   }
   let phase = job.phase;

@@ -10,7 +10,7 @@ import { unread } from '../../lib/problem.js';
 import { table } from '../../lib/table.js';
 import { unitOf } from '../../lib/units.js';
 import { select, sensors } from './choices.js';
-import { followButton } from './follow.js';
+import { fromHere } from './from-here.js';
 import { LINEAR, SETTLED, SETTLING, VALIDITY } from './verdicts.js';
 
 export async function show(place, context, signal) {
@@ -87,10 +87,8 @@ const common = [
   { name: 'Utilisation', number: true, cell: (each) => percent(each.utilisation), sort: (each) => each.utilisation },
 ];
 
-/** What a periodic response does beside a critical speed is another job's. */
-const following = ({ job }, signal) => ({
-  name: 'Branches', cell: (each) => followButton(job, each.speed_rad_s, signal, 'Follow'),
-});
+/** What can be asked next of a critical speed is another job's. */
+const next = ({ job }, signal) => ({ name: 'Look closer', cell: (each) => fromHere(job, each.speed_rad_s, signal, true) });
 
 function sensorTable(found, context, signal) {
   const unit = unitOf(found.sensor, found.units);
@@ -107,7 +105,7 @@ function sensorTable(found, context, signal) {
       { name: 'Nearest linear prediction', cell: (each) => predicted(each.nearest_crossing) },
       { name: 'Off by', number: true, cell: offWords, sort: off },
       ...common,
-      following(context, signal),
+      next(context, signal),
     ],
   });
 }
@@ -142,7 +140,7 @@ function wheelTable(found, context, signal) {
       { name: 'Clearance used', title: 'Largest share of its clearance that the outward motion of a node uses', number: true, cell: (each) => percent(each.clearance_consumption), sort: (each) => each.clearance_consumption },
       { name: `Force, ${force}`, title: 'Largest sum of all contact forces', number: true, cell: (each) => number(each.peak_force), sort: (each) => each.peak_force },
       ...common,
-      following(context, signal),
+      next(context, signal),
     ],
   });
 }

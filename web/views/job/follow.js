@@ -12,11 +12,10 @@ import { branchesFrom, changeable, PARAMETERS, rangeOf } from '../request/branch
  * @param {any} job a sweep
  * @param {number} speed_rad_s
  * @param {AbortSignal} signal
- * @param {string} [words]
+ * @param {string} words
  */
-export function followButton(job, speed_rad_s, signal, words = 'Follow branches from here') {
-  const label = words === 'Follow branches from here' ? null : `${words === 'Follow' ? 'Follow branches' : words} from ${speed(speed_rad_s)}`;
-  return h('button', { type: 'button', 'aria-label': label, on: { click: () => ask(job, speed_rad_s, signal) } }, words);
+export function followButton(job, speed_rad_s, signal, words) {
+  return h('button', { type: 'button', 'aria-label': `Follow branches from ${speed(speed_rad_s)}`, on: { click: () => ask(job, speed_rad_s, signal) } }, words);
 }
 
 function ask(job, speed_rad_s, signal) {

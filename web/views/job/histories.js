@@ -2,8 +2,6 @@
 
 import { api, submit } from '../../lib/api.js';
 import { h, replace } from '../../lib/dom.js';
-import { ended } from '../../lib/events.js';
-import { again } from '../../lib/place.js';
 import { plot } from '../../lib/plot.js';
 import { problem } from '../../lib/problem.js';
 import { select, sensors } from './choices.js';
@@ -47,11 +45,6 @@ export function recorder(job, index, view, signal) {
 
 export async function show(place, context, signal) {
   const { job, query } = context;
-  if (!ended(job)) {
-    replace(place, h('p', { class: 'note' }, 'Histories are here when the job has ended.'));
-    context.onChange((now) => ended(now) && again());
-    return;
-  }
   const quantity = query.get('quantity') ?? 'displacement';
   const figure = h('div', { class: 'figure tall' });
   replace(place, h('div', { class: 'row' },

@@ -1,6 +1,6 @@
 // Run-ups and run-downs: how far a sensor swings over the speed, run by run; they grow while the job runs.
 
-import { api, Refusal } from '../../lib/api.js';
+import { api } from '../../lib/api.js';
 import { h, replace } from '../../lib/dom.js';
 import { downloadButton } from '../../lib/download.js';
 import { ended } from '../../lib/events.js';
@@ -42,12 +42,8 @@ export async function show(place, context, signal) {
       await plot(figure, drawn, { signal, label: 'Run-ups' });
       replace(found, tables(await api.get(path, { signal }), sensor, context));
     } catch (error) {
-      if (signal.aborted) return false;
-      const early = error instanceof Refusal && error.type.endsWith('result-not-ready');
-      replace(told, early ? h('p', { class: 'note' }, 'No frame is available yet: the first ones are being computed.') : unread(error, signal));
-      return early;
+      if (!signal.aborted) replace(told, unread(error, signal));
     }
-    return false;
   }
   await growing(context, { read, grown: further(job) }, signal);
 }

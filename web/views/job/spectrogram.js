@@ -1,8 +1,9 @@
 // The spectrogram of a run: amplitudes over speed and engine order or frequency; it grows while the run does.
 
-import { api, Refusal } from '../../lib/api.js';
+import { api } from '../../lib/api.js';
 import { h, replace } from '../../lib/dom.js';
 import { downloadButton } from '../../lib/download.js';
+import { ended } from '../../lib/events.js';
 import { growing } from '../../lib/growing.js';
 import { plot } from '../../lib/plot.js';
 import { unread } from '../../lib/problem.js';
@@ -30,16 +31,18 @@ export async function show(place, context, signal) {
 
   async function read() {
     try {
+      const { runs: begun } = await api.get(`/v1/jobs/${job.id}/run-ups`, { signal });
+      if (!begun.some(({ run, frames }) => run === Number(asked.run) && frames.length > 0)) {
+        replace(told, h('p', { class: 'note' }, ended(context.now()) ? 'The job ended before this run.' : 'Nothing of this run is there yet.'));
+        return true;
+      }
       const drawn = await api.figure(path, asked, { signal });
       // What is zoomed stays so when the run goes on.
       drawn.layout.uirevision = job.id;
       replace(told);
       await plot(figure, scale === 'linear' ? linear(drawn) : drawn, { signal, label: 'Spectrogram' });
     } catch (error) {
-      if (signal.aborted) return false;
-      const early = error instanceof Refusal && error.type.endsWith('result-not-ready');
-      replace(told, early ? h('p', { class: 'note' }, 'Nothing of this run is there yet.') : unread(error, signal));
-      return early;
+      if (!signal.aborted) replace(told, unread(error, signal));
     }
     return false;
   }

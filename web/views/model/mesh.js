@@ -20,7 +20,7 @@ export async function show(place, { model, query, go }, signal) {
     h('div', { class: 'row' },
       jobs.length > 0 ? select('Casing of', jobs.map((job) => [job.id, nameOf(job)]), sweep, (chosen) => go({ sweep: chosen }))
         : h('span', { class: 'quiet' }, 'The casing and its clearance are shown after the first sweep of this model.'),
-      select('Section', [['meridional', 'meridional'], ['cyclic', 'along the axis']], view, (chosen) => go({ section: chosen }))),
+      select('Section', [['meridional', 'meridional'], ['cyclic', 'along the axis'], ['around', 'casing around the wheel']], view, (chosen) => go({ section: chosen }))),
     h('div', { class: 'sketches' }, section, h('div', { class: 'wide' }, model.mesh ? null : h('p', { class: 'note' }, 'The package has no elements: only the contact lines of the wheel can be shown in 3D.'), wheel)));
   const path = `/v1/models/${model.id}/section`;
   const [figure, geometry] = await Promise.all([

@@ -1,6 +1,6 @@
 // What branches are asked for: from a speed of a sweep.
 
-import { rpm, speed } from '../../lib/format.js';
+import { rpm } from '../../lib/format.js';
 import { tidy } from '../../lib/units.js';
 
 /** What may change along branches. */
@@ -41,6 +41,5 @@ function shared(sweep) {
 
 /** The request of branches of a sweep's scene that begin at a speed. */
 export function branchesFrom(job, speed_rad_s, along) {
-  const name = `${job.name || 'Sweep'}: branches over ${PARAMETERS[along.parameter]} from ${speed(speed_rad_s)}`.slice(-200);
-  return { model: job.model, name, speed: { value: tidy(rpm(speed_rad_s)), unit: 'rpm' }, along, ...shared(job.request) };
+  return { model: job.model, speed: { value: tidy(rpm(speed_rad_s)), unit: 'rpm' }, along, ...shared(job.request) };
 }

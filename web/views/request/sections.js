@@ -80,6 +80,6 @@ export function sectionsOf({ value, begun, units, wheel, campbell, dial }) {
       state: ({ accuracy, budget }) => (accuracy ? `error below ${percent(accuracy.target)}` : budget ? 'within a budget of time' : 'usual settings'),
       parts: ['/budget', '/modes_per_speed', '/refine', '/control_speeds', '/integration'], rest: [''],
     },
-    { title: 'Name, tags, notes', parts: ['/name', '/tags', '/notes'], open: true, state: ({ name }) => name ?? '' },
+    { title: 'Name, tags, notes', parts: ['/name', '/tags', '/notes'], open: open('/name', '/tags', '/notes'), state: ({ name }) => name ?? 'named by model, speeds and clearance' },
   ];
 }

@@ -150,7 +150,7 @@ export function speedsOver(model, signal) {
   async function analyse() {
     start.disabled = true;
     const { to } = speedsOf(model);
-    const asked = { model: model.id, speeds: { from: 0, to, count: COUNT, unit: 'rpm' }, lobes: lobesOf(last), coriolis: isSplit(last) || undefined, name: `${model.name}: natural frequencies`.slice(0, 200) };
+    const asked = { model: model.id, speeds: { from: 0, to, count: COUNT, unit: 'rpm' }, lobes: lobesOf(last), coriolis: isSplit(last) || undefined };
     try {
       const { id } = await submit('/v1/modal-analyses', asked, signal);
       await follow(id, (now) => {

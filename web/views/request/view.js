@@ -9,7 +9,6 @@ import { problem } from '../../lib/problem.js';
 import { accuracyDial } from './accuracy.js';
 import { casingTable } from './casing.js';
 import { editor } from './editor.js';
-import { proposedName } from './names.js';
 import { planAside } from './plan.js';
 import { prices } from './prices.js';
 import { RARE, sectionsOf } from './sections.js';
@@ -28,8 +27,7 @@ export async function requestForm(place, { model, kind, value, words }, signal) 
   const [contract, section] = await Promise.all([openapi(), api.get(`/v1/models/${model.id}/section`, { signal }).catch(() => null)]);
   const definitions = withSets(contract.components.schemas, model);
   const draft = draftHere();
-  const nameFor = (request) => proposedName(request, model, kind.path);
-  const begun = draft.kept() ?? { ...value, name: value.name ?? nameFor(value) };
+  const begun = draft.kept() ?? value;
   const wheel = wheelInCasing(model, section);
   const campbell = speedsOver(model, signal);
   const plan = kind.plan ? planAside(kind.plan, planned, signal) : null;
@@ -63,17 +61,12 @@ export async function requestForm(place, { model, kind, value, words }, signal) 
     sections: sectionsOf({ value: begun, begun: kind.begin(model), units: model.units, wheel: wheel.element, campbell: campbell.element, dial: dial?.element }),
     onChange: () => changed(),
   });
-  let named = nameFor(begun);
   const button = h('button', { type: 'submit', class: 'main' }, 'Start');
   const element = h('form', { novalidate: true, on: { submit: start } }, fields.element, json.element, told, unsent, h('div', { class: 'row' }, button));
   replace(place, draft.kept() ? draftNote(draft) : null, words ? h('p', {}, words) : null, h('div', { class: 'columns' }, element, plan?.element));
   tell();
 
   function changed(by = null) {
-    // A name that was proposed follows what is asked; one that was written stays.
-    const before = named;
-    named = nameFor(fields.value());
-    if (by !== json && fields.value().name === before) fields.write('/name', named);
     draft.keep(fields.value());
     tell(by);
   }

@@ -16,6 +16,7 @@ from .tables import RPM
 __all__ = [
     "branches",
     "campbell",
+    "casing",
     "critical_speeds",
     "envelope",
     "interaction_map",
@@ -114,6 +115,31 @@ def campbell(
         )
     ax.set_xlabel("speed of rotation, rpm")
     ax.set_ylabel("frequency, Hz")
+    ax.legend(fontsize="small")
+    return ax
+
+
+def casing(found: pd.DataFrame, ax: Axes | None = None) -> Axes:
+    """Casing around the circumference where it comes closest to the tips, of :meth:`Sweep.casing`; its distance is drawn larger, as the title says."""
+    ax = _axes(ax)
+    node = int(np.argmin(found.min().to_numpy()))
+    gap, radius, length = found.iloc[:, node].to_numpy(), found.attrs["radius"][node], found.attrs["length"]
+    largest = float(np.abs(gap).max())
+    times = float(f"{max(1.0, 0.1 * radius / largest):.0e}") if largest > 0.0 else 1.0
+    around = np.linspace(0.0, 2.0 * np.pi, 721)
+    wall = radius + times * np.interp(around, found.index.to_numpy(), gap, period=2.0 * np.pi)
+    tips = np.arange(found.attrs["sectors"]) * 2.0 * np.pi / found.attrs["sectors"]
+    ax.plot(radius * np.cos(around), radius * np.sin(around), color="grey", linewidth=0.8, linestyle=":")
+    ax.plot(radius * np.cos(tips), radius * np.sin(tips), "o", markersize=4, color=_COLOURS[0], label="tips")
+    ax.plot(wall * np.cos(around), wall * np.sin(around), color="#444444", linewidth=2.5, label="casing at rest")
+    inward = np.where(wall < radius, wall, np.nan)
+    if np.isfinite(inward).any():
+        label = "casing farther in than the tips"
+        ax.plot(inward * np.cos(around), inward * np.sin(around), color="#b01f20", linewidth=3.5, label=label)
+    ax.set_aspect("equal")
+    ax.set_xlabel(f"x, {length}")
+    ax.set_ylabel(f"y, {length}")
+    ax.set_title(f"contact node {found.columns[node]}, distance drawn {times:,.0f} times as large")
     ax.legend(fontsize="small")
     return ax
 

@@ -157,6 +157,19 @@ class Sweep(_Recorded):
         """Tip motion, clearance consumption, utilisation and largest force on a node over speed, over the whole wheel, with errors and standings."""
         return table(self.arrays("level"), "speed_rad_s")
 
+    def casing(self) -> pd.DataFrame:
+        """Distance of the casing at rest from the tips: a row per angle of the fixed frame, rad, a column per contact node. ``attrs`` has their
+        ``radius``, the number of ``sectors`` and the unit of ``length``."""
+        found = self._service.get(f"/v1/models/{self.state['model']}/section", sweep=self.id)
+        places = [place for place in found["contact"] if "clearance" in place]
+        count = max((len(place.get("heights", [])) for place in places), default=0) or 1
+        gaps = {k: place["clearance"] - np.array(place.get("heights") or [0.0] * count) for k, place in enumerate(places)}
+        frame = pd.DataFrame(gaps, index=pd.Index(np.arange(count) * 2.0 * np.pi / count, name="angle_rad"))
+        frame.columns.name = "contact_node"
+        radius = [place["position"][0] for place in places]
+        frame.attrs = {"radius": radius, "sectors": found["sectors"], "length": found["units"]["length"]}
+        return frame
+
     def record(self, request: HistoriesRequest) -> CaseStudy:
         """Has histories recorded of a sweep that has ended: by a case study, which is returned when it is submitted.
 

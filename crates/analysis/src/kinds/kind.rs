@@ -314,6 +314,16 @@ pub trait ResolvedJob: Any + Debug + Send + Sync {
         Vec::new()
     }
 
+    /// Scene that the job is about, as a sweep, if it has one.
+    fn scene(&self) -> Option<&ResolvedSweep> {
+        self.scenes().into_iter().next()
+    }
+
+    /// Lowest and highest speed that the job is about, rad/s.
+    fn span_rad_s(&self) -> Option<[f64; 2]> {
+        self.scene()?.speeds().span_rad_s()
+    }
+
     /// Settings that the job leaves to the service.
     fn choice(&self) -> Option<ToChoose<'_>> {
         None

@@ -10,6 +10,7 @@ pub mod document;
 pub mod kind;
 pub mod list;
 pub mod modal_analysis;
+pub mod name;
 pub mod plan;
 pub mod run_up;
 pub mod study;

@@ -54,6 +54,12 @@ impl ResolvedSpeeds {
         speeds
     }
 
+    /// Lowest and highest speed, rad/s; none without speeds.
+    pub(crate) fn span_rad_s(&self) -> Option<[f64; 2]> {
+        let all = || self.rad_s.iter().copied();
+        Some([all().reduce(f64::min)?, all().reduce(f64::max)?])
+    }
+
     /// Number of speeds.
     pub fn count(&self) -> u32 {
         self.rad_s.len() as u32

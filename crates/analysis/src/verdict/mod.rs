@@ -8,7 +8,7 @@ mod open;
 mod points;
 mod range;
 mod rule;
-mod sentence;
+pub(crate) mod sentence;
 #[cfg(test)]
 mod tests;
 

@@ -169,7 +169,7 @@ pub(super) fn rpm(speed_rad_s: f64) -> String {
 }
 
 /// Speed in revolutions per minute, in groups of three digits; with decimals where it is small.
-fn rpm_number(speed_rad_s: f64) -> String {
+pub(crate) fn rpm_number(speed_rad_s: f64) -> String {
     let rpm = speed_rad_s * 60.0 / std::f64::consts::TAU;
     if rpm < 100.0 {
         return digits(rpm);
@@ -191,7 +191,7 @@ fn grouped(value: f64) -> String {
 }
 
 /// Number with three significant digits.
-fn digits(value: f64) -> String {
+pub(crate) fn digits(value: f64) -> String {
     let rounded: f64 = format!("{value:.2e}").parse().unwrap_or(value);
     if rounded != 0.0 && !(1e-4..1e6).contains(&rounded.abs()) {
         return format!("{rounded:e}");

@@ -16,14 +16,14 @@ th, td { text-align: left; padding: .2em .6em .2em 0; border-bottom: 1px solid #
 table.numbers td, table.numbers th { text-align: right; font-variant-numeric: tabular-nums }
 table.numbers td { white-space: nowrap }
 table.facts th { width: 16em; font-weight: normal; color: #555 }
-tr, figure { break-inside: avoid }
+tr, figure { break-inside: avoid } h2 + p { break-after: avoid }
 figure { margin: .5em 0 } figure svg { max-width: 100%; height: auto }
 .warnings { border-left: 4px solid #b01f20; padding-left: 1em } .small { color: #555; font-size: .9em }
 p.verdict { border-left: 6px solid; padding: .4em .8em; background: #f4f4f4; font-size: 1.1em }
 p.act { border-color: #b01f20 } p.undecided { border-color: #6b6b6b } p.watch { border-color: #c07800 } p.clear { border-color: #17693c }
 pre { white-space: pre-wrap; overflow-wrap: break-word; font-size: .8em } .notes { white-space: pre-wrap }
 .sheet table { margin: .3em 0 } .sheet th, .sheet td { padding: .1em .6em .1em 0 } .sheet table.facts th { width: 11em }
-table.worst td { white-space: nowrap } table.worst td:nth-child(3) { white-space: normal }
+table.worst td, table.worst th { white-space: nowrap } table.worst td.words { white-space: normal; min-width: 14em }
 @media print {
   body { font-size: 9.5pt; margin: 0; padding: 0; max-width: none } pre { font-size: 7pt } table.numbers { font-size: 7pt }
   h1 { font-size: 13pt; margin: 0 } .sheet { font-size: 8pt; line-height: 1.3; break-after: page } .sheet figure { margin: 0 } .sheet svg { width: 100%; max-height: 100mm }

@@ -48,8 +48,8 @@ fn worst(level: &SweepLevel) -> Markup {
                     @let rows = values.len().max(1).to_string();
                     tr {
                         td rowspan=(rows) { strong { (label(rpm(speed.speed_rad_s), 0)) " rpm" } }
-                        td rowspan=(rows) { (response(speed)) }
-                        td rowspan=(rows) { (position(speed)) }
+                        td.words rowspan=(rows) { (response(speed)) }
+                        td.words rowspan=(rows) { (position(speed)) }
                         @match values.first() {
                             Some(first) => (cells(first, level)),
                             None => {

@@ -10,9 +10,9 @@ use super::fixtures::{contact, recorded, sector, spectra, worn};
 use super::impeller::{SECTORS, impeller};
 use super::passed::{many_rates, passed, stayed, through_points};
 use super::pens::svg::{
-    branches, campbell, campbell_fixed_frame, critical_speeds, error_over_step, fixed_frame_map, force_map,
-    haigh, histories, interaction_map, map_sheet, run_ups, section, spectrogram, spectrum, speed_histories,
-    trajectories, wear_map, work_precision,
+    around, branches, campbell, campbell_fixed_frame, critical_speeds, error_over_step, fixed_frame_map,
+    force_map, haigh, histories, interaction_map, map_sheet, run_ups, section, spectrogram, spectrum,
+    speed_histories, trajectories, wear_map, work_precision,
 };
 use super::stresses::{of_sweep, stressed_critical, stressed_map};
 use super::studies::{RUNS, first_revolutions, study};
@@ -195,6 +195,7 @@ fn all() -> Vec<Drawing> {
             &["axial coordinate z, mm", "radius r, mm"],
         ),
         (section(&sector(5), SectionView::Cyclic), "Cyclic faces", &["x, mm", "y, mm"]),
+        (around(&sector(5)), "Casing around the circumference: a disk <and> a blade", &["x, mm", "y, mm"]),
         (
             surface(&impeller(0..SECTORS, 4, 2.0), SurfaceView::Front),
             "Nodal diameter 2, mode 1",
@@ -522,6 +523,8 @@ fn drawings_of_next_to_nothing_are_drawings() {
     let mut drawings = vec![
         map_sheet(&[], Window::default(), LevelColour::Plain),
         section(&sector(1), SectionView::Meridional),
+        around(&sector(1)),
+        around(&sector(0)),
     ];
     for view in [SectionView::Meridional, SectionView::Cyclic] {
         let mut geometry = sector(0);

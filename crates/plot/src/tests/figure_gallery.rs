@@ -81,6 +81,7 @@ pub(super) fn all() -> Vec<(String, Figure)> {
     for (name, view) in [("section", SectionView::Meridional), ("section-cyclic", SectionView::Cyclic)] {
         all.push((name.to_owned(), figure::section(&sector(9), view)));
     }
+    all.push(("around".to_owned(), figure::around(&sector(9))));
     for (name, by) in [("haigh", HaighColour::Speed), ("haigh-utilisation", HaighColour::Utilisation)] {
         all.push((name.to_owned(), figure::haigh(&of_sweep(&stressed_map()), by)));
     }

@@ -54,6 +54,7 @@ macro_rules! maps {
 }
 
 pens! {
+    crate::around => around(of: &SectorGeometry);
     crate::branches => branches(of: &Branches, sensor: usize, marched: &[Point]);
     crate::campaign => campaign(of: &Campaign, parameter: usize);
     crate::campbell => campbell(of: &Campbell);

@@ -16,7 +16,7 @@ use crate::model::ReducedSector;
 use crate::monitor::Monitor;
 #[cfg(feature = "schema")]
 use crate::request::BranchesSettings;
-use crate::request::{BranchesRequest, Sensor};
+use crate::request::{Along, BranchParameter, BranchesRequest, Sensor};
 use crate::resolved::{ResolvedBranches, ResolvedSweep};
 use crate::result::BranchesPlan;
 
@@ -86,6 +86,13 @@ impl ResolvedJob for ResolvedBranches {
 
     fn scenes(&self) -> Vec<&ResolvedSweep> {
         vec![&self.sweep]
+    }
+
+    fn span_rad_s(&self) -> Option<[f64; 2]> {
+        match self.along {
+            Along { parameter: BranchParameter::Speed, from, to } => Some([from, to]),
+            Along { .. } => self.sweep.speeds.span_rad_s(),
+        }
     }
 
     fn plan(&self, grounds: &Grounds) -> serde_json::Result<Plan> {

@@ -324,8 +324,11 @@ const COLUMNS: [&str; 24] = [
 /// Requires names of parameters that can be columns of tables and entries of archives.
 fn check_names(found: &mut Findings, parameters: &[Parameter], severity: Severity, units: &Units) {
     let column = severity_column(severity, units);
+    // Tables for spreadsheets have lengths in micrometres.
+    let what = ["_mm", "_m"].iter().find_map(|unit| column.strip_suffix(unit));
+    let as_read = what.map(|what| format!("{what}_um"));
     for (index, Parameter { name, .. }) in parameters.iter().enumerate() {
-        let taken = COLUMNS.contains(&name.as_str()) || *name == column;
+        let taken = COLUMNS.contains(&name.as_str()) || *name == column || Some(name) == as_read.as_ref();
         found.require(
             !taken && !name.starts_with("compared_"),
             &format!("/parameters/{index}/name"),

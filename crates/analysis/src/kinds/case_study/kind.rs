@@ -107,6 +107,12 @@ impl ResolvedJob for ResolvedCaseStudy {
         vec![&self.sweep]
     }
 
+    fn span_rad_s(&self) -> Option<[f64; 2]> {
+        let all = self.sweep.speeds().rad_s();
+        let of = || self.speeds.iter().filter_map(|&index| all.get(index as usize).copied());
+        Some([of().reduce(f64::min)?, of().reduce(f64::max)?])
+    }
+
     fn records(&self) -> Recorded {
         Recorded { stress: false, states: self.records_states() }
     }

@@ -81,6 +81,10 @@ impl ResolvedJob for ResolvedModalAnalysis {
         self.speeds.count()
     }
 
+    fn span_rad_s(&self) -> Option<[f64; 2]> {
+        self.speeds.span_rad_s()
+    }
+
     fn modes_per_speed(&self) -> Option<u32> {
         self.modes().given()
     }

@@ -91,6 +91,10 @@ impl ResolvedJob for ResolvedRunUps {
         vec![&self.sweep]
     }
 
+    fn span_rad_s(&self) -> Option<[f64; 2]> {
+        Some(self.speed.range().into())
+    }
+
     fn plan(&self, grounds: &Grounds) -> serde_json::Result<Plan> {
         let (model, Capacity { machine, costs, .. }) = (&grounds.models[0], grounds.capacity()?);
         let plan = plan_run_ups(self, &model.facts, model.reduced.as_deref(), costs);

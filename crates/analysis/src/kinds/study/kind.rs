@@ -11,7 +11,7 @@ use crate::kinds::plan::{Grounds, Plan};
 use crate::kinds::study::resolve::resolve_study;
 use crate::kinds::study::work_precision::plan_study;
 use crate::request::{Sensor, StudyRequest};
-use crate::resolved::ResolvedStudy;
+use crate::resolved::{ResolvedStudy, ResolvedSweep};
 #[cfg(feature = "schema")]
 use crate::result::StudyPlan;
 
@@ -84,6 +84,10 @@ impl ResolvedJob for ResolvedStudy {
 
     fn speeds(&self) -> u32 {
         self.sweep.speeds.count()
+    }
+
+    fn scene(&self) -> Option<&ResolvedSweep> {
+        Some(&self.sweep)
     }
 
     fn modes_per_speed(&self) -> Option<u32> {
