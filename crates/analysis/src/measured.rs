@@ -10,7 +10,7 @@ use crate::resolved::ResolvedSweep;
 use crate::result::{Point, Validity, ValidityMeasure};
 use crate::speed_scene::{Recording, SpeedScene, Start};
 use crate::tips::wheel_peaks;
-use crate::validity::{beside, geometric, unmeasured};
+use crate::validity::{beside, geometric, is_open, thickness, unmeasured};
 use rubmap_wheel::dynamics::casing::arc_lengths;
 use rubmap_wheel::dynamics::integrate::{Outcome, Revolutions};
 use rubmap_wheel::dynamics::states::WheelStates;
@@ -24,18 +24,17 @@ pub(crate) fn most(request: &ResolvedSweep, facts: &ModelFacts) -> u32 {
     if can { request.speeds.count().min(MOST as u32) } else { 0 }
 }
 
-/// Speeds of a finished sweep at which validity is to be measured, ascending by index: of those where geometry raises a doubt, the largest
-/// motion and the most severe peaks. None in a sweep up or down, where every speed before them would have to be simulated, too.
+/// Speeds of a finished sweep at which validity is to be measured, ascending by index: of those that geometry leaves open, the largest motion
+/// and the most severe peaks. None in a sweep up or down, where every speed before them would have to be simulated, too.
 pub fn speeds_to_measure(request: &ResolvedSweep, reduced: &ReducedSector, points: &[Point]) -> Vec<u32> {
     if request.chain().is_some() {
         return Vec::new();
     }
-    let doubtful = |point: &&Point| {
-        point.validity.as_ref().is_some_and(|found| geometric(found).any(|check| check.is_doubtful()))
+    let open = |point: &Point| {
+        let validity = point.validity.as_ref().filter(|validity| is_open(validity))?;
+        Some((point.index, displacement(validity, reduced, request)?))
     };
-    let candidates: Vec<(u32, f64)> = (points.iter().filter(doubtful))
-        .filter_map(|point| Some((point.index, displacement(point.validity.as_ref()?, reduced)?)))
-        .collect();
+    let candidates: Vec<(u32, f64)> = points.iter().filter_map(open).collect();
     let Some(&(largest, _)) = candidates.iter().max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0))) else {
         return Vec::new();
     };
@@ -85,20 +84,20 @@ pub fn largest_motion(
     }
 }
 
-/// Puts measures in the place of guesses by geometry. Where geometry raises a doubt at a speed that was not measured, measures of larger
+/// Puts measures in the place of guesses by geometry. Where geometry leaves a speed open that was not measured, measures of larger
 /// motions are scaled down, and the worst of them counts: the excess energy in proportion to the motion, in which it is of first order for a
 /// blade that is curved, the second-order motion by its square.
 pub fn judge_by_measures(
     points: &mut [Point],
-    reduced: &ReducedSector,
+    (reduced, request): (&ReducedSector, &ResolvedSweep),
     measured: &Result<Vec<Bent>, NotMeasured>,
 ) {
     for point in points {
         let Some(validity) = &point.validity else { continue };
-        if !geometric(validity).any(|check| check.is_doubtful()) {
+        if !is_open(validity) {
             continue;
         }
-        let Some(displacement) = displacement(validity, reduced) else { continue };
+        let Some(displacement) = displacement(validity, reduced, request) else { continue };
         match measured {
             Err(error) => point.validity = Some(unmeasured(validity, &error.to_string())),
             Ok(measured) => {
@@ -124,11 +123,11 @@ pub fn judge_by_measures(
 }
 
 /// Largest displacement of a contact node, from its ratio to a length of the blade.
-fn displacement(validity: &Validity, reduced: &ReducedSector) -> Option<f64> {
+fn displacement(validity: &Validity, reduced: &ReducedSector, request: &ResolvedSweep) -> Option<f64> {
     let positions: Vec<[f64; 3]> = reduced.wheel.contact.iter().map(|node| node.position).collect();
     let chord = arc_lengths(&positions).last().copied();
     geometric(validity).find_map(|check| match check.what {
-        ValidityMeasure::DisplacementOverThickness => Some(check.value * reduced.tip_thickness?),
+        ValidityMeasure::DisplacementOverThickness => Some(check.value * thickness(reduced, request)?),
         ValidityMeasure::DisplacementOverChord => Some(check.value * chord?),
         _ => None,
     })

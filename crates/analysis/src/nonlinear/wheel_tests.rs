@@ -9,6 +9,7 @@ use rubmap_model::package::{Limits, read, read_mesh, read_nodes, write};
 use rubmap_solid::frame::AxisFrame;
 use rubmap_solid::mesh::SectorMesh;
 use rubmap_wheel::dynamics::casing::arc_lengths;
+use rubmap_wheel::dynamics::integrate::Excursion;
 use rubmap_wheel::dynamics::nodes::SectorNode;
 use rubmap_wheel::dynamics::reduction::{BasisRows, Checkpoints};
 use rubmap_wheel::dynamics::sector::SectorModel;
@@ -157,7 +158,7 @@ fn measures_are_scaled_to_smaller_motions_only() {
     let bent =
         |index: usize, excess, gap| Bent { index: index as u32, displacement: sizes[index], excess, gap };
     let measured = Ok(vec![bent(1, -0.3, Some(0.01)), bent(2, 0.01, None)]);
-    judge_by_measures(&mut points, reduced, &measured);
+    judge_by_measures(&mut points, (reduced, &request), &measured);
     let told = |index: usize| {
         let validity = points[index].validity.as_ref().unwrap();
         let checks = validity.checks.iter().map(|check| (check.what, check.value, check.scaled_from));
@@ -173,8 +174,35 @@ fn measures_are_scaled_to_smaller_motions_only() {
     assert!((checks[0].1 - 0.15).abs() < 1e-12 && (checks[1].1 - 0.0025).abs() < 1e-12, "{checks:?}");
     // Geometry: without a doubt, and beyond all that was measured.
     assert_eq!((told(3).0, told(4).0), (ValidityVerdict::Linear, ValidityVerdict::Doubtful));
-    judge_by_measures(&mut points, reduced, &Err(NotMeasured::Relaxed("no minimum".to_owned())));
+    judge_by_measures(&mut points, (reduced, &request), &Err(NotMeasured::Relaxed("no minimum".to_owned())));
     assert_eq!(points[4].validity_lacking(), [ValidityMeasure::ExcessEnergy]);
+}
+
+/// A speed without a doubt is measured where no thickness is known, and then checked.
+#[test]
+fn a_speed_is_measured_for_want_of_a_thickness() {
+    let reduced = ReducedSector { tip_thickness: None, ..SMALL.reduced.clone() };
+    let request = SMALL.sweep(20_000.0);
+    let judged = |displacement: f64, request: &ResolvedSweep| {
+        let excursion = Excursion { displacement, ..Excursion::default() };
+        let validity = Some(crate::validity::judge(&excursion, None, &reduced, request));
+        Point { index: 0, validity, ..empty_point(&reduced, request, 0, 2000.0) }
+    };
+    let positions: Vec<[f64; 3]> = reduced.wheel.contact.iter().map(|node| node.position).collect();
+    let chord = *arc_lengths(&positions).last().unwrap();
+    // Half the thickness of a blade of 1/500 of its chord.
+    let (slight, seen) = (0.9e-3 * chord, 1.1e-3 * chord);
+    let mut points = [judged(seen, &request)];
+    assert_eq!(points[0].validity_verdict(), Some(ValidityVerdict::NotChecked));
+    assert_eq!(speeds_to_measure(&request, &reduced, &points), [0]);
+    let bent = Bent { index: 0, displacement: seen, excess: 0.001, gap: None };
+    judge_by_measures(&mut points, (&reduced, &request), &Ok(vec![bent]));
+    assert_eq!(points[0].validity_verdict(), Some(ValidityVerdict::Linear));
+    let verdict = |displacement, request: &ResolvedSweep| judged(displacement, request).validity_verdict();
+    assert_eq!(verdict(slight, &request), Some(ValidityVerdict::Linear));
+    let given = ResolvedSweep { blade_thickness: Some(4.0 * seen), ..request };
+    assert_eq!(verdict(seen, &given), Some(ValidityVerdict::Linear));
+    assert_eq!(verdict(3.0 * seen, &given), Some(ValidityVerdict::Doubtful));
 }
 
 /// Sectors of one instant against an independent code (docs/method.md, Stress): the energy of the linear field under Green–Lagrange strain over its
