@@ -5,9 +5,9 @@ use std::borrow::Cow;
 use crate::error::AnalysisError;
 use crate::model::{ModelFacts, ReducedSector};
 use crate::monitor::Monitor;
-use crate::nonlinear::{Bent, LargestMotion, NotMeasured, PHASE};
+use crate::nonlinear::{Bent, LargestMotion, NotMeasured, PHASE, expected_bytes, relaxing_seconds};
 use crate::resolved::ResolvedSweep;
-use crate::result::{Point, Validity, ValidityMeasure};
+use crate::result::{CostRange, Estimate, Point, Validity, ValidityMeasure};
 use crate::speed_scene::{Recording, SpeedScene, Start};
 use crate::tips::wheel_peaks;
 use crate::validity::{beside, geometric, is_open, thickness, unmeasured};
@@ -22,6 +22,29 @@ const MOST: usize = 6;
 pub(crate) fn most(request: &ResolvedSweep, facts: &ModelFacts) -> u32 {
     let can = facts.mesh.is_some() && request.chain().is_none() && request.fields() != Some(false);
     if can { request.speeds.count().min(MOST as u32) } else { 0 }
+}
+
+/// Cost of a sweep with that of measuring validity: none where nothing moves far, otherwise all speeds that may be measured once more, one
+/// after the other, with the fields of their sectors relaxed on all `threads`.
+pub(crate) fn with_cost(
+    all: Estimate,
+    request: &ResolvedSweep,
+    facts: &ModelFacts,
+    threads: usize,
+) -> Estimate {
+    let (Some(mesh), most @ 1..) = (&facts.mesh, most(request, facts)) else { return all };
+    let simulated = f64::from(most) * all.computing_time_s.contact / f64::from(request.speeds.count());
+    let relaxed = relaxing_seconds(facts.own_dofs, most);
+    let at_most = |contact: f64| CostRange { free: 0.0, contact };
+    let measuring = Estimate {
+        steps: 0,
+        computing_time_s: at_most(simulated + relaxed),
+        wall_time_s: at_most(simulated + relaxed / threads.max(1) as f64),
+        workers: 1,
+        memory_bytes: expected_bytes(mesh.elements as usize, facts.own_dofs as usize, most as usize),
+        speed_memory_bytes: 0,
+    };
+    all.followed_by(measuring)
 }
 
 /// Speeds of a finished sweep at which validity is to be measured, ascending by index: of those that geometry leaves open, the largest motion
