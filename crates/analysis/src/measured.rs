@@ -8,6 +8,7 @@ use crate::monitor::Monitor;
 use crate::nonlinear::{Bent, LargestMotion, NotMeasured, PHASE, expected_bytes, relaxing_seconds};
 use crate::resolved::ResolvedSweep;
 use crate::result::{CostRange, Estimate, Point, Validity, ValidityMeasure};
+use crate::speed::state_before;
 use crate::speed_scene::{Recording, SpeedScene, Start};
 use crate::tips::wheel_peaks;
 use crate::validity::{beside, geometric, is_open, thickness, unmeasured};
@@ -20,8 +21,13 @@ const MOST: usize = 6;
 
 /// Most speeds of a sweep at which validity is measured.
 pub(crate) fn most(request: &ResolvedSweep, facts: &ModelFacts) -> u32 {
-    let can = facts.mesh.is_some() && request.chain().is_none() && request.fields() != Some(false);
-    if can { request.speeds.count().min(MOST as u32) } else { 0 }
+    let can = facts.mesh.is_some() && request.fields() != Some(false);
+    if can { request.speeds.count().min(chosen_at_most(request) as u32) } else { 0 }
+}
+
+/// Most speeds that are chosen: a single one in a sweep up or down, since all speeds before it are simulated, too.
+fn chosen_at_most(request: &ResolvedSweep) -> usize {
+    if request.chain().is_some() { 1 } else { MOST }
 }
 
 /// Cost of a sweep with that of measuring validity: none where nothing moves far, otherwise all speeds that may be measured once more, one
@@ -33,7 +39,9 @@ pub(crate) fn with_cost(
     threads: usize,
 ) -> Estimate {
     let (Some(mesh), most @ 1..) = (&facts.mesh, most(request, facts)) else { return all };
-    let simulated = f64::from(most) * all.computing_time_s.contact / f64::from(request.speeds.count());
+    let speeds = request.speeds.count();
+    let again = if request.chain().is_some() { speeds } else { most };
+    let simulated = f64::from(again) * all.computing_time_s.contact / f64::from(speeds);
     let relaxed = relaxing_seconds(facts.own_dofs, most);
     let at_most = |contact: f64| CostRange { free: 0.0, contact };
     let measuring = Estimate {
@@ -48,11 +56,8 @@ pub(crate) fn with_cost(
 }
 
 /// Speeds of a finished sweep at which validity is to be measured, ascending by index: of those that geometry leaves open, the largest motion
-/// and the most severe peaks. None in a sweep up or down, where every speed before them would have to be simulated, too.
+/// and the most severe peaks.
 pub fn speeds_to_measure(request: &ResolvedSweep, reduced: &ReducedSector, points: &[Point]) -> Vec<u32> {
-    if request.chain().is_some() {
-        return Vec::new();
-    }
     let open = |point: &Point| {
         let validity = point.validity.as_ref().filter(|validity| is_open(validity))?;
         Some((point.index, displacement(validity, reduced, request)?))
@@ -65,7 +70,7 @@ pub fn speeds_to_measure(request: &ResolvedSweep, reduced: &ReducedSector, point
     let is_candidate = |index: &u32| candidates.iter().any(|(candidate, _)| candidate == index);
     let peaks = wheel_peaks(request, points, None);
     for index in peaks.iter().map(|peak| peak.index).filter(is_candidate) {
-        if chosen.len() < MOST && !chosen.contains(&index) {
+        if chosen.len() < chosen_at_most(request) && !chosen.contains(&index) {
             chosen.push(index);
         }
     }
@@ -73,7 +78,7 @@ pub fn speeds_to_measure(request: &ResolvedSweep, reduced: &ReducedSector, point
     chosen
 }
 
-/// Simulates speed `index` of a sweep once more, to the bit, and finds its largest motion over the last revolution; none where it is not
+/// Simulates speed `index` of a sweep once more, to the bit, in a sweep up or down with all speeds before it, and finds its largest motion over the last revolution; none where it is not
 /// completed or nothing moves.
 ///
 /// # Errors
@@ -84,6 +89,8 @@ pub fn largest_motion(
     index: u32,
     monitor: &dyn Monitor,
 ) -> Result<Option<LargestMotion>, AnalysisError> {
+    let before = state_before(reduced, request, index as usize, monitor)?;
+    let start = before.as_ref().map_or(Start::Scene, Start::After);
     let watch = |fraction: f64| {
         monitor.progress(fraction, PHASE);
         !monitor.is_cancelled()
@@ -91,7 +98,7 @@ pub fn largest_motion(
     let speed_rad_s = request.speeds.rad_s()[index as usize];
     let Ok(scene) = SpeedScene::new(reduced, Cow::Borrowed(request), speed_rad_s) else { return Ok(None) };
     let recording = Recording { detail: None, states: Some(Revolutions::Last(1)) };
-    let Ok(simulated) = scene.simulate(Start::Scene, recording, &watch) else { return Ok(None) };
+    let Ok(simulated) = scene.simulate(start, recording, &watch) else { return Ok(None) };
     match &simulated.run.outcome {
         Outcome::Cancelled => Err(AnalysisError::Cancelled),
         Outcome::Completed(history) => {

@@ -44,7 +44,8 @@ pub struct SweepPlan {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub added_speeds_at_most: Option<u32>,
     /// Most speeds that are simulated once more, in the end, to measure the validity of linear theory where geometry leaves it open; in the upper
-    /// bounds of `estimate`. 0 for models without a mesh, without the basis of the reduction, and for sweeps up or down.
+    /// bounds of `estimate`. 0 for models without a mesh and without the basis of the reduction, 1 for sweeps up or down, of which all
+    /// speeds before it are simulated, too.
     #[serde(default)]
     pub validity_speeds_at_most: u32,
     /// Threads that compute speeds side by side, on all machines; one where each speed starts from the end of another.
