@@ -27,6 +27,7 @@ pub mod app;
 pub mod casing_table;
 pub mod cli;
 pub mod config;
+mod duration;
 pub mod export;
 pub mod http;
 pub mod import;

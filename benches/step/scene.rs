@@ -159,6 +159,7 @@ impl Scene {
             fields: None,
             operation: None,
             limits: None,
+            blade_thickness: None,
             record: request::Record::default(),
         };
         ResolvedSweep::stored(settings, 0).expect("the settings are sound")

@@ -15,8 +15,7 @@ pub(super) async fn follow_any(client: &Client, id: &str, name: &str) -> anyhow:
     client.follow(id, |job| bar.show(job.progress, &words(job), job.status.is_final())).await
 }
 
-/// Words for the progress of a job: counts of speeds as soon as there are any, before that its phase; its status if it
-/// waits, was paused or was not successful.
+/// Words for the progress of a job: its phase; its status if it waits, was paused or was not successful, and counts of its speeds at the end.
 fn words(job: &Job) -> String {
     use crate::store::status::JobStatus::{Accepted, Dismissed, Failed, Paused, Running, Successful};
 
@@ -25,7 +24,7 @@ fn words(job: &Job) -> String {
         Paused => "paused".to_owned(),
         Failed => "failed".to_owned(),
         Dismissed => "cancelled".to_owned(),
-        Running | Successful if job.speeds.finished == 0 && !job.phase.is_empty() => job.phase.clone(),
+        Running if !job.phase.is_empty() => job.phase.clone(),
         Successful if job.speeds.total == 0 => "done".to_owned(),
         Running if job.speeds.total == 0 => String::new(),
         Running | Successful => format!("{} of {} speeds", job.speeds.finished, job.speeds.total),

@@ -53,6 +53,7 @@ mod static_wheel;
 mod stress;
 mod study;
 mod tasks;
+mod time_left;
 mod trials;
 mod turns;
 mod validity;

@@ -67,6 +67,10 @@ pub(super) async fn keep(
             estimate
         }
     };
+    // The estimate is for the speeds that were asked for.
+    if job.request.rounds() == 0 {
+        job.watch.expect_time(estimate.wall_time_s);
+    }
     job.speed_bytes.store(estimate.speed_memory_bytes, Ordering::Relaxed);
     // Refused before the first speed begins, not when it claims its memory.
     engine.memory.hold(estimate.speed_memory_bytes).await.map(drop).map_err(Interruption::speed_memory)

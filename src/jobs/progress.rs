@@ -3,8 +3,11 @@
 use std::collections::HashMap;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Instant;
 
+use super::time_left::Pace;
 use crate::analysis::monitor::Monitor;
+use crate::analysis::result::CostRange;
 use crate::store::Changes;
 use crate::store::jobs::JobId;
 
@@ -76,6 +79,7 @@ struct Done {
     finished: u32,
     /// Finished fraction of each speed that is being computed.
     running: HashMap<u32, f64>,
+    pace: Pace,
 }
 
 impl Watch {
@@ -144,8 +148,17 @@ impl Watch {
         self.report_speeds(&mut done);
     }
 
+    /// Gives the plan's estimate for all speeds, against which the first results are held.
+    pub(super) fn expect_time(&self, plan: CostRange) {
+        let mut done = self.done.lock().unwrap_or_else(PoisonError::into_inner);
+        let speeds = f64::from(done.speeds);
+        done.pace.expect(plan, speeds);
+    }
+
     fn report_speeds(&self, done: &mut Done) {
-        let phase = format!("{} of {} speeds finished", done.finished, done.speeds);
+        let (speeds, all) = (done.speeds_done(), f64::from(done.speeds));
+        let left = done.pace.words(Instant::now(), speeds, all);
+        let phase = format!("{} of {} speeds finished{left}", done.finished, done.speeds);
         self.report(done, &phase, done.percent_of_sweep());
     }
 
@@ -186,10 +199,14 @@ impl Done {
         }
     }
 
+    /// Number of speeds that are done, with fractions of those that are being computed.
+    fn speeds_done(&self) -> f64 {
+        f64::from(self.finished) + self.running.values().sum::<f64>()
+    }
+
     fn percent_of_sweep(&self) -> f64 {
         // A speed that two tasks happened to run counts once.
-        let speeds = f64::from(self.finished) + self.running.values().sum::<f64>();
-        let share = speeds / f64::from(self.speeds.max(1));
+        let share = self.speeds_done() / f64::from(self.speeds.max(1));
         REDUCTION_OF_SWEEP + (100.0 - REDUCTION_OF_SWEEP) * share.min(1.0)
     }
 }
@@ -237,8 +254,16 @@ impl PhaseMonitor {
 impl Monitor for PhaseMonitor {
     fn progress(&self, fraction: f64, phase: &str) {
         let mut done = self.watch.done.lock().unwrap_or_else(PoisonError::into_inner);
-        let percent = self.from + (self.to - self.from) * fraction.clamp(0.0, 1.0);
-        self.watch.report(&mut done, phase, percent);
+        let fraction = fraction.clamp(0.0, 1.0);
+        let percent = self.from + (self.to - self.from) * fraction;
+        // Only the last phase of a job tells how long the job takes.
+        if self.to < 100.0 {
+            return self.watch.report(&mut done, phase, percent);
+        }
+        let now = Instant::now();
+        done.pace.begin(now, fraction);
+        let phase = format!("{phase}{}", done.pace.words(now, fraction, 1.0));
+        self.watch.report(&mut done, &phase, percent);
     }
 
     fn is_cancelled(&self) -> bool {
@@ -263,6 +288,8 @@ impl Monitor for SpeedMonitor {
     /// Reports the number of finished speeds: as speeds run side by side, it says more than the phase of any.
     fn progress(&self, fraction: f64, _phase: &str) {
         let mut done = self.watch.done.lock().unwrap_or_else(PoisonError::into_inner);
+        let before = done.speeds_done();
+        done.pace.begin(Instant::now(), before);
         done.running.insert(self.speed, fraction.clamp(0.0, 1.0));
         self.watch.report_speeds(&mut done);
     }

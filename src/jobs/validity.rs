@@ -38,7 +38,7 @@ pub(super) async fn measured(
     if let Err(error) = &measured {
         tracing::warn!(job.id = %job.id, %error, "the validity of linear theory cannot be measured");
     }
-    run::judge_by_measures(&mut points, reduced, &measured);
+    run::judge_by_measures(&mut points, (reduced, request), &measured);
     patiently(&job.watch, || engine.store.revise_points(job.id, &points)).await?;
     tracing::info!(job.id = %job.id, speeds = speeds.len(), "measured the validity of linear theory");
     Ok(points)

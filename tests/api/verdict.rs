@@ -98,6 +98,33 @@ async fn a_sweep_is_judged_by_its_ranges_and_limits() {
 }
 
 #[tokio::test]
+async fn linear_theory_that_cannot_be_checked_leaves_the_verdict_open() {
+    let app = TestApp::start().await;
+    let api = &app.api;
+    // A package without elements, whose tips move by more than a thousandth of their line.
+    let model = api.model(model::package(1.0)).await;
+    let mut request = judged(&model, &json!({"tip_motion": 1e6}));
+    for (thickness, open, validity) in [(None, true, "not_checked"), (Some(1e6), false, "linear")] {
+        request["blade_thickness"] = json!(thickness);
+        let id = api.sweep(&request).await;
+        api.finish(&id).await;
+        let points = api.get(&format!("/v1/jobs/{id}/interaction-map")).await.body["points"].clone();
+        let seen = |point: &&Value| point["validity"]["verdict"] == validity;
+        let seen = points.as_array().unwrap().iter().filter(seen).count();
+        assert!(seen > 0, "{points}");
+        let found = verdict(api, &id).await;
+        let of_theory = |of: &&Value| of["what"] == "linear_theory_not_checked";
+        let question = found["would_decide"].as_array().unwrap().iter().find(of_theory);
+        assert_eq!(question.is_some(), open, "{found}");
+        if let Some(question) = question {
+            assert_eq!(found["verdict"], "undecided");
+            assert!(question["remedy"].as_str().unwrap().contains("elements of the mesh"), "{question}");
+        }
+    }
+    app.stop().await;
+}
+
+#[tokio::test]
 async fn impossible_ranges_and_limits_are_refused_at_their_field() {
     let app = TestApp::start().await;
     let api = &app.api;
@@ -120,6 +147,9 @@ async fn impossible_ranges_and_limits_are_refused_at_their_field() {
             assert_eq!(api.post(route, &request).await.pointers(422, "invalid-request"), pointers);
         }
     }
+    let mut thin = sweep_of(&model);
+    thin["blade_thickness"] = json!(0.0);
+    assert_eq!(api.post("/v1/sweeps", &thin).await.pointers(422, "invalid-request"), ["/blade_thickness"]);
     for (limits, pointers) in [
         (json!({"tip_motion": 0.0, "node_force": -1.0}), &["/limits/tip_motion", "/limits/node_force"][..]),
         (json!({"utilisation": 0.9}), &["/limits/utilisation"]),

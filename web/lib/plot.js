@@ -3,6 +3,9 @@
 import { Away } from './api.js';
 import { colour, onTheme } from './theme.js';
 
+/** Colours that the colour-blind tell apart, those of drawings and of the Python client. */
+export const PALETTE = ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#e69f00', '#56b4e9', '#8c8c8c'];
+
 /** Pixels of height of a figure that does not say. */
 const HEIGHT = 400;
 
@@ -36,7 +39,7 @@ function template() {
       legend: { bgcolor: 'rgba(0,0,0,0)' },
       xaxis: axis,
       yaxis: axis,
-      colorway: ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#e69f00', '#56b4e9', '#8c8c8c'],
+      colorway: PALETTE,
     },
   };
 }

@@ -3,7 +3,7 @@
 import { part } from '../lib/api.js';
 import { h, facts, replace } from '../lib/dom.js';
 import { ended, follow, readJob } from '../lib/events.js';
-import { bytes, count, duration, moment, nameOf } from '../lib/format.js';
+import { bytes, count, moment, nameOf } from '../lib/format.js';
 import { labelsButton } from '../lib/labels.js';
 import { again, placeWith } from '../lib/place.js';
 import { problem, unread } from '../lib/problem.js';
@@ -122,13 +122,6 @@ export async function show(main, { id, query }, signal) {
   }
 }
 
-/** About how long a job still takes, from what it took so far, s; nothing before that means anything. */
-export function remaining(job) {
-  if (job.status !== 'running' || !job.started_at || job.progress < 3) return null;
-  const spent = (Date.now() - Date.parse(job.started_at)) / 1000;
-  return spent * (100 / job.progress - 1);
-}
-
 /** Shows how far a job is, again and again. Its buttons are made anew only when others are needed: one that has the focus keeps it. */
 function stateView(element, signal) {
   const tag = h('span');
@@ -145,8 +138,7 @@ function stateView(element, signal) {
     tag.className = `tag ${{ successful: 'good', failed: 'bad' }[job.status] ?? ''}`;
     replace(tag, STATUSES[job.status] ?? job.status);
     const { speeds } = job;
-    const left = remaining(job);
-    replace(words, running(job) ? `${job.progress} %${job.phase ? ` · ${job.phase}` : ''}${left ? ` · about ${duration(left)} left` : ''}`
+    replace(words, running(job) ? `${job.progress} %${job.phase ? ` · ${job.phase}` : ''}`
       : `${moment(job.finished_at)} · ${bytes(job.stored_bytes)}`);
     bar.value = job.progress;
     lost.hidden = !speeds || speeds.diverged + speeds.failed === 0;

@@ -3,12 +3,12 @@
 import { api } from '../lib/api.js';
 import { h, replace } from '../lib/dom.js';
 import { ended, poll } from '../lib/events.js';
-import { bytes, count, duration, KINDS, moment, nameOf, short } from '../lib/format.js';
+import { bytes, count, KINDS, moment, nameOf, short } from '../lib/format.js';
 import { cursorOf, placeWith } from '../lib/place.js';
 import { problem } from '../lib/problem.js';
 import { narrowing, searchField } from '../lib/search.js';
 import { verdictTag } from '../lib/verdict-tag.js';
-import { remaining, STATUSES } from './job.js';
+import { STATUSES } from './job.js';
 import { actions } from './job/actions.js';
 import { select } from './job/choices.js';
 
@@ -132,8 +132,7 @@ function progress(element, job, model) {
     replace(element, h('p', { class: 'quiet small' }, [...what, moment(job.finished_at), bytes(job.stored_bytes)].filter(Boolean).join(' · '), bad > 0 ? h('span', { class: 'warn' }, ` · ${count(bad, 'speed')} without a result`) : null));
     return;
   }
-  const left = remaining(job);
   const bar = h('progress', { max: 100, value: job.progress, 'aria-label': `Progress of ${nameOf(job)}` });
   bar.value = job.progress;
-  replace(element, bar, h('p', { class: 'small' }, [...what, `${job.progress} %`, job.phase, left ? `about ${duration(left)} left` : null].filter(Boolean).join(' · ')));
+  replace(element, bar, h('p', { class: 'small' }, [...what, `${job.progress} %`, job.phase].filter(Boolean).join(' · ')));
 }

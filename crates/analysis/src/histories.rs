@@ -4,7 +4,6 @@ use std::borrow::Cow;
 
 use crate::component::{along, direction};
 use crate::effects::casing::convert::heights_before;
-use crate::end_state::EndState;
 use crate::error::AnalysisError;
 use crate::model::ReducedSector;
 use crate::monitor::Monitor;
@@ -16,7 +15,7 @@ use crate::resolved::{ResolvedCaseStudy, ResolvedSensor, ResolvedSweep};
 use crate::result::{
     ContactHistory, EnergyHistory, Point, PointStatus, SensorHistory, SpeedHistories, TipPlace,
 };
-use crate::speed::{empty_point, run_speed};
+use crate::speed::{empty_point, state_before};
 use crate::speed_scene::{Recording, SpeedScene, Start};
 use crate::summary::critical_indices;
 use rubmap_wheel::dynamics::energy::{EffectWork, EnergyAudit};
@@ -113,21 +112,6 @@ pub fn speed_histories(
 
 fn whole((from, to): (usize, usize)) -> [u32; 2] {
     [from as u32, to as u32]
-}
-
-/// State at the end of the speed before `index` in a sweep up or down.
-fn state_before(
-    reduced: &ReducedSector,
-    sweep: &ResolvedSweep,
-    index: usize,
-    monitor: &dyn Monitor,
-) -> Result<Option<EndState>, AnalysisError> {
-    let mut state = None;
-    for before in sweep.chain().unwrap_or_default().into_iter().take_while(|&before| before as usize != index)
-    {
-        state = run_speed(reduced, sweep, before as usize, state.as_ref(), monitor)?.end_state;
-    }
-    Ok(state)
 }
 
 fn sensors(

@@ -5,12 +5,13 @@ use std::borrow::Cow;
 use crate::error::AnalysisError;
 use crate::model::{ModelFacts, ReducedSector};
 use crate::monitor::Monitor;
-use crate::nonlinear::{Bent, LargestMotion, NotMeasured, PHASE};
+use crate::nonlinear::{Bent, LargestMotion, NotMeasured, PHASE, expected_bytes, relaxing_seconds};
 use crate::resolved::ResolvedSweep;
-use crate::result::{Point, Validity, ValidityMeasure};
+use crate::result::{CostRange, Estimate, Point, Validity, ValidityMeasure};
+use crate::speed::state_before;
 use crate::speed_scene::{Recording, SpeedScene, Start};
 use crate::tips::wheel_peaks;
-use crate::validity::{beside, geometric, unmeasured};
+use crate::validity::{beside, geometric, is_open, thickness, unmeasured};
 use rubmap_wheel::dynamics::casing::arc_lengths;
 use rubmap_wheel::dynamics::integrate::{Outcome, Revolutions};
 use rubmap_wheel::dynamics::states::WheelStates;
@@ -20,22 +21,48 @@ const MOST: usize = 6;
 
 /// Most speeds of a sweep at which validity is measured.
 pub(crate) fn most(request: &ResolvedSweep, facts: &ModelFacts) -> u32 {
-    let can = facts.mesh.is_some() && request.chain().is_none() && request.fields() != Some(false);
-    if can { request.speeds.count().min(MOST as u32) } else { 0 }
+    let can = facts.mesh.is_some() && request.fields() != Some(false);
+    if can { request.speeds.count().min(chosen_at_most(request) as u32) } else { 0 }
 }
 
-/// Speeds of a finished sweep at which validity is to be measured, ascending by index: of those where geometry raises a doubt, the largest
-/// motion and the most severe peaks. None in a sweep up or down, where every speed before them would have to be simulated, too.
-pub fn speeds_to_measure(request: &ResolvedSweep, reduced: &ReducedSector, points: &[Point]) -> Vec<u32> {
-    if request.chain().is_some() {
-        return Vec::new();
-    }
-    let doubtful = |point: &&Point| {
-        point.validity.as_ref().is_some_and(|found| geometric(found).any(|check| check.is_doubtful()))
+/// Most speeds that are chosen: a single one in a sweep up or down, since all speeds before it are simulated, too.
+fn chosen_at_most(request: &ResolvedSweep) -> usize {
+    if request.chain().is_some() { 1 } else { MOST }
+}
+
+/// Cost of a sweep with that of measuring validity: none where nothing moves far, otherwise all speeds that may be measured once more, one
+/// after the other, with the fields of their sectors relaxed on all `threads`.
+pub(crate) fn with_cost(
+    all: Estimate,
+    request: &ResolvedSweep,
+    facts: &ModelFacts,
+    threads: usize,
+) -> Estimate {
+    let (Some(mesh), most @ 1..) = (&facts.mesh, most(request, facts)) else { return all };
+    let speeds = request.speeds.count();
+    let again = if request.chain().is_some() { speeds } else { most };
+    let simulated = f64::from(again) * all.computing_time_s.contact / f64::from(speeds);
+    let relaxed = relaxing_seconds(facts.own_dofs, most);
+    let at_most = |contact: f64| CostRange { free: 0.0, contact };
+    let measuring = Estimate {
+        steps: 0,
+        computing_time_s: at_most(simulated + relaxed),
+        wall_time_s: at_most(simulated + relaxed / threads.max(1) as f64),
+        workers: 1,
+        memory_bytes: expected_bytes(mesh.elements as usize, facts.own_dofs as usize, most as usize),
+        speed_memory_bytes: 0,
     };
-    let candidates: Vec<(u32, f64)> = (points.iter().filter(doubtful))
-        .filter_map(|point| Some((point.index, displacement(point.validity.as_ref()?, reduced)?)))
-        .collect();
+    all.followed_by(measuring)
+}
+
+/// Speeds of a finished sweep at which validity is to be measured, ascending by index: of those that geometry leaves open, the largest motion
+/// and the most severe peaks.
+pub fn speeds_to_measure(request: &ResolvedSweep, reduced: &ReducedSector, points: &[Point]) -> Vec<u32> {
+    let open = |point: &Point| {
+        let validity = point.validity.as_ref().filter(|validity| is_open(validity))?;
+        Some((point.index, displacement(validity, reduced, request)?))
+    };
+    let candidates: Vec<(u32, f64)> = points.iter().filter_map(open).collect();
     let Some(&(largest, _)) = candidates.iter().max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0))) else {
         return Vec::new();
     };
@@ -43,7 +70,7 @@ pub fn speeds_to_measure(request: &ResolvedSweep, reduced: &ReducedSector, point
     let is_candidate = |index: &u32| candidates.iter().any(|(candidate, _)| candidate == index);
     let peaks = wheel_peaks(request, points, None);
     for index in peaks.iter().map(|peak| peak.index).filter(is_candidate) {
-        if chosen.len() < MOST && !chosen.contains(&index) {
+        if chosen.len() < chosen_at_most(request) && !chosen.contains(&index) {
             chosen.push(index);
         }
     }
@@ -51,7 +78,7 @@ pub fn speeds_to_measure(request: &ResolvedSweep, reduced: &ReducedSector, point
     chosen
 }
 
-/// Simulates speed `index` of a sweep once more, to the bit, and finds its largest motion over the last revolution; none where it is not
+/// Simulates speed `index` of a sweep once more, to the bit, in a sweep up or down with all speeds before it, and finds its largest motion over the last revolution; none where it is not
 /// completed or nothing moves.
 ///
 /// # Errors
@@ -62,6 +89,8 @@ pub fn largest_motion(
     index: u32,
     monitor: &dyn Monitor,
 ) -> Result<Option<LargestMotion>, AnalysisError> {
+    let before = state_before(reduced, request, index as usize, monitor)?;
+    let start = before.as_ref().map_or(Start::Scene, Start::After);
     let watch = |fraction: f64| {
         monitor.progress(fraction, PHASE);
         !monitor.is_cancelled()
@@ -69,7 +98,7 @@ pub fn largest_motion(
     let speed_rad_s = request.speeds.rad_s()[index as usize];
     let Ok(scene) = SpeedScene::new(reduced, Cow::Borrowed(request), speed_rad_s) else { return Ok(None) };
     let recording = Recording { detail: None, states: Some(Revolutions::Last(1)) };
-    let Ok(simulated) = scene.simulate(Start::Scene, recording, &watch) else { return Ok(None) };
+    let Ok(simulated) = scene.simulate(start, recording, &watch) else { return Ok(None) };
     match &simulated.run.outcome {
         Outcome::Cancelled => Err(AnalysisError::Cancelled),
         Outcome::Completed(history) => {
@@ -85,20 +114,20 @@ pub fn largest_motion(
     }
 }
 
-/// Puts measures in the place of guesses by geometry. Where geometry raises a doubt at a speed that was not measured, measures of larger
+/// Puts measures in the place of guesses by geometry. Where geometry leaves a speed open that was not measured, measures of larger
 /// motions are scaled down, and the worst of them counts: the excess energy in proportion to the motion, in which it is of first order for a
 /// blade that is curved, the second-order motion by its square.
 pub fn judge_by_measures(
     points: &mut [Point],
-    reduced: &ReducedSector,
+    (reduced, request): (&ReducedSector, &ResolvedSweep),
     measured: &Result<Vec<Bent>, NotMeasured>,
 ) {
     for point in points {
         let Some(validity) = &point.validity else { continue };
-        if !geometric(validity).any(|check| check.is_doubtful()) {
+        if !is_open(validity) {
             continue;
         }
-        let Some(displacement) = displacement(validity, reduced) else { continue };
+        let Some(displacement) = displacement(validity, reduced, request) else { continue };
         match measured {
             Err(error) => point.validity = Some(unmeasured(validity, &error.to_string())),
             Ok(measured) => {
@@ -124,11 +153,11 @@ pub fn judge_by_measures(
 }
 
 /// Largest displacement of a contact node, from its ratio to a length of the blade.
-fn displacement(validity: &Validity, reduced: &ReducedSector) -> Option<f64> {
+fn displacement(validity: &Validity, reduced: &ReducedSector, request: &ResolvedSweep) -> Option<f64> {
     let positions: Vec<[f64; 3]> = reduced.wheel.contact.iter().map(|node| node.position).collect();
     let chord = arc_lengths(&positions).last().copied();
     geometric(validity).find_map(|check| match check.what {
-        ValidityMeasure::DisplacementOverThickness => Some(check.value * reduced.tip_thickness?),
+        ValidityMeasure::DisplacementOverThickness => Some(check.value * thickness(reduced, request)?),
         ValidityMeasure::DisplacementOverChord => Some(check.value * chord?),
         _ => None,
     })

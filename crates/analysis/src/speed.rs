@@ -64,6 +64,21 @@ pub fn run_speed(
     Ok(SpeedResult { point, spectra, wear, contact, end_state })
 }
 
+/// State at the end of the speed before `index` in a sweep up or down, by a simulation of all speeds before it.
+pub(crate) fn state_before(
+    reduced: &ReducedSector,
+    sweep: &ResolvedSweep,
+    index: usize,
+    monitor: &dyn Monitor,
+) -> Result<Option<EndState>, AnalysisError> {
+    let mut state = None;
+    for before in sweep.chain().unwrap_or_default().into_iter().take_while(|&before| before as usize != index)
+    {
+        state = run_speed(reduced, sweep, before as usize, state.as_ref(), monitor)?.end_state;
+    }
+    Ok(state)
+}
+
 /// Writes the stress and the validity of linear theory into `point`, from a complete run.
 pub(super) fn judge_run(point: &mut Point, run: &Run, scene: &SpeedScene<'_>) {
     let Outcome::Completed(history) = &run.outcome else { return };

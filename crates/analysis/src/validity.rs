@@ -14,6 +14,8 @@ type Limits = (f64, Option<f64>);
 /// Limit of displacement over thickness. A plate with held edges that bends by half its thickness carries some tenths of its load as a
 /// membrane, which linear bending neglects.
 const OVER_THICKNESS: Limits = (0.5, None);
+/// Least thickness of a blade at its tip over the length of its contact line: thinner ones are neither milled nor cast.
+const THINNEST: f64 = 1.0 / 500.0;
 /// Limit of displacement over chord. A cantilever that deflects by a twentieth of its length is right to a fraction of a percent, by a tenth
 /// to about one percent.
 const OVER_CHORD: Limits = (0.05, None);
@@ -42,6 +44,20 @@ pub(super) fn geometric(validity: &Validity) -> impl Iterator<Item = &ValidityCh
 fn is_geometric(what: ValidityMeasure) -> bool {
     use ValidityMeasure::{DisplacementOverChord, DisplacementOverThickness, Rotation};
     matches!(what, DisplacementOverThickness | DisplacementOverChord | Rotation)
+}
+
+/// Thickness of the blade at its tip: that of the request, otherwise that of the mesh.
+pub(super) fn thickness(reduced: &ReducedSector, request: &ResolvedSweep) -> Option<f64> {
+    request.blade_thickness.or(reduced.tip_thickness)
+}
+
+/// Whether geometry raises a doubt about a speed, or cannot say anything for want of a thickness.
+pub(super) fn is_open(validity: &Validity) -> bool {
+    geometric(validity).any(ValidityCheck::is_doubtful) || is_unseen(&validity.lacking)
+}
+
+fn is_unseen(lacking: &[ValidityLack]) -> bool {
+    lacking.iter().any(|lack| lack.what == ValidityMeasure::DisplacementOverThickness)
 }
 
 /// Validity with measures in the place of guesses by geometry, each with the speed that it was scaled from, if it was.
@@ -87,14 +103,12 @@ pub(super) fn judge(
     let period = request.scene.touched_shape().and_then(Shape::period_rad);
     let lobe = radius.zip(period).map(|(radius, period)| period * radius);
     let over = |value: f64, length: Option<f64>| length.filter(|&length| length > 0.0).map(|l| value / l);
+    let thickness = thickness(reduced, request);
+    let over_chord = over(excursion.displacement, chord);
     let over_yield = stress.and_then(|stress| stress.largest_over_yield);
     let measured = [
-        (
-            ValidityMeasure::DisplacementOverThickness,
-            over(excursion.displacement, reduced.tip_thickness),
-            OVER_THICKNESS,
-        ),
-        (ValidityMeasure::DisplacementOverChord, over(excursion.displacement, chord), OVER_CHORD),
+        (ValidityMeasure::DisplacementOverThickness, over(excursion.displacement, thickness), OVER_THICKNESS),
+        (ValidityMeasure::DisplacementOverChord, over_chord, OVER_CHORD),
         (ValidityMeasure::Rotation, chord.map(|_| excursion.rotation), ROTATION),
         (ValidityMeasure::StressOverYield, over_yield, OVER_YIELD),
         (
@@ -110,7 +124,13 @@ pub(super) fn judge(
     };
     let checks = measured.into_iter().filter_map(check).collect();
     let asked = request.stress_outside().is_some();
-    conclude(checks, lacking(reduced.tip_thickness, chord, stress, asked))
+    let thick_enough = thickness.is_some() || over_chord.is_some_and(is_slight);
+    conclude(checks, lacking(thick_enough, chord, stress, asked))
+}
+
+/// Whether a displacement over the chord is harmless however thin the blade is.
+fn is_slight(over_chord: f64) -> bool {
+    over_chord <= OVER_THICKNESS.0 * THINNEST
 }
 
 /// Validity by its `checks`, the worst of which comes first and decides, unless something that would decide is `lacking`.
@@ -121,15 +141,14 @@ fn conclude(mut checks: Vec<ValidityCheck>, lacking: Vec<ValidityLack>) -> Valid
     };
     checks.sort_by(order);
     let by_checks = checks.first().map_or(ValidityVerdict::Linear, ValidityCheck::verdict);
-    let unseen = lacking.iter().any(|lack| lack.what == ValidityMeasure::DisplacementOverThickness);
-    let at_least = if unseen { ValidityVerdict::NotChecked } else { ValidityVerdict::Linear };
+    let at_least = if is_unseen(&lacking) { ValidityVerdict::NotChecked } else { ValidityVerdict::Linear };
     Validity { verdict: by_checks.max(at_least), checks, lacking }
 }
 
-/// Decisive quantities that are not known, given the thickness of the blade at its tip, the length of the contact line, and the stress, if
-/// it was `asked` for.
+/// Decisive quantities that are not known, given whether the blade is `thick_enough` or its thickness known, the length of the contact line,
+/// and the stress, if it was `asked` for.
 fn lacking(
-    thickness: Option<f64>,
+    thick_enough: bool,
     chord: Option<f64>,
     stress: Option<&PointStress>,
     asked: bool,
@@ -143,8 +162,7 @@ fn lacking(
         }
         Some(_) => None,
     };
-    let of_thickness = thickness
-        .is_none()
+    let of_thickness = (!thick_enough)
         .then_some("the package has no mesh, or none that shows how thick the blade is at its tip");
     let all = [
         (ValidityMeasure::DisplacementOverThickness, of_thickness),
@@ -177,20 +195,20 @@ mod tests {
         let no_mesh = "the package has no mesh, or none that shows how thick the blade is at its tip";
         let thickness = (ValidityMeasure::DisplacementOverThickness, no_mesh.to_owned());
         let of_stress = |reason: &str| (ValidityMeasure::StressOverYield, reason.to_owned());
-        assert_eq!(named(lacking(Some(1.0), Some(1.0), Some(&judged), true)), []);
+        assert_eq!(named(lacking(true, Some(1.0), Some(&judged), true)), []);
         assert_eq!(
-            named(lacking(None, Some(1.0), None, false)),
+            named(lacking(false, Some(1.0), None, false)),
             [thickness, of_stress("the sweep records no stress (`record.stress`)")]
         );
         assert_eq!(
-            named(lacking(Some(1.0), Some(1.0), Some(&bare), true)),
+            named(lacking(true, Some(1.0), Some(&bare), true)),
             [of_stress("no element set has a yield strength (`yield_strength` in the package)")]
         );
         assert_eq!(
-            named(lacking(Some(1.0), Some(1.0), None, true)),
+            named(lacking(true, Some(1.0), None, true)),
             [of_stress("stress is not known at this speed")]
         );
-        assert_eq!(lacking(Some(1.0), None, Some(&judged), true).len(), 2);
+        assert_eq!(lacking(true, None, Some(&judged), true).len(), 2);
     }
 
     #[test]
@@ -204,7 +222,7 @@ mod tests {
             scaled_from: None,
         };
         let verdict = |checks: Vec<ValidityCheck>, lacking| conclude(checks, lacking).verdict;
-        let unseen = || lacking(None, Some(1.0), None, false);
+        let unseen = || lacking(false, Some(1.0), None, false);
         assert_eq!(verdict(vec![check(thickness, 0.4, OVER_THICKNESS)], Vec::new()), ValidityVerdict::Linear);
         for value in [0.6, 3.0, 3.9e13] {
             let judged = verdict(vec![check(thickness, value, OVER_THICKNESS)], Vec::new());
@@ -217,9 +235,11 @@ mod tests {
         let meeting = check(ValidityMeasure::NeighbourApproach, 1.1, APPROACH);
         let judged = conclude(vec![chord(0.5), meeting], unseen());
         assert_eq!((judged.verdict, judged.checks[0]), (ValidityVerdict::Beyond, meeting));
+        // Half the thickness of the thinnest blade on a chord of 100 is 0.1.
+        assert!(is_slight(0.0999 / 100.0) && !is_slight(0.1001 / 100.0));
         // Stress without a strength leaves the deformation checked.
         assert_eq!(
-            verdict(vec![chord(0.01)], lacking(Some(1.0), Some(1.0), None, false)),
+            verdict(vec![chord(0.01)], lacking(true, Some(1.0), None, false)),
             ValidityVerdict::Linear
         );
     }
@@ -238,7 +258,7 @@ mod tests {
                 excursion(ValidityMeasure::DisplacementOverChord, 0.2, OVER_CHORD),
                 excursion(ValidityMeasure::ContactOverLobe, 0.01, OVER_LOBE),
             ],
-            lacking(None, Some(1.0), None, false),
+            lacking(false, Some(1.0), None, false),
         );
         assert_eq!(guessed.verdict, ValidityVerdict::Doubtful);
         // Limits from both sides, and the second-order gap beside a harmless energy.

@@ -5,7 +5,7 @@ use super::cells::{range, rpm};
 use super::drawing::Drawing;
 use super::layer::{Curve, Mark, Marks, Stroke};
 use super::sketch::{Axis, Panel, Sketch, Stand};
-use super::style::{Colour, Dash, Look, Pen, Symbol};
+use super::style::{Colour, DASHES, Dash, Look, Pen, Symbol};
 use super::svg::{Element, group, line, text};
 use super::{heading, marks};
 use rubmap_analysis::result::{Campbell, Course, Table, Veering, Wave};
@@ -13,10 +13,10 @@ use rubmap_analysis::result::{Campbell, Course, Table, Veering, Wave};
 /// Highest engine order that is drawn: higher ones crowd the corner of slow speeds, so their rays and driven crossings are left out.
 const HIGHEST_ORDER: u32 = 30;
 
-/// Largest number of nodal diameters that a key names; more are named at their lines only.
+/// Largest number of families that a key names.
 pub(super) const NAMED: usize = 16;
 
-/// Natural frequencies over speed, those of a nodal diameter under one name, with engine orders and both kinds of crossings.
+/// Natural frequencies over speed, those of a family in one colour and under one name, with engine orders and both kinds of crossings.
 pub fn campbell(campbell: &Campbell) -> Drawing<'_> {
     let frequencies = campbell.branches();
     let frequencies = frequencies.iter().flat_map(|(_, table)| table.iter().flatten().flatten()).copied();
@@ -70,7 +70,7 @@ fn width(wave: Option<Wave>) -> f64 {
     if wave == Some(Wave::Forward) { 0.9 } else { 1.8 }
 }
 
-/// Adds the natural frequencies of all modes: dashes show the family, forward waves are thin.
+/// Adds the natural frequencies of all modes: colours show the family, dashes the nodal diameter, forward waves are thin.
 fn curves(campbell: &Campbell, panel: &mut Panel) {
     let (harmonics, families) = counts(campbell);
     for (wave, table) in campbell.branches() {
@@ -79,19 +79,17 @@ fn curves(campbell: &Campbell, panel: &mut Panel) {
                 Some((rpm(*speed), *frequencies.get(i)?.get(j)?))
             };
             let places = campbell.speeds_rad_s.iter().zip(table).map(place);
-            let pen = Pen::new(Colour::ordinal(i, harmonics), Dash::nth(j.min(3)), width(wave));
+            let pen = Pen::new(Colour::family(j, families), Dash::nth(i), width(wave));
             let words = marks::mode(i as u32, j as u32 + 1, wave);
-            let curve = Curve::new(&format!("nodal diameter {i}"), places, pen).title(&words);
+            let curve = Curve::new(&family(j), places, pen).title(&words);
             panel.push(curve.over(words, "%{x:.0f} rpm, %{y:.1f} Hz"));
         }
     }
-    for i in (0..harmonics).filter(|i| harmonics <= NAMED || *i == 0 || i + 1 == harmonics) {
-        let pen = Pen::new(Colour::ordinal(i, harmonics), Dash::Solid, 1.8);
-        panel.sample(pen.sample(), &format!("nodal diameter {i}"));
-    }
-    for family in 0..families.min(4) {
-        let pen = Pen::new(Colour::neutral("#444444"), Dash::nth(family), 1.8);
-        explained(panel, pen, &format!("family {}", family + 1));
+    name_families(families, panel);
+    for first in 0..harmonics.min(DASHES) {
+        let alike = (first..harmonics).step_by(DASHES).map(|i| i.to_string()).collect::<Vec<_>>();
+        let pen = Pen::new(Colour::neutral("#444444"), Dash::nth(first), 1.8);
+        explained(panel, pen, &format!("nodal diameter {}", alike.join(", ")));
     }
     if campbell.waves.is_some() {
         for (wave, words) in [(Wave::Forward, "forward waves"), (Wave::Backward, "backward waves")] {
@@ -100,6 +98,19 @@ fn curves(campbell: &Campbell, panel: &mut Panel) {
     }
     if harmonics > 0 {
         panel.note("numbers at the lines: nodal diameters");
+    }
+}
+
+/// Name of the family with this index.
+pub(super) fn family(index: usize) -> String {
+    format!("family {}", index + 1)
+}
+
+/// Adds the colours of families to the key of the drawing; the legend of the figure has their curves.
+pub(super) fn name_families(families: usize, panel: &mut Panel) {
+    for index in (0..families).filter(|index| families <= NAMED || *index == 0 || index + 1 == families) {
+        let pen = Pen::new(Colour::family(index, families), Dash::Solid, 1.8);
+        panel.sample(pen.sample(), &family(index));
     }
 }
 
@@ -178,11 +189,11 @@ fn numbers(campbell: &Campbell, panel: &Panel) -> Element {
     let (harmonics, families) = counts(campbell);
     let last = |table: &Table, i: usize, j: usize| {
         let hz = *table.last()?.get(i)?.get(j)?;
-        Some((panel.diagram.inside(panel.x.range.1, hz)?.1, i))
+        Some((panel.diagram.inside(panel.x.range.1, hz)?.1, (i, j)))
     };
     let modes = || (0..harmonics).flat_map(|i| (0..families).map(move |j| (i, j)));
     let branches = campbell.branches();
-    let mut ends: Vec<(f64, usize)> =
+    let mut ends: Vec<(f64, (usize, usize))> =
         branches.iter().flat_map(|(_, table)| modes().filter_map(move |(i, j)| last(table, i, j))).collect();
     if ends.len() as f64 * SPACING > panel.diagram.height {
         return group();
@@ -200,8 +211,8 @@ fn numbers(campbell: &Campbell, panel: &Panel) -> Element {
         }
     }
     let right = panel.diagram.right();
-    group().set("class", "numbers").children(ends.into_iter().zip(heights).map(|((end, i), height)| {
-        let colour = Colour::ordinal(i, harmonics).paper;
+    group().set("class", "numbers").children(ends.into_iter().zip(heights).map(|((end, (i, j)), height)| {
+        let colour = Colour::family(j, families).paper;
         let lead = line((right, end), (right + 14.0, height)).set("stroke", &colour);
         let number = text(right + 18.0, height + 4.0, "start", &i.to_string()).set("fill", colour);
         group()

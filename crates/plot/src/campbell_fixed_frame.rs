@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::campbell::{NAMED, begin};
+use super::campbell::{begin, family, name_families};
 use super::cells::{range, rpm};
 use super::drawing::Drawing;
 use super::labels::Labels;
@@ -30,22 +30,15 @@ pub fn campbell_fixed_frame(campbell: &Campbell) -> Drawing<'_> {
     let y = Axis::linear("frequency in the fixed frame, Hz", heights(&curves), 10.0);
     let top = sketch.top() + 24.0;
     let mut panel = Panel::new((92.0, top), (792.0, 734.0 - top), x, y);
+    let families = curves.iter().map(|curve| curve.family + 1).max().unwrap_or(0);
     for curve in &curves {
         let (dash, width, _) = curve.seen.style();
-        let pen = Pen::new(Colour::ordinal(curve.nodal_diameter, curve.harmonics), dash, width);
-        let line = layer::Curve::new(
-            &format!("nodal diameter {}", curve.nodal_diameter),
-            curve.places(campbell),
-            pen,
-        );
+        let pen = Pen::new(Colour::family(curve.family, families), dash, width);
+        let line = layer::Curve::new(&family(curve.family), curve.places(campbell), pen);
         let line = line.title(&curve.words()).over(curve.words(), "%{x:.0f} rpm, %{y:.1f} Hz");
         panel.push(line.course(Course::Cut).class("wave"));
     }
-    let harmonics = curves.iter().map(|curve| curve.harmonics).max().unwrap_or(0);
-    for i in (0..harmonics).filter(|i| harmonics <= NAMED || *i == 0 || i + 1 == harmonics) {
-        let pen = Pen::new(Colour::ordinal(i, harmonics), Dash::Solid, 1.8);
-        panel.sample(pen.sample(), &format!("nodal diameter {i}"));
-    }
+    name_families(families, &mut panel);
     for seen in kinds {
         let (dash, width, _) = seen.style();
         panel.sample(Pen::new(Colour::of("#444444"), dash, width).sample(), &seen.words());
@@ -54,14 +47,10 @@ pub fn campbell_fixed_frame(campbell: &Campbell) -> Drawing<'_> {
     let standing = standing.map(|found| Mark::new((rpm(found.speed_rad_s), 0.0), marks::linear_words(found)));
     let ring = Look::open(Symbol::Circle, (4.5, 10.0), Colour::neutral("black"));
     panel.marks("stands still: (i, j, n)", Marks::new("stands still: (i, j, n)", ring, standing));
-    if let Some(last) = curves.iter().map(|curve| curve.family).max() {
+    if families > 0 {
         panel.note("numbers at the lines: nodal diameters");
-        panel.note(&match last {
-            0 => "the first family".to_owned(),
-            last => format!("families 1 to {}, alike", last + 1),
-        });
     }
-    let labels = labels(campbell, &curves, &panel);
+    let labels = labels(campbell, (&curves, families), &panel);
     panel.push(labels);
     sketch.with(panel).into()
 }
@@ -101,7 +90,6 @@ impl Seen {
 /// Line of the diagram: a wave of one mode.
 struct Curve {
     nodal_diameter: usize,
-    harmonics: usize,
     family: usize,
     seen: Seen,
     /// Frequency in Hz at each speed.
@@ -119,13 +107,13 @@ fn curves(campbell: &Campbell) -> Vec<Curve> {
         let first = table.first();
         let harmonics = first.map_or(0, Vec::len);
         let families = first.into_iter().flatten().map(Vec::len).max().unwrap_or(0);
-        (0..harmonics).flat_map(move |i| (0..families).map(move |j| (i, j, harmonics)))
+        (0..harmonics).flat_map(move |i| (0..families).map(move |j| (i, j)))
     };
     let mut curves = Vec::new();
     for (seen, sign, table) in
         [(Seen::Backward, -1.0, table(Wave::Backward)), (Seen::Forward, 1.0, table(Wave::Forward))]
     {
-        for (nodal_diameter, family, harmonics) in modes(table) {
+        for (nodal_diameter, family) in modes(table) {
             // A wave of nodal diameter 0 does not travel.
             if nodal_diameter == 0 && seen == Seen::Forward {
                 continue;
@@ -135,15 +123,15 @@ fn curves(campbell: &Campbell) -> Vec<Curve> {
                 Some((hz + sign * nodal_diameter as f64 * speed / TAU).abs())
             };
             let hz = campbell.speeds_rad_s.iter().zip(table).map(at).collect();
-            curves.push(Curve { nodal_diameter, harmonics, family, seen, hz });
+            curves.push(Curve { nodal_diameter, family, seen, hz });
         }
     }
     for absolute in campbell.absolute_frequencies_hz.iter().filter(|absolute| absolute.superharmonic > 1) {
         let table = &absolute.frequencies_hz;
-        for (nodal_diameter, family, harmonics) in modes(table).filter(|(i, ..)| *i > 0) {
+        for (nodal_diameter, family) in modes(table).filter(|(i, _)| *i > 0) {
             let hz = table.iter().map(|row| row.get(nodal_diameter)?.get(family).copied()).collect();
             let seen = Seen::Superharmonic(absolute.superharmonic);
-            curves.push(Curve { nodal_diameter, harmonics, family, seen, hz });
+            curves.push(Curve { nodal_diameter, family, seen, hz });
         }
     }
     curves
@@ -199,7 +187,7 @@ fn heights(curves: &[Curve]) -> (f64, f64) {
 }
 
 /// Labels of the standing waves above the line of zero frequency, and the nodal diameters at the lines of n = 1.
-fn labels(campbell: &Campbell, curves: &[Curve], panel: &Panel) -> Element {
+fn labels(campbell: &Campbell, (curves, families): (&[Curve], usize), panel: &Panel) -> Element {
     let diagram = &panel.diagram;
     let mut labels = Labels::inside(diagram);
     let mut drawn = group();
@@ -215,7 +203,7 @@ fn labels(campbell: &Campbell, curves: &[Curve], panel: &Panel) -> Element {
         let tried = [0.95, 0.85, 0.7, 0.55, 0.4].map(|share| seen.get((share * seen.len() as f64) as usize));
         let words = curve.nodal_diameter.to_string();
         let label = labels.at_first(tried.into_iter().flatten().copied(), &words, 11.0);
-        let colour = Colour::ordinal(curve.nodal_diameter, curve.harmonics).paper;
+        let colour = Colour::family(curve.family, families).paper;
         drawn = drawn.children(
             label.map(|label| label.set("fill", colour).set("font-weight", "bold").rimmed("white")),
         );

@@ -136,7 +136,7 @@ fn families(found: &Interference, panel: &mut Panel) {
             strokes.push(of(Some(Wave::Forward)));
         }
         let strokes = strokes.into_iter().map(|places| Stroke { places, title: String::new() });
-        let pen = Pen::new(Colour::ordinal(family, count(found)), Dash::Solid, 0.8);
+        let pen = Pen::new(Colour::family(family, count(found)), Dash::Solid, 0.8);
         panel.push(Curve::of(&name(family), strokes, pen).unlisted());
     }
 }
@@ -197,7 +197,7 @@ fn modes(found: &Interference, panel: &mut Panel) {
             let there = found.modes.iter().filter(move |mode| mode.family as usize == family + 1);
             there.filter(move |mode| (mode.wave == Some(Wave::Forward)) == is_forward).map(mark)
         };
-        let colour = || Colour::ordinal(family, count(found));
+        let colour = || Colour::family(family, count(found));
         let symbol = Symbol::nth(family);
         let filled = Look::filled(symbol, (4.2, 9.0), colour());
         panel.marks(&name(family), Marks::new(&name(family), filled, all(false)));

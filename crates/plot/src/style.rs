@@ -32,6 +32,11 @@ impl Colour {
         Self { paper: "#1f4e79".to_owned(), screen: DISTINCT[0].to_owned() }
     }
 
+    /// Colour of one of `count` families of modes, the same on paper, on screens and in Python.
+    pub(super) fn family(index: usize, count: usize) -> Self {
+        Self::of(&Self::ordinal(index, count).screen)
+    }
+
     /// Colour of one of `count` things in a natural order.
     pub(super) fn ordinal(index: usize, count: usize) -> Self {
         let screen = match DISTINCT.get(index).filter(|_| count <= DISTINCT.len()) {
@@ -44,6 +49,9 @@ impl Colour {
         Self { paper: colour::ordinal(index, count), screen }
     }
 }
+
+/// Number of kinds of dashes that lines are told apart by.
+pub(super) const DASHES: usize = 4;
 
 /// Dashes of a line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -60,7 +68,7 @@ pub(super) enum Dash {
 impl Dash {
     /// Dashes of the line with this index; they repeat.
     pub(super) fn nth(index: usize) -> Self {
-        [Self::Solid, Self::Dashed, Self::Dotted, Self::Mixed][index % 4]
+        [Self::Solid, Self::Dashed, Self::Dotted, Self::Mixed][index % DASHES]
     }
 
     /// Lengths of dashes and gaps in SVG.

@@ -22,6 +22,7 @@ use crate::cli::client::{Client, ServerArgs};
 use crate::cli::size::size;
 use crate::cli::stdout::{print, print_json};
 use crate::cli::verb::Verb;
+use crate::duration::in_words;
 use crate::impeller::GenerationPlan;
 use crate::kinds::JobKind;
 use crate::kinds::generation::MODEL_GENERATION;
@@ -192,7 +193,7 @@ fn times_of(words: &mut String, machine: Option<&Machine>) {
 
 /// Adds time and memory to the plan; `[least, most]` say what else the bounds of the time belong to.
 fn cost(words: &mut String, estimate: &Estimate, [least, most]: [&str; 2]) {
-    let (free, contact) = (time(estimate.wall_time_s.free), time(estimate.wall_time_s.contact));
+    let (free, contact) = (in_words(estimate.wall_time_s.free), in_words(estimate.wall_time_s.contact));
     let _ = writeln!(
         words,
         "time        {free} if nothing touches{least}, {contact} if something always does{most}"
@@ -205,7 +206,7 @@ fn modal_analysis(plan: &ModalAnalysisPlan) -> String {
     let _ = writeln!(words, "speeds      {}, {} nodal diameters each", plan.speeds, plan.nodal_diameters);
     reduction(&mut words, plan.reduction, plan.reduced_unknowns_at_most);
     if let Some(seconds) = plan.computing_time_s {
-        let _ = writeln!(words, "time        {}", time(seconds));
+        let _ = writeln!(words, "time        {}", in_words(seconds));
     }
     warnings(words, &plan.warnings)
 }
@@ -251,13 +252,4 @@ fn warnings(mut words: String, warnings: &[String]) -> String {
         let _ = writeln!(words, "warning     {warning}");
     }
     words
-}
-
-/// Time in the unit that people would use.
-fn time(seconds: f64) -> String {
-    match seconds {
-        seconds if seconds < 99.5 => format!("{seconds:.0} s"),
-        seconds if seconds < 99.5 * 60.0 => format!("{:.0} min", seconds / 60.0),
-        seconds => format!("{:.0} h", seconds / 3600.0),
-    }
 }

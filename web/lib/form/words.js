@@ -93,6 +93,7 @@ tip_motion|Motion of a tip|L|To either side of its middle.
 utilisation|Utilisation of the material|of its strength|By Goodman’s rule, 1: nothing is left. Needs the strengths of the material, and stress among what is recorded.
 node_force|Contact force on a node|F|
 #
+blade_thickness|Blade thickness at the tip|L|By which linear theory is checked where the model has no elements that show it.
 limit|Limit of displacement|L|Not to be passed.
 parameters|Parameters||What varies from design to design.
 # parameters

@@ -78,7 +78,7 @@ export function sectionsOf({ value, begun, units, wheel, campbell, dial }) {
     {
       title: 'Accuracy', above: dial, open: open('/accuracy', '/budget', '/modes_per_speed', '/integration', '/refine', '/control_speeds', '/sweep', '/max_engine_order', '/peak_prominence'),
       state: ({ accuracy, budget }) => (accuracy ? `error below ${percent(accuracy.target)}` : budget ? 'within a budget of time' : 'usual settings'),
-      parts: ['/budget', '/modes_per_speed', '/refine', '/control_speeds', '/integration'], rest: [''],
+      parts: ['/budget', '/modes_per_speed', '/refine', '/control_speeds', '/integration', '/blade_thickness'], rest: [''],
     },
     { title: 'Name, tags, notes', parts: ['/name', '/tags', '/notes'], open: open('/name', '/tags', '/notes'), state: ({ name }) => name ?? 'named by model, speeds and clearance' },
   ];

@@ -4,6 +4,7 @@ import { api, submit } from '../../lib/api.js';
 import { h, replace } from '../../lib/dom.js';
 import { follow } from '../../lib/events.js';
 import { count, number, rpm, speed } from '../../lib/format.js';
+import { PALETTE } from '../../lib/plot.js';
 import { problem } from '../../lib/problem.js';
 import { drawing, line, s, words } from '../../lib/svg.js';
 import { OF_SPEED } from '../../lib/units.js';
@@ -63,7 +64,7 @@ function diagram(campbell, ranges, asked) {
   const band = (from, to, kind) => s('rect', { class: kind, x: x(Math.max(0, from)), y: PLOT.top, width: Math.max(1, x(to) - x(Math.max(0, from))), height: PLOT.bottom - PLOT.top });
   const families = tables.flatMap(([wave, table]) => table[0].flatMap((list, diameter) => list.map((_, family) => {
     const points = speeds.map((omega, k) => [omega, table[k][diameter][family]]).filter(([, hz]) => isNumber(hz)).map(([omega, hz]) => [x(omega), y(hz)]);
-    return s('path', { class: `family family-${Math.min(family, 2)}`, d: line(points) }, s('title', {}, `${wave}nodal diameter ${diameter}, family ${family + 1}`));
+    return s('path', { class: 'family', color: PALETTE[family % PALETTE.length], d: line(points) }, s('title', {}, `${wave}nodal diameter ${diameter}, family ${family + 1}`));
   })));
   const crossings = (campbell?.driven_crossings ?? []).filter((one) => one.speed_rad_s <= right && one.speed_rad_s > 0);
   const dots = crossings.map((one) => s('circle', { class: 'crossing', cx: x(one.speed_rad_s), cy: y(one.frequency_hz), r: 3.5 },
@@ -142,7 +143,7 @@ export function speedsOver(model, signal) {
     start.textContent = campbell ? `Compute for ${count(lobes, 'lobe')}${forces}` : 'Compute natural frequencies';
     replace(told,
       h('p', { class: 'quiet' }, campbell
-        ? `Lines: natural frequencies; dashed: engine orders. Dots: where an engine order of ${count(campbell.settings.lobes, 'lobe')} meets a mode that it drives. Ticks below: the speeds asked for.${ranges.length > 0 ? ' Bands: operating ranges, with their separation.' : ''}`
+        ? `Lines: natural frequencies, a colour for each family; dashed: engine orders. Dots: where an engine order of ${count(campbell.settings.lobes, 'lobe')} meets a mode that it drives. Ticks below: the speeds asked for.${ranges.length > 0 ? ' Bands: operating ranges, with their separation.' : ''}`
         : 'Ticks: the speeds asked for. Natural frequencies of this model have not been computed yet.'),
       ranges.length > 0 && campbell ? h('ul', {}, inRanges(campbell, ranges)) : null);
   }

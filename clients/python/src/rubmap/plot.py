@@ -30,8 +30,11 @@ __all__ = [
 #: Faintest amplitude of a map, of its loudest.
 _QUIETEST = 1e-4
 
-#: Colours of nodal diameters, which colour-blind readers tell apart (Okabe and Ito).
+#: Colours that colour-blind readers tell apart (Okabe and Ito), those of the page and of the service's drawings.
 _COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c8c8c")
+
+#: Dashes of nodal diameters, again and again.
+_DASHES = ("-", "--", ":", "-.")
 
 
 def interaction_map(
@@ -79,6 +82,13 @@ def level(found: pd.DataFrame | xr.Dataset, ax: Axes | None = None, quantity: st
     return ax
 
 
+def _of_family(family: int, count: int) -> Any:
+    """Colour of one of so many families, counted from 1, as the service has it."""
+    if count < len(_COLOURS):
+        return _COLOURS[family - 1]
+    return colormaps["viridis"](0.2 + 0.7 * (family - 1) / (count - 1))
+
+
 def _level_of_map(found: xr.Dataset, quantity: str) -> pd.DataFrame:
     """Root mean square of the lines of a map, which are amplitudes of single-sided spectra, as points have it."""
     if quantity != "rms":
@@ -94,13 +104,26 @@ def _level_of_map(found: xr.Dataset, quantity: str) -> pd.DataFrame:
 def campbell(
     found: xr.Dataset, ax: Axes | None = None, lobes: int | None = None, crossings: pd.DataFrame | None = None
 ) -> Axes:
-    """Natural frequencies over speed by nodal diameter, of :meth:`ModalAnalysis.campbell`; with the engine orders of so many lobes."""
+    """Natural frequencies over speed, of :meth:`ModalAnalysis.campbell`: families in colours, nodal diameters by dashes.
+
+    Args:
+        found: the frequencies.
+        ax: axes to draw on.
+        lobes: number of lobes whose engine orders are drawn.
+        crossings: marks, of :meth:`ModalAnalysis.crossings` or :meth:`ModalAnalysis.driven_crossings`.
+    """
     ax = _axes(ax)
     rpm = found["speed_rpm"].to_numpy()
-    for diameter in found["nodal_diameter"].to_numpy():
-        colour = _COLOURS[int(diameter) % len(_COLOURS)]
-        lines = ax.plot(rpm, found["frequency"].sel(nodal_diameter=diameter).to_numpy(), color=colour)
-        lines[0].set_label(f"nodal diameter {diameter}")
+    families, diameters = (found[name].to_numpy().tolist() for name in ("family", "nodal_diameter"))
+    for family in families:
+        colour = _of_family(family, len(families))
+        for diameter in diameters:
+            frequency = found["frequency"].sel(family=family, nodal_diameter=diameter).to_numpy()
+            ax.plot(rpm, frequency, color=colour, linestyle=_DASHES[diameter % len(_DASHES)])
+        ax.plot([], [], color=colour, label=f"family {family}")
+    for first, dashes in enumerate(_DASHES[: len(diameters)]):
+        alike = ", ".join(str(diameter) for diameter in diameters[first :: len(_DASHES)])
+        ax.plot([], [], color="grey", linestyle=dashes, label=f"nodal diameter {alike}")
     if lobes is not None:
         for order in range(lobes, 4 * lobes, lobes):
             ax.plot(rpm, order * rpm / 60.0, color="grey", linewidth=0.8, linestyle=":")
@@ -153,7 +176,7 @@ def interference(found: pd.DataFrame, ax: Axes | None = None) -> Axes:
     ax.plot(driven["nodal_diameter"], driven["frequency_hz"], "D", color="#d62728", label="engine orders of the lobes")
     for family in range(1, int(found["family"].max()) + 1):
         modes = found[found["family"] == family]
-        colour = _COLOURS[(family - 1) % len(_COLOURS)]
+        colour = _of_family(family, int(found["family"].max()))
         ax.plot(modes["nodal_diameter"], modes["frequency_hz"], "o", color=colour, label=f"family {family}")
     ax.set_ylim(0.0, 1.08 * float(found["frequency_hz"].max()))
     ax.set_xlabel("nodal diameter")

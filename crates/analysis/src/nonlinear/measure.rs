@@ -143,9 +143,27 @@ pub fn measure(
     motions.iter().zip(&fields).enumerate().map(of).collect()
 }
 
+/// Computing time of the relaxation of one field, or of the factor and the modes before the first, of a sector with one DOF, s. It grows as the
+/// power 3/2 of the DOF: measured at 3,024 and 21,222 DOF (docs/performance.md).
+const RELAXING: f64 = 1.8e-6;
+
+/// Computing time of relaxing so many motions of a sector with so many DOF, s.
+pub(crate) fn relaxing_seconds(dofs: u32, motions: u32) -> f64 {
+    RELAXING * f64::from(dofs).powf(1.5) * f64::from(1 + motions)
+}
+
 /// Bytes that measuring so many motions takes at most, for a mesh.
 pub fn measuring_bytes(mesh: &SectorMesh, motions: usize) -> u64 {
-    HeldSector::bytes(mesh) + (200 * mesh.nodes.len() * motions) as u64
+    HeldSector::bytes(mesh) + fields_bytes(mesh.nodes.len(), motions)
+}
+
+/// Bytes that measuring so many motions takes about, at most, for so many elements and DOF.
+pub(crate) fn expected_bytes(elements: usize, dofs: usize, motions: usize) -> u64 {
+    HeldSector::expected_bytes(elements, dofs) + fields_bytes(dofs.div_ceil(3), motions)
+}
+
+fn fields_bytes(nodes: usize, motions: usize) -> u64 {
+    (200 * nodes * motions) as u64
 }
 
 /// Displacements in x, y, z at all nodes of the moved sectors, each in the frame of the first sector.

@@ -9,8 +9,8 @@ mod quartic;
 mod relax;
 mod sector;
 
-pub(crate) use measure::PHASE;
 pub use measure::{Bent, LargestMotion, NotMeasured, measure, measuring_bytes};
+pub(crate) use measure::{PHASE, expected_bytes, relaxing_seconds};
 
 #[cfg(test)]
 mod tests;

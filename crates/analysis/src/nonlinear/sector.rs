@@ -5,6 +5,7 @@ use nalgebra::{DMatrix, Vector3};
 use rayon::prelude::*;
 
 use rubmap_numerics::sparse_cholesky::SymbolicFactor;
+use rubmap_solid::element::ElementKind;
 use rubmap_solid::frame::AxisFrame;
 use rubmap_solid::green_lagrange::{BUBBLES, GreenLagrange};
 use rubmap_solid::integrals::{mass, stiffness};
@@ -109,8 +110,17 @@ impl HeldSector {
     /// under nested dissection.
     pub(crate) fn bytes(mesh: &SectorMesh) -> u64 {
         let elements: usize = mesh.elements.iter().map(|element| GreenLagrange::bytes(element.kind)).sum();
-        let rows = 3.0 * mesh.nodes.len() as f64;
-        elements as u64 + (rows * (4e3 + 60.0 * rows.sqrt())) as u64
+        elements as u64 + Self::matrix_bytes(3 * mesh.nodes.len())
+    }
+
+    /// Bytes as of [`Self::bytes`] for so many elements, of the largest kind, and so many DOF.
+    pub(super) fn expected_bytes(elements: usize, dofs: usize) -> u64 {
+        (elements * GreenLagrange::bytes(ElementKind::C3D20)) as u64 + Self::matrix_bytes(dofs)
+    }
+
+    fn matrix_bytes(rows: usize) -> u64 {
+        let rows = rows as f64;
+        (rows * (4e3 + 60.0 * rows.sqrt())) as u64
     }
 
     /// Displacements in x, y, z of all nodes by the free ones.

@@ -9,21 +9,24 @@ use rubmap_model::package::{Limits, read, read_mesh, read_nodes, write};
 use rubmap_solid::frame::AxisFrame;
 use rubmap_solid::mesh::SectorMesh;
 use rubmap_wheel::dynamics::casing::arc_lengths;
+use rubmap_wheel::dynamics::integrate::Excursion;
 use rubmap_wheel::dynamics::nodes::SectorNode;
 use rubmap_wheel::dynamics::reduction::{BasisRows, Checkpoints};
 use rubmap_wheel::dynamics::sector::SectorModel;
 
-use super::measure::{Bent, LargestMotion, NotMeasured, fields, measure};
+use super::measure::{Bent, LargestMotion, NotMeasured, fields, measure, measuring_bytes};
 use super::relax::Relaxation;
 use super::sector::HeldSector;
-use crate::measured::{judge_by_measures, largest_motion, speeds_to_measure};
+use crate::end_state::EndState;
+use crate::measured::{judge_by_measures, largest_motion, speeds_to_measure, with_cost};
 use crate::model::{MeshFacts, ModelFacts, ReducedSector};
 use crate::monitor::Unwatched;
 use crate::prepare::prepare;
+use crate::request::AutoOr;
 use crate::resolve::resolve_sweep;
 use crate::resolved::ResolvedSweep;
-use crate::result::{Point, Validity, ValidityCheck, ValidityMeasure, ValidityVerdict};
-use crate::speed::empty_point;
+use crate::result::{CostRange, Estimate, Point, Validity, ValidityCheck, ValidityMeasure, ValidityVerdict};
+use crate::speed::{empty_point, run_speed};
 
 /// Store that keeps whole bases in memory.
 #[derive(Default)]
@@ -72,12 +75,23 @@ impl Wheel {
         })
     }
 
+    fn facts(&self) -> ModelFacts {
+        let mesh = Some(MeshFacts::of(&self.mesh, &self.sector));
+        ModelFacts { mesh, ..ModelFacts::of(&self.sector) }
+    }
+
     /// Scene of the demo at one speed.
     fn sweep(&self, rpm: f64) -> ResolvedSweep {
+        self.sweep_of(&[rpm], "independent")
+    }
+
+    /// Scene of the demo at some speeds.
+    fn sweep_of(&self, rpm: &[f64], direction: &str) -> ResolvedSweep {
         let request = serde_json::json!({
             "model": "wheel",
             "modes_per_speed": 20,
-            "speeds": {"values": [rpm], "unit": "rpm"},
+            "speeds": {"values": rpm, "unit": "rpm"},
+            "sweep": direction,
             "scene": {
                 "centrifugal_stiffening": true,
                 "damping": {"modal_ratio": 0.005},
@@ -88,9 +102,7 @@ impl Wheel {
                 "contact": {}
             },
         });
-        let mesh = Some(MeshFacts::of(&self.mesh, &self.sector));
-        let facts = ModelFacts { mesh, ..ModelFacts::of(&self.sector) };
-        resolve_sweep(serde_json::from_value(request).unwrap(), &facts).unwrap()
+        resolve_sweep(serde_json::from_value(request).unwrap(), &self.facts()).unwrap()
     }
 
     fn motion(&self, rpm: f64) -> LargestMotion {
@@ -157,7 +169,7 @@ fn measures_are_scaled_to_smaller_motions_only() {
     let bent =
         |index: usize, excess, gap| Bent { index: index as u32, displacement: sizes[index], excess, gap };
     let measured = Ok(vec![bent(1, -0.3, Some(0.01)), bent(2, 0.01, None)]);
-    judge_by_measures(&mut points, reduced, &measured);
+    judge_by_measures(&mut points, (reduced, &request), &measured);
     let told = |index: usize| {
         let validity = points[index].validity.as_ref().unwrap();
         let checks = validity.checks.iter().map(|check| (check.what, check.value, check.scaled_from));
@@ -173,8 +185,90 @@ fn measures_are_scaled_to_smaller_motions_only() {
     assert!((checks[0].1 - 0.15).abs() < 1e-12 && (checks[1].1 - 0.0025).abs() < 1e-12, "{checks:?}");
     // Geometry: without a doubt, and beyond all that was measured.
     assert_eq!((told(3).0, told(4).0), (ValidityVerdict::Linear, ValidityVerdict::Doubtful));
-    judge_by_measures(&mut points, reduced, &Err(NotMeasured::Relaxed("no minimum".to_owned())));
+    judge_by_measures(&mut points, (reduced, &request), &Err(NotMeasured::Relaxed("no minimum".to_owned())));
     assert_eq!(points[4].validity_lacking(), [ValidityMeasure::ExcessEnergy]);
+}
+
+/// A speed without a doubt is measured where no thickness is known, and then checked.
+#[test]
+fn a_speed_is_measured_for_want_of_a_thickness() {
+    let reduced = ReducedSector { tip_thickness: None, ..SMALL.reduced.clone() };
+    let request = SMALL.sweep(20_000.0);
+    let judged = |displacement: f64, request: &ResolvedSweep| {
+        let excursion = Excursion { displacement, ..Excursion::default() };
+        let validity = Some(crate::validity::judge(&excursion, None, &reduced, request));
+        Point { index: 0, validity, ..empty_point(&reduced, request, 0, 2000.0) }
+    };
+    let positions: Vec<[f64; 3]> = reduced.wheel.contact.iter().map(|node| node.position).collect();
+    let chord = *arc_lengths(&positions).last().unwrap();
+    // Half the thickness of a blade of 1/500 of its chord.
+    let (slight, seen) = (0.9e-3 * chord, 1.1e-3 * chord);
+    let mut points = [judged(seen, &request)];
+    assert_eq!(points[0].validity_verdict(), Some(ValidityVerdict::NotChecked));
+    assert_eq!(speeds_to_measure(&request, &reduced, &points), [0]);
+    let bent = Bent { index: 0, displacement: seen, excess: 0.001, gap: None };
+    judge_by_measures(&mut points, (&reduced, &request), &Ok(vec![bent]));
+    assert_eq!(points[0].validity_verdict(), Some(ValidityVerdict::Linear));
+    let verdict = |displacement, request: &ResolvedSweep| judged(displacement, request).validity_verdict();
+    assert_eq!(verdict(slight, &request), Some(ValidityVerdict::Linear));
+    let given = ResolvedSweep { blade_thickness: Some(4.0 * seen), ..request };
+    assert_eq!(verdict(seen, &given), Some(ValidityVerdict::Linear));
+    assert_eq!(verdict(3.0 * seen, &given), Some(ValidityVerdict::Doubtful));
+}
+
+/// The largest motion of a sweep down is that of the run from the end of the speed above, in whose window it is.
+#[test]
+fn the_motion_of_a_sweep_down_is_led_from_the_speed_above() {
+    let (reduced, wheel) = (&SMALL.reduced, &*SMALL);
+    let mut request = wheel.sweep_of(&[19_900.0, 20_000.0], "down");
+    (request.integration.revolutions, request.integration.window_revolutions) = (AutoOr::Fixed(4), 1);
+    let run =
+        |index, start: Option<&EndState>| run_speed(reduced, &request, index, start, &Unwatched).unwrap();
+    let above = run(1, None);
+    let found = [run(0, above.end_state.as_ref()), run(0, None)].map(|found| found.point);
+    let positions: Vec<[f64; 3]> = reduced.wheel.contact.iter().map(|node| node.position).collect();
+    let chord = *arc_lengths(&positions).last().unwrap();
+    let [led, alone] = found.each_ref().map(|point| {
+        let checks = &point.validity.as_ref().unwrap().checks;
+        chord * checks.iter().find(|of| of.what == ValidityMeasure::DisplacementOverChord).unwrap().value
+    });
+    let motion = largest_motion(reduced, &request, 0, &Unwatched).unwrap().unwrap().displacement;
+    // States have more instants than the excursion of a point.
+    assert!((1.0..1.01).contains(&(motion / led)) && alone > 1.02 * led, "{motion} {led} {alone}");
+    // Only the largest motion is looked at.
+    let points = [found[0].clone(), above.point];
+    assert_eq!(speeds_to_measure(&request, reduced, &points).len(), 1);
+}
+
+/// Where nothing touches nothing is measured; otherwise at most six speeds once more, of a sweep up or down all of them, and six relaxations
+/// with one for the factor.
+#[test]
+fn a_plan_has_what_measuring_takes() {
+    let range = |free, contact| CostRange { free, contact };
+    let all = Estimate {
+        steps: 100,
+        computing_time_s: range(10.0, 80.0),
+        wall_time_s: range(5.0, 40.0),
+        workers: 2,
+        memory_bytes: 7,
+        speed_memory_bytes: 3,
+    };
+    let facts = SMALL.facts();
+    let planned = |direction: &str, facts: &ModelFacts| {
+        let request = SMALL.sweep_of(&[1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0].map(|k| 1e3 * k), direction);
+        with_cost(all.clone(), &request, facts, 2)
+    };
+    let relaxed = 1.8e-6 * f64::from(facts.own_dofs).powf(1.5);
+    let found = planned("independent", &facts);
+    assert_eq!((found.computing_time_s.free, found.wall_time_s.free, found.steps), (10.0, 5.0, 100));
+    assert!((found.computing_time_s.contact - (80.0 + 60.0 + 7.0 * relaxed)).abs() < 1e-9);
+    assert!((found.wall_time_s.contact - (40.0 + 60.0 + 3.5 * relaxed)).abs() < 1e-9);
+    // About as much as the mesh itself asks for, whose clamped nodes count as well.
+    let bytes = measuring_bytes(&SMALL.mesh, 6);
+    assert!((bytes / 2..2 * bytes).contains(&found.memory_bytes), "{} {bytes}", found.memory_bytes);
+    let found = planned("up", &facts);
+    assert!((found.computing_time_s.contact - (80.0 + 80.0 + 2.0 * relaxed)).abs() < 1e-9);
+    assert_eq!(planned("independent", &ModelFacts { mesh: None, ..facts }), all);
 }
 
 /// Sectors of one instant against an independent code (docs/method.md, Stress): the energy of the linear field under Green–Lagrange strain over its

@@ -84,6 +84,10 @@ pub struct SweepRequest {
     /// Limits that the response must keep, by which the verdict is made; without any it is at best undecided.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub limits: Option<Limits>,
+    /// Thickness of the blade at its tip, in the model's unit of length, by which linear theory is checked in place of the mesh's: for models without
+    /// elements.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub blade_thickness: Option<f64>,
 }
 
 /// State that each speed of a sweep starts from. A response with several branches shows the one that it is led along.

@@ -7,11 +7,16 @@ use super::limits;
 use crate::request::{HIGHEST_SPEED, OperatingRange, Operation};
 use crate::resolved::ResolvedSweep;
 
-/// Checks the operation and the limits of a sweep.
+/// Checks the operation, the limits and the given thickness of a sweep.
 pub(super) fn check_operation(found: &mut Findings, sweep: &ResolvedSweep) {
     if let Some(Operation { ranges }) = &sweep.operation {
         check_ranges(found, ranges);
     }
+    found.require(
+        sweep.blade_thickness.is_none_or(|thickness| limits::LENGTH.contains(&thickness)),
+        "/blade_thickness",
+        "a thickness is a finite number above 0",
+    );
     let Some(asked) = sweep.limits else { return };
     let all = [
         ("clearance_consumption", asked.clearance_consumption),

@@ -44,6 +44,7 @@ impl PlainSweep {
             fields: self.fields,
             operation: None,
             limits: None,
+            blade_thickness: None,
         };
         let at_its_field = |violation: Violation| match violation.pointer.strip_prefix("/speeds") {
             Some(_) => Violation { pointer: at.to_owned(), ..violation },

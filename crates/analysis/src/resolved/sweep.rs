@@ -45,6 +45,7 @@ pub struct ResolvedSweep {
     pub(crate) fields: Option<bool>,
     pub(crate) operation: Option<Operation>,
     pub(crate) limits: Option<Limits>,
+    pub(crate) blade_thickness: Option<f64>,
 }
 
 impl ResolvedSweep {
@@ -90,6 +91,7 @@ impl ResolvedSweep {
             fields: asked.fields,
             operation: asked.operation,
             limits: asked.limits,
+            blade_thickness: asked.blade_thickness,
         }
     }
 
@@ -291,6 +293,7 @@ impl From<ResolvedSweep> for SweepRequest {
             fields: sweep.fields,
             operation: sweep.operation,
             limits: sweep.limits,
+            blade_thickness: sweep.blade_thickness,
         }
     }
 }

@@ -43,8 +43,9 @@ pub struct SweepPlan {
     /// Largest number of speeds that `refine` adds to them; absent without it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub added_speeds_at_most: Option<u32>,
-    /// Most speeds that are simulated once more, in the end, to measure the validity of linear theory where geometry raises a doubt; not in
-    /// `estimate`. 0 for models without a mesh, without the basis of the reduction, and for sweeps up or down.
+    /// Most speeds that are simulated once more, in the end, to measure the validity of linear theory where geometry leaves it open; in the upper
+    /// bounds of `estimate`. 0 for models without a mesh and without the basis of the reduction, 1 for sweeps up or down, of which all
+    /// speeds before it are simulated, too.
     #[serde(default)]
     pub validity_speeds_at_most: u32,
     /// Threads that compute speeds side by side, on all machines; one where each speed starts from the end of another.
@@ -183,7 +184,7 @@ pub struct CostRange {
 }
 
 /// Cost of all speeds of a sweep, or of a branch, from a calibration of this machine; without the reduction and without the speeds that
-/// `refine` adds.
+/// `refine` adds. Upper bounds have what measuring the validity of linear theory takes.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Estimate {
@@ -195,7 +196,7 @@ pub struct Estimate {
     pub wall_time_s: CostRange,
     /// Threads that compute speeds side by side.
     pub workers: u32,
-    /// Memory of the speeds that run side by side, and of the reduced wheel.
+    /// Memory of the speeds that run side by side, and of the reduced wheel; that of measuring the validity of linear theory where it is more.
     pub memory_bytes: u64,
     /// Memory that one speed holds while it runs; 0 in plans of earlier versions.
     #[serde(default)]
@@ -203,7 +204,7 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// Adds the cost of what is computed afterwards, in no more memory and by no more workers.
+    /// Adds the cost of what is computed afterwards, by no more workers.
     pub(crate) fn followed_by(self, later: Self) -> Self {
         let both =
             |a: CostRange, b: CostRange| CostRange { free: a.free + b.free, contact: a.contact + b.contact };
@@ -211,6 +212,7 @@ impl Estimate {
             steps: self.steps + later.steps,
             computing_time_s: both(self.computing_time_s, later.computing_time_s),
             wall_time_s: both(self.wall_time_s, later.wall_time_s),
+            memory_bytes: self.memory_bytes.max(later.memory_bytes),
             ..self
         }
     }

@@ -304,6 +304,8 @@ pub enum OpenKind {
     UnsoundStiffness,
     /// Response beyond linear theory.
     BeyondLinearTheory,
+    /// Validity of linear theory could not be checked.
+    LinearTheoryNotChecked,
     /// A limit lies within the error of a value.
     ErrorAcrossLimit,
     /// A value is within 20 % of its limit, and no error is known.

@@ -122,7 +122,10 @@ impl Ground<'_> {
             AutoOr::Fixed(_) => "march until the motion repeats: `integration.revolutions` of \"auto\"",
         };
         let unsound = self.those(|point| point.stiffening == Some(StiffeningVerdict::Unsound));
-        let beyond = self.those(|point| point.validity_verdict() == Some(ValidityVerdict::Beyond));
+        let of_theory =
+            |wanted: ValidityVerdict| self.those(|point| point.validity_verdict() == Some(wanted));
+        let unchecked = of_theory(ValidityVerdict::NotChecked);
+        let beyond = of_theory(ValidityVerdict::Beyond);
         [
             self.about(OpenKind::NotSettled, &unsettled, "whose motion has not settled", longer),
             self.about(
@@ -136,6 +139,12 @@ impl Ground<'_> {
                 &beyond,
                 "beyond linear theory",
                 "a geometrically non-linear calculation at these speeds, or a scene with smaller motions",
+            ),
+            self.about(
+                OpenKind::LinearTheoryNotChecked,
+                &unchecked,
+                "where linear theory could not be checked",
+                "the elements of the mesh in the package, or the thickness of the blade at its tip: `blade_thickness`",
             ),
         ]
         .into_iter()

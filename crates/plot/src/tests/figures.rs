@@ -18,6 +18,11 @@ pub(super) fn trace<'a>(figure: &'a Value, name: &str) -> &'a Value {
     traces.iter().find(|trace| trace["name"] == name).unwrap_or_else(|| panic!("no {name}: {figure}"))
 }
 
+/// Traces of a name, in their order.
+fn traces<'a>(figure: &'a Value, name: &str) -> impl Iterator<Item = &'a Value> {
+    figure["data"].as_array().unwrap().iter().filter(move |trace| trace["name"] == name)
+}
+
 pub(super) fn numbers(value: &Value) -> Vec<f64> {
     value.as_array().unwrap().iter().map(|value| value.as_f64().unwrap_or(f64::NAN)).collect()
 }
@@ -299,9 +304,20 @@ fn runs_of_a_study_have_their_errors() {
 #[test]
 fn campbell_lines_are_the_frequencies() {
     let figure = json!(figure::campbell(&modes()));
-    assert_eq!(numbers(&trace(&figure, "nodal diameter 1")["y"]), [401.0, 406.0, 411.0, 416.0, 421.0]);
+    let of_family: Vec<_> = traces(&figure, "family 1").map(|trace| numbers(&trace["y"])).collect();
+    assert_eq!(of_family[1], [401.0, 406.0, 411.0, 416.0, 421.0]);
+    // One colour a family, other dashes for every nodal diameter, both of which the legend explains.
+    let looks = |name: &str| {
+        let of = |trace: &Value| (trace["line"]["color"].clone(), trace["line"]["dash"].clone());
+        traces(&figure, name).map(of).collect::<Vec<_>>()
+    };
+    let (first, second) = (looks("family 1"), looks("family 2"));
+    assert!(first.iter().all(|(colour, _)| *colour == "#0072b2"), "{first:?}");
+    assert!(second.iter().all(|(colour, _)| *colour == "#d55e00"), "{second:?}");
+    assert_eq!(first.iter().map(|look| &look.1).collect::<Vec<_>>(), ["solid", "dash", "dot"]);
+    assert_eq!(looks("nodal diameter 1")[0].1, "dash");
     let fixed = json!(figure::campbell_fixed_frame(&modes()));
-    let seen = numbers(&trace(&fixed, "nodal diameter 1")["y"]);
+    let seen = traces(&fixed, "family 1").map(|trace| numbers(&trace["y"])).nth(1).unwrap();
     let against = (401.0 - SPEEDS_RPM[0] / 60.0).abs();
     assert!((seen[0] - against).abs() < 1e-9, "{seen:?}");
 }

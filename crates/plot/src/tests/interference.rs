@@ -78,7 +78,7 @@ fn split_waves_have_marks_of_their_own() {
     assert!(!svg::interference(&of(&modes(), 5)).contains("forward"));
 }
 
-/// Veerings are marked at their speed and frequency, and the legend of the figure explains the dashes of families.
+/// Veerings are marked at their speed and frequency, and every nodal diameter of a family has a curve.
 #[test]
 fn campbell_diagrams_mark_veerings() {
     let veering = Veering {
@@ -99,5 +99,5 @@ fn campbell_diagrams_mark_veerings() {
     let figure = json!(figure::campbell(&modes));
     let [[x, y]] = &traces(&figure, "families veer or cross")[..] else { panic!() };
     assert!((x[0].as_f64().unwrap() - 12_000.0).abs() < 1e-6 && y[0] == 650.0);
-    assert_eq!(traces(&figure, "family 2").len(), 1);
+    assert_eq!(traces(&figure, "family 2").len(), 3);
 }

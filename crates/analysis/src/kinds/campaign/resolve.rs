@@ -65,6 +65,7 @@ pub(crate) fn resolve_campaign(
         fields: request.fields,
         operation: None,
         limits: None,
+        blade_thickness: None,
     };
     let mut found = Findings::default();
     let other = request.compared_model.zip(compared.as_ref()).map(|(model, compared)| {

@@ -79,6 +79,7 @@ impl StudyRequest {
             fields: self.fields,
             operation: None,
             limits: None,
+            blade_thickness: None,
         }
     }
 }

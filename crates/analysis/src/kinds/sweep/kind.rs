@@ -11,6 +11,7 @@ use crate::kinds::kind::{
     self, GivenModel, Kind, OfOneModel, Recorded, ResolvedJob, Speeds, ToChoose, Units, Words, Work,
 };
 use crate::kinds::plan::{Capacity, Grounds, Plan};
+use crate::measured;
 use crate::plan::plan_sweep;
 use crate::refine::refine;
 use crate::request::{Sensor, SweepRequest};
@@ -135,11 +136,13 @@ impl ResolvedJob for ResolvedSweep {
 
     fn plan(&self, grounds: &Grounds) -> serde_json::Result<Plan> {
         let plan = planned(self, grounds, 0)?;
+        let (facts, threads) = (&grounds.models[0].facts, grounds.capacity()?.threads);
+        let estimate = plan.estimate.map(|all| measured::with_cost(all, self, facts, threads));
         let choice = grounds.choice.clone().and_then(|chosen| match chosen {
             Chosen::Setting(choice) => Some(choice),
             Chosen::Modes(_) => None,
         });
-        let plan = SweepPlan { choice, placed_sensors: grounds.placed_sensors.clone(), ..plan };
+        let plan = SweepPlan { estimate, choice, placed_sensors: grounds.placed_sensors.clone(), ..plan };
         Plan::of(&plan, plan.estimate.clone())
     }
 

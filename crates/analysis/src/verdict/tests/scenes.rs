@@ -142,8 +142,12 @@ fn everything_that_could_hide_a_passed_limit_leaves_the_verdict_open() {
             |s, at| s.with([at], "/validity", &json!({"verdict": "beyond", "checks": []})),
             OpenKind::BeyondLinearTheory,
         ),
+        (
+            |s, at| s.with([at], "/validity", &json!({"verdict": "not_checked", "checks": []})),
+            OpenKind::LinearTheoryNotChecked,
+        ),
         (|s, at| s.with([at], "/tip/half_peak_to_peak", &json!(1.0)), OpenKind::ErrorAcrossLimit),
-    ] as [(fn(Scene, usize) -> Scene, OpenKind); 6]
+    ] as [(fn(Scene, usize) -> Scene, OpenKind); 7]
     {
         let inside = scene(flat.clone(), 10);
         assert_eq!(inside.word(), Undecided, "{kind:?}");
