@@ -44,7 +44,7 @@ pub(super) struct InterferenceQuery {
 }
 
 impl InterferenceQuery {
-    /// Question of the query, with what the request of the analysis has in the place of what is missing.
+    /// Question of the query; parameters that are missing are those of the analysis.
     fn asked(&self, request: &ResolvedModalAnalysis) -> Result<AskedInterference, Problem> {
         let unit = self.unit.unwrap_or(SpeedUnit::RadS).rad_s();
         let request = ModalAnalysisRequest::from(request.clone());
@@ -58,8 +58,12 @@ impl InterferenceQuery {
                 Some([from * unit, to * unit])
             }
             (Some(_), Some(_)) => return Err(Problem::parameter("to", "a speed above `from`")),
-            (Some(_), None) => return Err(Problem::parameter("to", "an operating range has both ends")),
-            (None, Some(_)) => return Err(Problem::parameter("from", "an operating range has both ends")),
+            (Some(_), None) => {
+                return Err(Problem::parameter("to", "give both ends of the range, or neither"));
+            }
+            (None, Some(_)) => {
+                return Err(Problem::parameter("from", "give both ends of the range, or neither"));
+            }
         };
         Ok(AskedInterference {
             speed_rad_s: self.speed.map_or(f64::INFINITY, |speed| speed * unit),

@@ -2,7 +2,7 @@
 
 use axum::extract::State;
 use axum::response::Response;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use tokio::runtime::Handle;
 
 use super::download::{Download, DownloadQuery, lasting};
@@ -11,20 +11,22 @@ use super::forms::{Forms, READ_MEMORY};
 use super::problem::Problem;
 use super::results::{find, sweep};
 use super::state::AppState;
-use crate::analysis::kinds::sweep::ERRORS;
+use crate::analysis::kinds::document::Document;
+use crate::analysis::kinds::sweep::{CRITICAL_SPEEDS, ERRORS};
 use crate::analysis::resolved::ResolvedSweep;
 use crate::analysis::result::{ErrorEstimate, Point, SweepVerdict};
-use crate::analysis::run::{self, ModelFacts};
+use crate::analysis::run::{self, Evidence, ModelFacts};
 use crate::dynamics::sector::Units;
 use crate::export::Export;
+use crate::response::campbell::DrivenCrossing;
 use crate::store::jobs::Job;
 use crate::store::{Store, StoreError};
 use crate::tokens::Principal;
 
 /// Download the verdict on a sweep by its operating ranges and limits: clear, watch, undecided or act, why, and what would decide it.
 ///
-/// The verdict is made on reading from the speeds finished so far: while the job runs it is undecided, since speeds are missing, unless they
-/// show already that it is time to act. In csv a line is a critical speed of the wheel.
+/// The verdict is made on reading from the speeds finished so far. While the job runs it may still change, also once all speeds of a range are
+/// finished: with added speeds, control runs and measured validity. In csv a line is a critical speed of the wheel.
 #[utoipa::path(get, path = "/v1/jobs/{id}/verdict", operation_id = "get_verdict", tag = "results",
     params(("id" = String, Path, description = "Id of a sweep."), DownloadQuery),
     responses(
@@ -41,8 +43,8 @@ pub(super) async fn get_verdict(
     judged(&state, job, download, Forms::undrawn(), run::judge).await
 }
 
-/// Function that makes a result of a sweep, its units, its finished speeds and their errors.
-type Judge<T> = fn(&ResolvedSweep, &Units, &[Point], Option<&ErrorEstimate>) -> T;
+/// Function that makes a result of a sweep, its units and its finished speeds.
+type Judge<T> = fn(&ResolvedSweep, &Units, Evidence<'_>) -> T;
 
 /// Answers with what `judge` makes of the finished speeds of a job.
 ///
@@ -71,6 +73,13 @@ pub(super) struct Judged<'a> {
     facts: &'a ModelFacts,
     points: Vec<Point>,
     errors: Option<ErrorEstimate>,
+    driven: Option<Vec<DrivenCrossing>>,
+}
+
+/// Linear critical speeds in the table of a sensor.
+#[derive(Deserialize)]
+struct Predicted {
+    driven_crossings: Vec<DrivenCrossing>,
 }
 
 impl<'a> Judged<'a> {
@@ -80,11 +89,16 @@ impl<'a> Judged<'a> {
         let points = store.points(job.id).await?;
         let text = store.document(job.id, ERRORS).await?;
         let errors = text.map(|text| serde_json::from_str(&text)).transpose()?;
-        Ok(Some(Self { request, facts, points, errors }))
+        let text = store.document(job.id, Document::part(CRITICAL_SPEEDS, 0)).await?;
+        let predicted: Option<Predicted> = text.map(|text| serde_json::from_str(&text)).transpose()?;
+        let driven = predicted.map(|of| of.driven_crossings);
+        Ok(Some(Self { request, facts, points, errors, driven }))
     }
 
     /// Result that `judge` makes of the speeds.
     pub(super) fn by<T>(&self, judge: Judge<T>) -> T {
-        judge(self.request, &self.facts.units, &self.points, self.errors.as_ref())
+        let evidence =
+            Evidence { points: &self.points, errors: self.errors.as_ref(), driven: self.driven.as_deref() };
+        judge(self.request, &self.facts.units, evidence)
     }
 }

@@ -12,7 +12,8 @@ use crate::analysis::kinds::kind::{ResolvedJob, Work};
 use crate::analysis::kinds::sweep::{CRITICAL_SPEEDS, ERRORS, WHEEL_CRITICAL_SPEEDS};
 use crate::analysis::resolved::ResolvedSweep;
 use crate::analysis::result::Point;
-use crate::analysis::run;
+use crate::analysis::run::{self, Evidence};
+use crate::response::campbell::DrivenCrossing;
 use crate::store::jobs::{Failure, FailureCause};
 
 /// Goes on with a job whose speeds are all finished: queues more speeds where it lacks them, or ends it.
@@ -24,8 +25,13 @@ pub(super) async fn speeds(engine: &Engine, job: &Live) -> Result<(), Interrupti
     }
     let Work::Speeds(speeds) = Arc::clone(&job.request).work() else { return Ok(()) };
     if speeds.may_grow() {
+        let driven = match speeds.concluded() {
+            Some(sweep) if sweep.is_limited() => driven_crossings(engine, job, sweep).await?,
+            _ => Vec::new(),
+        };
         let (grown, finished) = (Arc::clone(&speeds), points.clone());
-        if let Some(longer) = engine.computing.run(&job.watch, move || grown.more(&finished)).await? {
+        let more = move || grown.more(&finished, &driven);
+        if let Some(longer) = engine.computing.run(&job.watch, more).await? {
             return more_speeds(engine, job, longer).await;
         }
     }
@@ -34,6 +40,20 @@ pub(super) async fn speeds(engine: &Engine, job: &Live) -> Result<(), Interrupti
         Some(sweep) => conclude(engine, job, sweep, points).await,
         None => complete(engine, job, &[], None).await,
     }
+}
+
+/// Linear critical speeds in the range of a sweep that its scene can drive.
+async fn driven_crossings(
+    engine: &Engine,
+    job: &Live,
+    request: &ResolvedSweep,
+) -> Result<Vec<DrivenCrossing>, Interruption> {
+    let monitor = PhaseMonitor::uncounted(job.watch.clone());
+    let of_model = (request.model(), request.modes_per_speed());
+    let reduced = engine.reductions.get(of_model, request.fields(), monitor).await?;
+    let (monitor, request) = (PhaseMonitor::uncounted(job.watch.clone()), request.clone());
+    let compute = move || run::driven_crossings(&reduced, &request, &monitor);
+    Ok(engine.computing.run(&job.watch, compute).await??)
 }
 
 /// Goes on with a request that has more speeds than before. Asking for the same speeds a second time changes nothing.
@@ -70,7 +90,9 @@ async fn conclude(
     let mut tables = engine.computing.run(&job.watch, compute).await??;
     let stored = engine.store.job(job.id).await?;
     if let Some(facts) = stored.as_ref().and_then(|job| job.facts.as_ref()) {
-        let verdict = run::judge(request, &facts.units, &all, errors.as_ref()).verdict;
+        let driven = tables.first().map(|table| &table.driven_crossings[..]);
+        let evidence = Evidence { points: &all, errors: errors.as_ref(), driven };
+        let verdict = run::judge(request, &facts.units, evidence).verdict;
         patiently(&job.watch, || engine.store.record_verdict(job.id, verdict)).await?;
     }
     let plan = stored.and_then(|job| job.plan);

@@ -68,14 +68,15 @@ pub(super) async fn run(engine: &Engine, RunSpeed { job: id, speed }: RunSpeed) 
     go_on(engine, &job, speed, finished).await
 }
 
-/// Warns once per job that linear theory has been left, with the worst number of the first speed that leaves it.
+/// Warns once per job that linear theory is in doubt or left, with the worst number of the first such speed; doubts of geometry are measured when
+/// the sweep ends.
 fn warn_of_theory(job: &Live, point: &Point) {
     let Some(Validity { verdict, checks, .. }) = &point.validity else { return };
     let Some(worst) = checks.first().filter(|_| *verdict >= ValidityVerdict::Doubtful) else { return };
     if job.watch.first_to_warn() {
         tracing::warn!(
             job.id = %job.id, speed_rad_s = point.speed_rad_s, verdict = ?verdict, what = ?worst.what, value = worst.value,
-            doubtful_above = worst.doubtful_above, "the response leaves linear theory; other speeds of this job are not reported"
+            doubtful_above = worst.doubtful_above, "the response leaves linear theory, or may leave it; other speeds of this job are not reported"
         );
     }
 }

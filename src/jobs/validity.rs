@@ -44,7 +44,7 @@ pub(super) async fn measured(
     Ok(points)
 }
 
-/// Measures of the largest motion at each of `speeds`, as far as they are completed.
+/// Measures the largest motion of each of `speeds`; the inner error says why none could be measured.
 async fn bent(
     engine: &Engine,
     job: &Live,

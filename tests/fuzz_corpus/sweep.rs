@@ -350,7 +350,7 @@ fn summaries_survive(request: &ResolvedSweep, results: &[SpeedResult]) {
     }
     let mut refined = SweepRequest::from(request.clone());
     refined.refine = Some(refined.sweep == SweepDirection::Independent);
-    let Some(more) = refine(&ResolvedSweep::stored(refined, 0).unwrap(), &points) else {
+    let Some(more) = refine(&ResolvedSweep::stored(refined, 0).unwrap(), &points, &[]) else {
         return;
     };
     let (before, after) = (request.speeds().rad_s(), more.speeds().rad_s());

@@ -14,7 +14,7 @@ use rubmap_wheel::dynamics::waves::{WaveModes, wave_modes};
 use rubmap_wheel::response::veerings::{Veering, veerings};
 use rubmap_wheel::response::waves::Wave;
 
-/// Names of the modes of a wheel.
+/// Families, the names of a wheel's modes: by rank, or followed by shape.
 pub(crate) struct Families<'a> {
     wheel: &'a ReducedWheel,
     effects: RotationEffects,

@@ -23,7 +23,7 @@ impl Track {
         self.modes.get(found)
     }
 
-    /// Modes at the speeds on both sides of this one, one of them twice at a speed of the track.
+    /// Modes at the speeds of the track below and above this one; at a speed of the track both are its own.
     fn around(&self, speed_rad_s: f64) -> Option<[&FamilyModes; 2]> {
         let above = self.speeds.partition_point(|&speed| speed < speed_rad_s);
         let below =
@@ -44,7 +44,7 @@ impl Track {
     }
 }
 
-/// Families of a wheel on the grid on which they are followed, up to the highest speed of its matrices; found when they are first asked for.
+/// Families of a wheel on the grid on which they are followed, up to the highest speed of its matrices; computed on first use.
 #[derive(Debug, Clone, Default)]
 pub struct FamilyTracks(OnceLock<Vec<Track>>);
 

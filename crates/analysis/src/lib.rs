@@ -47,6 +47,7 @@ mod response_curve;
 pub mod result;
 pub mod run;
 mod sensed;
+mod span;
 mod speed;
 mod speed_scene;
 mod start;

@@ -16,10 +16,10 @@ use rubmap_wheel::dynamics::casing::arc_lengths;
 use rubmap_wheel::dynamics::integrate::{Outcome, Revolutions};
 use rubmap_wheel::dynamics::states::WheelStates;
 
-/// Most speeds at which validity is measured: each is simulated once more.
+/// Largest number of speeds at which validity is measured; each is simulated a second time.
 const MOST: usize = 6;
 
-/// Most speeds of a sweep at which validity is measured.
+/// Largest number of speeds of this sweep at which validity is measured; 0 where it cannot be.
 pub(crate) fn most(request: &ResolvedSweep, facts: &ModelFacts) -> u32 {
     let can = facts.mesh.is_some() && request.fields() != Some(false);
     if can { request.speeds.count().min(chosen_at_most(request) as u32) } else { 0 }
@@ -78,8 +78,8 @@ pub fn speeds_to_measure(request: &ResolvedSweep, reduced: &ReducedSector, point
     chosen
 }
 
-/// Simulates speed `index` of a sweep once more, to the bit, in a sweep up or down with all speeds before it, and finds its largest motion over the last revolution; none where it is not
-/// completed or nothing moves.
+/// Repeats the simulation of speed `index` of a sweep, to the bit, in a sweep up or down with all speeds before it, and finds the largest motion
+/// of its last revolution; none where the speed is not completed or nothing moves.
 ///
 /// # Errors
 /// Cancellation.

@@ -3,8 +3,11 @@
 use crate::resolved::ResolvedSweep;
 use crate::response_curve::ResponseCurve;
 use crate::result::{Point, Refinement, Unresolvable, Unresolved};
-use crate::verdict::Span;
-use rubmap_wheel::response::critical_speed::{ON_BRANCH, Resolution, Wanted, peaks};
+use crate::span::Span;
+use crate::tips::prominent;
+use crate::verdict;
+use rubmap_wheel::response::campbell::DrivenCrossing;
+use rubmap_wheel::response::critical_speed::{ON_BRANCH, Peak, Resolution, Wanted, peaks};
 
 /// Smallest limit of added speeds. A sweep gets at most as many added speeds as it had at first, or this many if those were fewer: a rough
 /// curve, such as that of a chaotic response, has new peaks at every scale.
@@ -33,20 +36,19 @@ pub(crate) fn most_added(asked: usize) -> usize {
     asked.max(LEAST_MOST_ADDED)
 }
 
-/// Adds one more round of speeds to the request: the middles of the intervals beside the unresolved peaks of the wheel and of any sensor, and the
-/// expected maxima of solved responses. None if there is nothing to add, or no more may be added. `points` are those of all speeds; their order
-/// makes no difference.
-pub fn refine(request: &ResolvedSweep, points: &[Point]) -> Option<ResolvedSweep> {
+/// Adds one more round of speeds to the request: the middles of the intervals beside the unresolved peaks of the wheel and of any sensor, the
+/// expected maxima of solved responses, and speeds by which its verdict could be made. None if there is nothing to add, or no more may be added.
+/// `points` are those of all speeds, `driven` the linear critical speeds that the scene can drive.
+pub fn refine(request: &ResolvedSweep, points: &[Point], driven: &[DrivenCrossing]) -> Option<ResolvedSweep> {
     if !request.refine {
         return None;
     }
     let speeds = request.speeds.rad_s();
     let asked = request.speeds.asked();
     let most = (asked + most_added(asked)).saturating_sub(speeds.len());
-    let mut wanted = wanted(request, speeds, points);
+    let mut wanted = wanted(request, speeds, points, driven);
     // Where not all can be added, those in the operating ranges go first, then peaks that are known worst; the sort is stable.
-    let spans: Vec<Span> =
-        request.operation.iter().flat_map(|operation| &operation.ranges).map(Span::of).collect();
+    let spans = Span::of_ranges(request);
     let elsewhere = |speed: f64| !spans.iter().any(|span| span.reaches(speed));
     wanted.sort_by(|a, b| {
         let wider = (b.width / b.speed).total_cmp(&(a.width / a.speed));
@@ -70,21 +72,33 @@ fn resolutions(
     points: &[Point],
 ) -> Vec<(Option<u32>, f64, Resolution)> {
     let curve = ResponseCurve::of(speeds, points);
-    let of_sensors = (0..request.sensors.len()).map(|sensor| (Some(sensor as u32), curve.level(sensor)));
     let mut found = Vec::new();
-    for (sensor, level) in [(None, curve.tip_level())].into_iter().chain(of_sensors) {
-        for peak in peaks(&level, request.peak_prominence) {
-            let resolution = Resolution::of(curve.of_values(&level), &peak);
-            found.push((sensor, curve.speeds_rad_s[peak.index], resolution));
-        }
+    let mut add = |sensor: Option<u32>, level: &[Option<f64>], peaks: Vec<Peak>| {
+        let of = |peak: Peak| {
+            let resolution = Resolution::of(curve.of_values(level), &peak);
+            (sensor, curve.speeds_rad_s[peak.index], resolution)
+        };
+        found.extend(peaks.into_iter().map(of));
+    };
+    let of_wheel = curve.tip_level();
+    add(None, &of_wheel, prominent(request, &curve, &of_wheel));
+    for sensor in 0..request.sensors.len() {
+        let level = curve.level(sensor);
+        add(Some(sensor as u32), &level, peaks(&level, request.peak_prominence));
     }
     found
 }
 
-/// Speeds that would resolve a peak of some sensor better, ascending.
-fn wanted(request: &ResolvedSweep, speeds: &[f64], points: &[Point]) -> Vec<Wanted> {
+/// Speeds that would resolve a peak of some sensor better, and those that a verdict lacks, ascending.
+fn wanted(
+    request: &ResolvedSweep,
+    speeds: &[f64],
+    points: &[Point],
+    driven: &[DrivenCrossing],
+) -> Vec<Wanted> {
     let resolutions = resolutions(request, speeds, points).into_iter();
     let mut wanted: Vec<_> = resolutions.flat_map(|(_, _, resolution)| resolution.wanted).collect();
+    wanted.extend(verdict::wanted(request, points, driven));
     wanted.sort_by(|a, b| a.speed.total_cmp(&b.speed));
     // Maxima of two sensors may be the same.
     wanted.dedup_by(|b, a| b.speed - a.speed <= 0.25 * ON_BRANCH * a.speed);
@@ -154,7 +168,7 @@ mod tests {
     fn refined(mut request: ResolvedSweep, levels: &dyn Fn(f64) -> [f64; 2]) -> (ResolvedSweep, Refinement) {
         loop {
             let found = points(&request, levels);
-            let Some(more) = refine(&request, &found) else {
+            let Some(more) = refine(&request, &found, &[]) else {
                 return (request.clone(), Refinement::of(&request, &found).unwrap());
             };
             let (before, after) = (request.speeds.rad_s(), more.speeds.rad_s());
@@ -278,12 +292,12 @@ mod tests {
         let request = request(11);
         let levels = |speed| [resonance(speed, 953.0, 1.0), resonance(speed, 1041.0, 1.5)];
         let mut found = points(&request, &levels);
-        let more = refine(&request, &found).unwrap();
+        let more = refine(&request, &found, &[]).unwrap();
         found.reverse();
-        assert_eq!(refine(&request, &found).unwrap(), more);
+        assert_eq!(refine(&request, &found, &[]).unwrap(), more);
         // A refined request that is asked for again is refined no further.
         let (last, refinement) = refined(request, &levels);
         assert_eq!(refined(last.clone(), &levels), (last, refinement));
-        assert_eq!(refine(&ResolvedSweep { refine: false, ..more }, &[]), None);
+        assert_eq!(refine(&ResolvedSweep { refine: false, ..more }, &[], &[]), None);
     }
 }

@@ -34,11 +34,11 @@ pub use crate::result::{
 };
 pub use crate::speed::run_speed;
 pub use crate::summary::{
-    critical_indices, critical_speeds, fixed_frame_orders, fixed_frame_row, interaction_map,
-    map_engine_orders, map_row, nothing_completed,
+    critical_indices, critical_speeds, driven_crossings, fixed_frame_orders, fixed_frame_row,
+    interaction_map, map_engine_orders, map_row, nothing_completed,
 };
 pub use crate::sweep_stress::{strengths_of_sweep, sweep_stress};
 pub use crate::tips::wheel_critical_speeds;
-pub use crate::verdict::{judge, level};
+pub use crate::verdict::{Evidence, judge, level};
 pub use rubmap_wheel::revision::{REVISION, VERSION};
 pub use rubmap_wheel::vectors::vectors;

@@ -211,6 +211,56 @@ fn response_peaks(
     critical.collect()
 }
 
+/// Number of speeds over the range of a sweep between which linear critical speeds are sought while it is refined.
+const SOUGHT: u32 = 12;
+
+/// Linear critical speeds in the range of a sweep that its scene can drive, by the lowest ranks of frequencies.
+///
+/// # Errors
+/// Cancellation.
+pub fn driven_crossings(
+    reduced: &ReducedSector,
+    request: &ResolvedSweep,
+    monitor: &dyn Monitor,
+) -> Result<Vec<DrivenCrossing>, AnalysisError> {
+    let ascending = request.speeds.ascending();
+    let (Some(&from), Some(&to)) = (ascending.first(), ascending.last()) else { return Ok(Vec::new()) };
+    let speed = |place: u32| from + (to - from) * f64::from(place) / f64::from(SOUGHT);
+    let speeds: Vec<f64> = (0..=SOUGHT).map(speed).collect();
+    let diagram = diagram(reduced, request, &speeds, monitor)?;
+    let families = Families::by_rank(&reduced.wheel, rotation(&request.scene));
+    Ok(diagram.driven_crossings(&families, &driving_orders(request)))
+}
+
+/// Natural frequencies over `speeds`. A speed at which the model fails predicts nothing.
+fn diagram<'a>(
+    reduced: &'a ReducedSector,
+    request: &ResolvedSweep,
+    speeds: &[f64],
+    monitor: &dyn Monitor,
+) -> Result<FrequencyDiagram<'a>, AnalysisError> {
+    let mut diagram = FrequencyDiagram::new(&reduced.wheel, rotation(&request.scene), PREDICTED_FAMILIES);
+    for (done, &speed) in speeds.iter().enumerate() {
+        monitor.progress(done as f64 / speeds.len() as f64, "linear prediction");
+        if monitor.is_cancelled() {
+            return Err(AnalysisError::Cancelled);
+        }
+        let _ = diagram.push(speed);
+    }
+    Ok(diagram)
+}
+
+/// Engine orders that a scene can drive: multiples of the lobe count, and those of its forces.
+fn driving_orders(request: &ResolvedSweep) -> Vec<u32> {
+    let scene = &request.scene;
+    let lobes = scene.casing.as_ref().and_then(|casing| casing.shape.repeats()).unwrap_or(0);
+    let mut orders = multiples(lobes, request.max_engine_order);
+    orders.extend(scene.engine_order_excitation.iter().map(|force| force.order));
+    orders.sort_unstable();
+    orders.dedup();
+    orders
+}
+
 /// Prediction of linear theory over the range of a sweep.
 struct Prediction {
     linear: Vec<Crossing>,
@@ -227,23 +277,10 @@ fn predict(
 ) -> Result<Prediction, AnalysisError> {
     let scene = &request.scene;
     let effects = rotation(scene);
-    let mut diagram = FrequencyDiagram::new(&reduced.wheel, effects, PREDICTED_FAMILIES);
     // Repeated speeds would bracket nothing.
     let mut speeds = ascending.to_vec();
     speeds.dedup();
-    for (done, &speed) in speeds.iter().enumerate() {
-        monitor.progress(done as f64 / speeds.len() as f64, "linear prediction");
-        if monitor.is_cancelled() {
-            return Err(AnalysisError::Cancelled);
-        }
-        // A speed at which the model fails predicts nothing.
-        let _ = diagram.push(speed);
-    }
-    let lobes = scene.casing.as_ref().and_then(|casing| casing.shape.repeats()).unwrap_or(0);
-    let mut orders = multiples(lobes, request.max_engine_order);
-    orders.extend(scene.engine_order_excitation.iter().map(|force| force.order));
-    orders.sort_unstable();
-    orders.dedup();
+    let diagram = diagram(reduced, request, &speeds, monitor)?;
     let casing = scene.flexible_casing.as_ref().map(|casing| {
         flexible_casing(casing).waves.iter().map(|wave| (wave.nodal_diameter, wave.omega / TAU)).collect()
     });
@@ -252,7 +289,7 @@ fn predict(
     let families = Families::followed(&reduced.wheel, effects, &[], top, monitor)?;
     Ok(Prediction {
         linear: diagram.crossings(&families, &PREDICTED_SUPERHARMONICS),
-        driven: diagram.driven_crossings(&families, &orders),
+        driven: diagram.driven_crossings(&families, &driving_orders(request)),
         coincidences: diagram.coincidences(&families, &casing),
     })
 }

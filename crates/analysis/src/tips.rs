@@ -6,6 +6,7 @@ use crate::response_curve::ResponseCurve;
 use crate::result::{
     CriticalSpeeds, ErrorEstimate, Point, SensorView, TipResponse, WheelCriticalSpeed, WheelCriticalSpeeds,
 };
+use crate::span::Span;
 use rubmap_wheel::dynamics::casing::arc_lengths;
 use rubmap_wheel::dynamics::direction::COMPONENTS;
 use rubmap_wheel::dynamics::integrate::History;
@@ -64,6 +65,27 @@ pub fn wheel_critical_speeds(
     })
 }
 
+/// Peaks of the wheel's level that stand out by the asked share of the largest level: of the sweep, or of an operating range that reaches the peak,
+/// so that a higher peak elsewhere hides none in a range.
+pub(super) fn prominent(request: &ResolvedSweep, curve: &ResponseCurve, level: &[Option<f64>]) -> Vec<Peak> {
+    let largest = |holds: &dyn Fn(f64) -> bool| {
+        let values = curve.speeds_rad_s.iter().zip(level).filter(|(speed, _)| holds(**speed));
+        values.filter_map(|(_, value)| *value).fold(0.0, f64::max)
+    };
+    let whole = largest(&|_| true);
+    let spans = Span::of_ranges(request);
+    let ranges: Vec<(&Span, f64)> =
+        spans.iter().map(|span| (span, largest(&|speed| span.reaches(speed)))).collect();
+    let stands_out = |peak: &Peak| {
+        let near = ranges.iter().filter(|(span, _)| span.reaches(curve.speeds_rad_s[peak.index]));
+        let scale = near.map(|(_, largest)| *largest).fold(whole, f64::min);
+        peak.prominence >= request.peak_prominence * scale
+    };
+    let mut found = peaks(level, 0.0);
+    found.retain(stands_out);
+    found
+}
+
 /// Critical speeds of the wheel from the finished points of a sweep, the most severe first.
 pub(super) fn wheel_peaks(
     request: &ResolvedSweep,
@@ -107,7 +129,7 @@ pub(super) fn wheel_peaks(
         })
     };
     let mut critical_speeds: Vec<_> =
-        peaks(&level, request.peak_prominence).into_iter().filter_map(critical).collect();
+        prominent(request, &curve, &level).into_iter().filter_map(critical).collect();
     critical_speeds.sort_by(|a, b| b.severity.total_cmp(&a.severity));
     critical_speeds
 }

@@ -16,6 +16,7 @@ use crate::monitor::Monitor;
 use crate::request::Sensor;
 use crate::resolved::{ResolvedCaseStudy, ResolvedModalAnalysis, ResolvedStudy, ResolvedSweep};
 use crate::result::{Point, PointStatus, SpeedResult};
+use rubmap_wheel::response::campbell::DrivenCrossing;
 
 /// Reader of a stored job, from its text and the number of rounds of a refinement.
 pub type ReadStored = fn(&str, u32) -> Result<Arc<dyn ResolvedJob>, NotReadable>;
@@ -430,8 +431,8 @@ pub trait Speeds: Send + Sync {
     /// Whether speeds may be added.
     fn may_grow(&self) -> bool;
 
-    /// Job with more speeds, if the finished ones call for some.
-    fn more(&self, points: &[Point]) -> Option<Arc<dyn ResolvedJob>>;
+    /// Job with more speeds, if the finished ones call for some, with the linear critical speeds that the scene can drive.
+    fn more(&self, points: &[Point], driven: &[DrivenCrossing]) -> Option<Arc<dyn ResolvedJob>>;
 
     /// Sweep whose critical speeds conclude the job, if any do.
     fn concluded(&self) -> Option<&ResolvedSweep>;

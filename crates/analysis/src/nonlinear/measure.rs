@@ -16,7 +16,7 @@ use rubmap_wheel::dynamics::reduction::ReducedWheel;
 use rubmap_wheel::dynamics::sector::ContactNode;
 use rubmap_wheel::dynamics::states::WheelStates;
 
-/// Words of the progress.
+/// Phase of a job whose validity is measured, in words.
 pub(crate) const PHASE: &str = "measuring the validity of linear theory";
 
 /// Motion of the wheel at the instant at which a contact node is farthest from its place.
@@ -57,12 +57,12 @@ pub enum NotMeasured {
     #[error("cancelled")]
     Cancelled,
     /// Too little memory.
-    #[error("measuring takes {} MB of memory, more than one computation may have", bytes.div_ceil(1 << 20))]
+    #[error("measuring takes {} MB of memory, more than the service has for it (`--memory-bytes`)", bytes.div_ceil(1 << 20))]
     Memory {
         /// Bytes that are needed.
         bytes: u64,
     },
-    /// Sector whose fields cannot be relaxed.
+    /// Field that cannot be relaxed, with the reason.
     #[error("{0}")]
     Relaxed(String),
 }
@@ -166,7 +166,7 @@ fn fields_bytes(nodes: usize, motions: usize) -> u64 {
     (200 * nodes * motions) as u64
 }
 
-/// Displacements in x, y, z at all nodes of the moved sectors, each in the frame of the first sector.
+/// Displacements in x, y, z of all nodes, for the sector that each motion moves most, turned into the place of the first sector.
 pub(super) fn fields(
     (mesh, nodes): (&SectorMesh, &[SectorNode]),
     reduced: &ReducedWheel,

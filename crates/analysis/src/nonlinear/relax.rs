@@ -61,13 +61,13 @@ pub(crate) struct Relaxed {
 /// Reason why a field cannot be relaxed.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub(crate) enum NotRelaxed {
-    /// Nothing moves.
-    #[error("nothing moves")]
+    /// Field without a motion.
+    #[error("the field has no motion")]
     Still,
-    /// No minimum was reached.
-    #[error("the energy of the bent blade found no minimum within {MOST_STEPS} steps")]
+    /// Search that reached no minimum.
+    #[error("no minimum of the bent blade's energy was found within {MOST_STEPS} steps")]
     Steps,
-    /// Sector without a factor.
+    /// Sector that can move as a rigid body, or in which nothing is free.
     #[error("the sector's stiffness is not positive definite: is anything clamped?")]
     CanMove,
     /// Modes that cannot be computed.
@@ -81,14 +81,14 @@ impl From<NotPositiveDefinite> for NotRelaxed {
     }
 }
 
-/// Point on the way: displacements of all nodes, and β of every element.
+/// Iterate: displacements of all nodes, and β of every element.
 #[derive(Clone)]
 struct State {
     field: Vec<Vector3<f64>>,
     beta: Vec<[Vector3<f64>; BUBBLES]>,
 }
 
-/// Gradient or direction: by the free displacements, and by β of every element.
+/// Gradient, step or direction: components of the free displacements, and of β of every element.
 #[derive(Clone)]
 struct Slope {
     free: Vec<f64>,

@@ -182,7 +182,7 @@ impl HeldSector {
         elements.map(|(index, (nodes, element))| of(index, nodes, element)).collect()
     }
 
-    /// Sum over the elements of some numbers of each, in their order.
+    /// Sums of `K` numbers of every element, in the order of the elements.
     pub(super) fn sum<const K: usize>(
         &self,
         of: impl Fn(usize, &[u32], &GreenLagrange) -> [f64; K] + Sync,
@@ -198,7 +198,7 @@ impl HeldSector {
 /// Entry of an element's matrix between two of its nodes, along two directions.
 type Entry = Box<dyn Fn(usize, usize, &Vector3<f64>, &Vector3<f64>) -> f64>;
 
-/// Pairs of free displacements that share an element: by columns, rows ascending.
+/// Sparsity pattern of the matrices: rows that share an element with a column, ascending, column by column.
 struct Pattern {
     starts: Vec<usize>,
     rows: Vec<usize>,

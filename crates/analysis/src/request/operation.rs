@@ -40,7 +40,8 @@ pub struct OperatingRange {
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Limits {
-    /// Share of the running clearance that half the peak-to-peak displacement of the tip that moves most may take (`tip.over_clearance` of a speed).
+    /// Share of its running clearance that the outward displacement of a tip may take (`contact.clearance_consumption` of a speed); at 1 it
+    /// reaches the round casing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub clearance_consumption: Option<f64>,
     /// Half the peak-to-peak displacement that the tip that moves most may have, in the model's unit of length.

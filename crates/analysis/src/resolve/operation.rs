@@ -34,7 +34,7 @@ pub(super) fn check_operation(found: &mut Findings, sweep: &ResolvedSweep) {
     found.require(
         asked.utilisation.is_none() || sweep.record.stress.is_some(),
         "/limits/utilisation",
-        "utilisation needs stress, and the model has no mesh to compute it from: leave this limit away",
+        "utilisation needs stress, and the model has no mesh to compute it from: leave this limit out",
     );
 }
 
@@ -68,6 +68,11 @@ fn check_ranges(found: &mut Findings, ranges: &[OperatingRange]) {
                 format!("a speed lies between 0 and {HIGHEST_SPEED:e} rad/s, unlike {speed}"),
             );
         }
+        found.require(
+            *from != 0.0,
+            &at("from"),
+            "a range begins above 0, as no contact can be simulated at rest: give the lowest speed that counts",
+        );
         found.require(from < to, &at("to"), format!("a range ends above {from}, where it begins"));
         found.require(
             separation_percent.is_none_or(|percent| limits::PERCENT.contains(&percent)),

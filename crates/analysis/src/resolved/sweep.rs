@@ -193,6 +193,11 @@ impl ResolvedSweep {
         self.refine
     }
 
+    /// Whether limits are given, by which the sweep is judged.
+    pub fn is_limited(&self) -> bool {
+        self.limits.is_some()
+    }
+
     /// Whether the whole sweep must be computed on processors with one kind of vector instructions.
     pub fn is_of_one_kind(&self) -> bool {
         self.reproducible || self.sweep != SweepDirection::Independent

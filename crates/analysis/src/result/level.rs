@@ -58,10 +58,9 @@ impl SweepLevel {
         quantity.limit(&self.verdict.settings.limits?)
     }
 
-    /// Quantity that decides: the limited one whose worst value in a range is largest over its limit; the tip motion where nothing is limited.
+    /// Quantity that decides: the limited one whose worst value in a range is of most concern; the tip motion where nothing is limited.
     pub fn deciding(&self) -> LimitKind {
         let worst = self.verdict.ranges.iter().flat_map(|range| &range.limits).map(|worst| &worst.judged);
-        let largest = worst.max_by(|a, b| (a.value / a.allowed).total_cmp(&(b.value / b.allowed)));
-        largest.map_or(LimitKind::TipMotion, |judged| judged.limit)
+        worst.max_by(|a, b| a.concern(b)).map_or(LimitKind::TipMotion, |judged| judged.limit)
     }
 }

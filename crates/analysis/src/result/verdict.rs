@@ -1,5 +1,6 @@
 //! Verdict on a sweep: whether the wheel may run in its operating ranges.
 
+use std::cmp::Ordering;
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
@@ -41,7 +42,7 @@ pub struct SweepVerdict {
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum VerdictWord {
-    /// Every limit is kept with a margin, no critical speed is near, and nothing is open.
+    /// Every limit is kept with a margin, no critical speed was found near, and nothing is open.
     Clear,
     /// Every limit is kept, but one is reached to 80 % or more, or a critical speed lies inside the range or within its separation.
     Watch,
@@ -136,6 +137,18 @@ pub struct JudgedValue {
     pub standing: Standing,
 }
 
+impl JudgedValue {
+    /// Share of the limit that the value takes.
+    pub(crate) fn share(&self) -> f64 {
+        self.value / self.allowed
+    }
+
+    /// Order of concern: by standing, then by share of the limit.
+    pub(crate) fn concern(&self, other: &Self) -> Ordering {
+        self.standing.cmp(&other.standing).then(self.share().total_cmp(&other.share()))
+    }
+}
+
 /// Standing of a value against its limit. Where no error is known, 20 % of the limit on either side is open.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
@@ -156,7 +169,7 @@ pub enum Standing {
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum LimitKind {
-    /// Half the peak-to-peak displacement of the tip that moves most over its running clearance.
+    /// Largest outward displacement of a tip over its running clearance.
     ClearanceConsumption,
     /// Half the peak-to-peak displacement of the tip that moves most.
     TipMotion,
@@ -314,4 +327,6 @@ pub enum OpenKind {
     ValueUnknown,
     /// A peak is not resolved.
     PeakUnresolved,
+    /// Nothing touches, and nothing else moves the wheel.
+    NothingTouches,
 }

@@ -1,16 +1,17 @@
 //! Verdict on a sweep from its finished speeds.
 
+use super::evidence::{Evidence, Seen};
+use super::hidden::maxima;
 use super::limit::Asked;
 use super::points::Finished;
-use super::range::Span;
 use super::rule::{self, Judged};
 use super::sentence;
-use crate::request::Operation;
 use crate::resolved::ResolvedSweep;
 use crate::result::{
-    ErrorEstimate, JudgedSpeed, Point, Position, RangePosition, RangeVerdict, SweepVerdict, VerdictWord,
+    JudgedSpeed, JudgedValue, Point, Position, RangePosition, RangeVerdict, SweepVerdict, VerdictWord,
     WheelCriticalSpeed,
 };
+use crate::span::Span;
 use crate::tips::wheel_peaks;
 use rubmap_wheel::dynamics::sector::Units;
 use rubmap_wheel::revision::VERSION;
@@ -21,19 +22,16 @@ const WORST: usize = 3;
 /// Relative distance within which a speed counts as a flank of a worse one, whose peak is named already.
 const SAME_PEAK: f64 = 0.01;
 
-/// Judges the finished points of a sweep, in any order, by the ranges and limits of its request.
-pub fn judge(
-    request: &ResolvedSweep,
-    units: &Units,
-    points: &[Point],
-    errors: Option<&ErrorEstimate>,
-) -> SweepVerdict {
+/// Judges the finished points of a sweep by the ranges and limits of its request.
+pub fn judge(request: &ResolvedSweep, units: &Units, evidence: Evidence<'_>) -> SweepVerdict {
+    let Evidence { points, errors, driven } = evidence;
     let asked = Asked::of(request, errors);
     let peaks = wheel_peaks(request, points, errors);
     let finished = Finished::of(points);
-    let (ranges_given, spans) = spans(request);
-    let judged: Vec<Judged> =
-        spans.iter().map(|span| rule::judge(request, span, &finished, &peaks, &asked)).collect();
+    let maxima = maxima(request, &finished, &asked);
+    let seen = Seen { finished: &finished, peaks: &peaks, maxima: &maxima, driven, asked: &asked };
+    let (ranges_given, spans) = Span::all(request);
+    let judged: Vec<Judged> = spans.iter().map(|span| rule::judge(request, span, &seen)).collect();
     let named: &[Span] = if ranges_given { &spans } else { &[] };
     let speed = |point: &Point| judged_speed(point, named, &peaks, &asked);
     let of_index = |index: u32| points.iter().find(|point| point.index == index);
@@ -61,14 +59,6 @@ pub fn judge(
     all
 }
 
-/// Whether the request gives ranges, and the spans to judge: its ranges, otherwise the whole sweep.
-fn spans(request: &ResolvedSweep) -> (bool, Vec<Span>) {
-    match &request.operation {
-        Some(Operation { ranges }) if !ranges.is_empty() => (true, ranges.iter().map(Span::of).collect()),
-        _ => (false, vec![Span::whole(request.speeds.rad_s())]),
-    }
-}
-
 /// Speed of a point against ranges and limits.
 fn judged_speed(point: &Point, spans: &[Span], peaks: &[WheelCriticalSpeed], asked: &Asked) -> JudgedSpeed {
     let peak = peaks.iter().find(|peak| peak.index == point.index);
@@ -93,7 +83,8 @@ fn judged_speed(point: &Point, spans: &[Span], peaks: &[WheelCriticalSpeed], ask
     }
 }
 
-/// Worst of the critical speeds in a range and of the speeds with the largest values there; only without either, critical speeds outside.
+/// Worst speeds: among the critical speeds in a range and the speeds with the largest values there; where there are none, the critical speeds
+/// outside.
 fn worst(
     judged: &[Judged],
     critical: &[JudgedSpeed],
@@ -129,5 +120,5 @@ fn worst(
 
 /// Largest value of a speed over its limit; 0 where none is known.
 fn share(speed: &JudgedSpeed) -> f64 {
-    speed.limits.iter().map(|judged| judged.value / judged.allowed).fold(0.0, f64::max)
+    speed.limits.iter().map(JudgedValue::share).fold(0.0, f64::max)
 }

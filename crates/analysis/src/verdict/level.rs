@@ -1,20 +1,16 @@
 //! Level of the wheel over speed, from the same values as the verdict.
 
+use super::evidence::Evidence;
 use super::judge::judge;
 use super::limit::{Asked, standing};
 use super::points::is_completed;
 use crate::resolved::ResolvedSweep;
-use crate::result::{ErrorEstimate, LevelSpeed, LevelValue, LimitKind, Point, SweepLevel};
+use crate::result::{LevelSpeed, LevelValue, LimitKind, Point, SweepLevel};
 use rubmap_wheel::dynamics::sector::Units;
 
-/// Values of all finished speeds, in any order, beside the verdict on them.
-pub fn level(
-    request: &ResolvedSweep,
-    units: &Units,
-    points: &[Point],
-    errors: Option<&ErrorEstimate>,
-) -> SweepLevel {
-    let asked = Asked::of(request, errors);
+/// Values of all finished speeds beside the verdict on them.
+pub fn level(request: &ResolvedSweep, units: &Units, evidence: Evidence<'_>) -> SweepLevel {
+    let asked = Asked::of(request, evidence.errors);
     let value = |point: &Point, quantity: LimitKind| {
         let (value, error) = asked.known(point, quantity)?;
         let limit = asked.limits.iter().find(|(kind, _)| *kind == quantity);
@@ -30,7 +26,7 @@ pub fn level(
             false => Vec::new(),
         },
     };
-    let mut speeds: Vec<LevelSpeed> = points.iter().map(speed).collect();
+    let mut speeds: Vec<LevelSpeed> = evidence.points.iter().map(speed).collect();
     speeds.sort_by(|a, b| a.speed_rad_s.total_cmp(&b.speed_rad_s));
-    SweepLevel { verdict: judge(request, units, points, errors), speeds }
+    SweepLevel { verdict: judge(request, units, evidence), speeds }
 }

@@ -10,13 +10,13 @@ use crate::result::{
 /// Share of a limit from which on it counts as reached.
 pub(super) const REACHED: f64 = 0.8;
 
-/// Share of a limit, on either side of it, within which a value without a known error is open: errors of default settings are below it.
+/// Share of a limit, on either side of it, within which a value without a known error is open: errors of the default settings are smaller.
 const UNKNOWN: f64 = 0.2;
 
-/// Standing of a value against its limit, by its relative error, if that is known.
+/// Standing of a value against its limit, by its relative error e, if that is known: the value is one of v/(1 + e) to v (1 + e), and never below 0.
 pub(super) fn standing(value: f64, allowed: f64, error: Option<f64>) -> Standing {
     let (above, below) = match error {
-        Some(error) => (value - error * value > allowed, value + error * value <= allowed),
+        Some(error) => (value / (1.0 + error) > allowed, value * (1.0 + error) <= allowed),
         None => (value > (1.0 + UNKNOWN) * allowed, value < (1.0 - UNKNOWN) * allowed),
     };
     match (above, below) {
@@ -83,7 +83,7 @@ impl Asked {
 
     fn value(&self, point: &Point, limit: LimitKind) -> Option<f64> {
         match limit {
-            LimitKind::ClearanceConsumption => point.tip?.over_clearance,
+            LimitKind::ClearanceConsumption => Some(point.contact.as_ref()?.clearance_consumption),
             LimitKind::TipMotion => Some(point.tip?.half_peak_to_peak),
             LimitKind::Utilisation => point.utilisation(),
             // Nothing touches in a scene without contact.

@@ -1,41 +1,44 @@
 //! Questions that are open in a range: what could hide a limit that is passed.
 
-use super::limit::Asked;
-use super::points::{Finished, indices};
-use super::range::Span;
+use super::evidence::Seen;
+use super::hidden::{Maximum, wide_steps, widest_step};
+use super::points::indices;
 use super::sentence::{rpm, speeds as of_speeds};
 use crate::request::{AutoOr, SweepDirection};
 use crate::resolved::ResolvedSweep;
 use crate::result::{
-    LimitKind, OpenKind, OpenQuestion, Point, RangeVerdict, Standing, StiffeningVerdict, ValidityVerdict,
-    Verdict, WheelCriticalSpeed,
+    LimitKind, OpenKind, OpenQuestion, Point, RangeVerdict, Stability, Standing, StiffeningVerdict,
+    ValidityVerdict, Verdict,
 };
-use rubmap_wheel::response::critical_speed::RESOLVED_SHARE;
+use crate::span::Span;
 
 /// Largest step between neighbouring speeds, as a share of the higher one, by which a range counts as covered: a mode's critical speeds at engine
 /// orders 20 and 21 are as far apart, so a wider step passes over whole critical speeds.
 const WIDEST_STEP: f64 = 0.05;
 
-/// Facts about a range by which questions are found.
+/// Remedy where results are still to come.
+const WAIT: &str = "wait until the job has ended; if it was cancelled or failed, post its request again";
+
+/// Range with everything by which its open questions are found.
 pub(super) struct Ground<'a> {
     pub(super) request: &'a ResolvedSweep,
     pub(super) span: &'a Span,
     pub(super) range: &'a RangeVerdict,
-    pub(super) finished: &'a Finished<'a>,
     /// Speeds inside the range or its separation that were completed.
     pub(super) completed: &'a [&'a Point],
-    pub(super) peaks: &'a [WheelCriticalSpeed],
-    pub(super) asked: &'a Asked,
+    pub(super) seen: &'a Seen<'a>,
 }
 
 /// Questions that are open in a range.
 pub(super) fn questions(ground: &Ground) -> Vec<OpenQuestion> {
     let mut found = Vec::new();
     found.extend(ground.not_covered());
+    found.extend(ground.beside_critical());
+    found.extend(ground.still());
     found.extend(ground.without_result());
     found.extend(ground.not_trusted());
     found.extend(ground.of_peaks());
-    for &(kind, allowed) in &ground.asked.limits {
+    for &(kind, allowed) in &ground.seen.asked.limits {
         found.extend(ground.of_limit(kind, allowed));
     }
     found
@@ -63,19 +66,24 @@ impl Ground<'_> {
         indices(self.completed.iter().copied().filter(|point| holds(point)))
     }
 
-    /// Question about stretches of the range that no speed of the sweep covers. A sweep without ranges covers itself.
+    /// Question about stretches of the range, or of a sweep without ranges, that no speed of the sweep covers.
     fn not_covered(&self) -> Option<OpenQuestion> {
-        self.span.name.as_ref()?;
         let ascending = self.request.speeds.ascending();
         let (lowest, highest) = (self.span.lowest(), self.span.highest());
         let (first, last) = (ascending.first().copied()?, ascending.last().copied()?);
+        if self.span.name.is_none() && self.same(first, last) {
+            let finding = format!("one speed, {}, shows no critical speed", rpm(first));
+            let remedy = "ask for a range of `speeds`, in steps of at most 5 %";
+            return Some(self.question(OpenKind::RangeNotCovered, Vec::new(), finding, remedy));
+        }
         let mut bare: Vec<(f64, f64)> = Vec::new();
         if first > lowest && !self.same(first, lowest) {
             bare.push((lowest, first.min(highest)));
         }
         let wide = |pair: &&[f64]| pair[1] - pair[0] > WIDEST_STEP * pair[1];
         let within = |pair: &[f64]| (pair[0].max(lowest), pair[1].min(highest));
-        bare.extend(ascending.windows(2).filter(wide).map(within).filter(|(from, to)| from < to));
+        let is_bare = |&(from, to): &(f64, f64)| from < to && !self.same(from, to);
+        bare.extend(ascending.windows(2).filter(wide).map(within).filter(is_bare));
         if last < highest && !self.same(last, highest) {
             bare.push((last.max(lowest), highest));
         }
@@ -98,24 +106,30 @@ impl Ground<'_> {
     }
 
     fn without_result(&self) -> impl Iterator<Item = OpenQuestion> {
-        let missing = self.about(
-            OpenKind::SpeedsMissing,
-            &self.range.missing,
-            "without a result yet",
-            "wait until the job has ended; if it has, post its request again",
-        );
+        let missing = self.about(OpenKind::SpeedsMissing, &self.range.missing, "without a result yet", WAIT);
         let failed = self.about(
             OpenKind::SpeedsFailed,
             &self.range.failed,
             "that could not be computed",
             "read the reason in `message` of these speeds, and ask for speeds close beside them",
         );
-        missing.into_iter().chain(failed)
+        // Refinement, control runs and measured validity are still to come.
+        let unended = (self.range.missing.is_empty() && self.seen.driven.is_none()).then(|| {
+            let finding = "the job has not ended: it may add speeds and tell errors".to_owned();
+            self.question(OpenKind::SpeedsMissing, Vec::new(), finding, WAIT)
+        });
+        missing.into_iter().chain(failed).chain(unended)
     }
 
     fn not_trusted(&self) -> impl Iterator<Item = OpenQuestion> {
         let unsettled = self.those(|point| {
             point.settling.as_ref().is_none_or(|settling| settling.verdict == Verdict::NotSettled)
+        });
+        let unstable = self.those(|point| {
+            let steady = point.steady.as_ref().filter(|steady| steady.taken);
+            steady.is_some_and(|steady| {
+                !matches!(steady.stability, Some(Stability::Stable | Stability::Narrow))
+            })
         });
         let longer = match self.request.integration.revolutions {
             AutoOr::Auto => "march longer: raise `integration.most_revolutions`",
@@ -128,6 +142,12 @@ impl Ground<'_> {
         let beyond = of_theory(ValidityVerdict::Beyond);
         [
             self.about(OpenKind::NotSettled, &unsettled, "whose motion has not settled", longer),
+            self.about(
+                OpenKind::NotSettled,
+                &unstable,
+                "whose periodic response is not known to be stable, so that no machine may show it",
+                "march there: `integration.steady` of \"auto\"",
+            ),
             self.about(
                 OpenKind::UnsoundStiffness,
                 &unsound,
@@ -153,10 +173,9 @@ impl Ground<'_> {
 
     /// Question about peaks whose top may lie in the range and is not resolved.
     fn of_peaks(&self) -> Option<OpenQuestion> {
-        let ascending = self.request.speeds.ascending();
-        let ends = [ascending.first().copied(), ascending.last().copied()];
-        let hides = |peak: &&WheelCriticalSpeed| !peak.resolved && self.may_hide(peak, ends);
-        let mut speeds: Vec<u32> = self.peaks.iter().filter(hides).map(|peak| peak.index).collect();
+        let hides = |maximum: &&Maximum| maximum.may_lie_in(self.span, self.request, self.seen.finished);
+        let mut speeds: Vec<u32> =
+            self.seen.maxima.iter().filter(hides).map(|maximum| maximum.index).collect();
         speeds.sort_unstable();
         let remedy = if self.request.refine {
             "ask for finer speeds around these peaks, and beyond an end of the sweep"
@@ -166,23 +185,49 @@ impl Ground<'_> {
         self.about(OpenKind::PeakUnresolved, &speeds, "whose peak is not resolved", remedy)
     }
 
-    /// Whether the top of an unresolved peak may lie in the range: between the completed speeds beside it. At an end of the sweep the response
-    /// must fall at once for a top to hide beside it.
-    fn may_hide(&self, peak: &WheelCriticalSpeed, ends: [Option<f64>; 2]) -> bool {
-        let [below, above] = self.finished.beside(peak.speed_rad_s);
-        let is_high = |point: &Point| point.tip.is_some_and(|tip| tip.rms >= RESOLVED_SHARE * peak.tip.rms);
-        let is_end = ends.contains(&Some(peak.speed_rad_s));
-        if is_end && below.xor(above).is_some_and(is_high) {
-            return false;
-        }
-        let from = below.map_or(peak.speed_rad_s, |point| point.speed_rad_s);
-        let to = above.map_or(peak.speed_rad_s, |point| point.speed_rad_s);
-        from <= self.span.highest() && to >= self.span.lowest()
+    /// Question about linear critical speeds in the range beside which steps are wide.
+    fn beside_critical(&self) -> Option<OpenQuestion> {
+        let wide = wide_steps(self.request, self.span, self.seen.driven?);
+        let first = wide.first()?.crossing;
+        let mut several: Vec<f64> = wide.iter().map(|step| step.crossing.speed_rad_s).collect();
+        several.dedup();
+        let more = match several.len() {
+            1 => String::new(),
+            several => format!(", and beside {} more", several - 1),
+        };
+        let widest = wide.iter().map(|step| 1.0 - step.from / step.to).fold(0.0, f64::max);
+        let finding = format!(
+            "a step of {:.1} % between speeds beside the linear critical speed at {} (engine order {}, nodal diameter {}){more}",
+            100.0 * widest,
+            rpm(first.speed_rad_s),
+            first.engine_order,
+            first.nodal_diameter,
+        );
+        let refine = if self.request.refine { "" } else { "`refine` of true, or " };
+        let remedy =
+            format!("{refine}`speeds` in steps of at most {:.1} % there", 100.0 * widest_step(self.request));
+        Some(self.question(OpenKind::RangeNotCovered, Vec::new(), finding, &remedy))
+    }
+
+    /// Question where nothing touches and nothing else moves the wheel: such a sweep tells nothing about contact.
+    fn still(&self) -> Option<OpenQuestion> {
+        let touches = |point: &Point| point.contact.as_ref().is_some_and(|contact| contact.peak_force > 0.0);
+        let is_still = self.request.scene.engine_order_excitation.is_empty()
+            && !self.completed.is_empty()
+            && !self.completed.iter().any(|point| touches(point));
+        is_still.then(|| {
+            self.question(
+                OpenKind::NothingTouches,
+                Vec::new(),
+                "no tip touches the casing at any speed, and no force moves the wheel".to_owned(),
+                "lobes that reach the tips or a smaller clearance, or forces: `engine_order_excitation`",
+            )
+        })
     }
 
     /// Questions about the values of one limit.
     fn of_limit(&self, kind: LimitKind, allowed: f64) -> impl Iterator<Item = OpenQuestion> {
-        let judged = |point: &Point| self.asked.judged(point, kind, allowed);
+        let judged = |point: &Point| self.seen.asked.judged(point, kind, allowed);
         let open = |known: bool| {
             self.those(|point| {
                 judged(point).is_some_and(|judged| {
@@ -193,7 +238,7 @@ impl Ground<'_> {
         let words = kind.words();
         let (across, unsure) = (open(true), open(false));
         let unknown = self.those(|point| judged(point).is_none());
-        let awaited = (self.asked.awaits_errors(self.request, kind) && unsure.is_empty()).then(|| {
+        let awaited = (self.seen.asked.awaits_errors(self.request, kind) && unsure.is_empty()).then(|| {
             let finding = format!("the control runs that tell the error of the {words} are not done");
             self.question(OpenKind::ErrorUnknown, Vec::new(), finding, "wait until the job has ended")
         });
@@ -222,7 +267,7 @@ impl Ground<'_> {
         .flatten()
     }
 
-    /// Way to an error of a quantity.
+    /// Remedy where the error of a quantity is not known.
     fn control(&self, kind: LimitKind) -> &'static str {
         if kind == LimitKind::NodeForce {
             "no control run tells the error of a node's force: compare with a sweep at twice the steps and modes"
@@ -236,15 +281,13 @@ impl Ground<'_> {
 
 fn remedy_of_unknown(kind: LimitKind) -> &'static str {
     match kind {
-        LimitKind::ClearanceConsumption => {
-            "a scene with contact and running clearances above 0, or a limit of the tip motion instead"
-        }
+        LimitKind::ClearanceConsumption => "a scene with contact, or a limit of the tip motion instead",
         LimitKind::Utilisation => {
             "strengths: fatigue and ultimate strength of the materials of the model's mesh; where stress itself is missing, `message` of the \
              speed says why"
         }
         LimitKind::TipMotion | LimitKind::NodeForce => {
-            "an earlier version computed these speeds: post the request again"
+            "post the request again: an earlier version, which did not record it, computed these speeds"
         }
     }
 }

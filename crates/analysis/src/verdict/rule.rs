@@ -1,14 +1,14 @@
 //! Rule of the verdict on one range.
 
+use super::evidence::Seen;
 use super::limit::Asked;
 use super::open::{Ground, questions};
-use super::points::{Finished, indices, is_completed};
-use super::range::Span;
+use super::points::{indices, is_completed};
 use crate::resolved::ResolvedSweep;
 use crate::result::{
-    LimitKind, OpenQuestion, Point, PointStatus, Position, RangeVerdict, Standing, VerdictWord,
-    WheelCriticalSpeed, WorstValue,
+    LimitKind, OpenQuestion, Point, PointStatus, Position, RangeVerdict, Standing, VerdictWord, WorstValue,
 };
+use crate::span::Span;
 
 /// Verdict on a range with the questions that are open in it.
 #[derive(Debug)]
@@ -19,13 +19,8 @@ pub(super) struct Judged {
 
 /// Judges a range: `act` where a limit is passed or a motion diverged, otherwise `undecided` where something is open, otherwise `watch` where a
 /// critical speed is near or a limit reached, otherwise `clear`. A stricter limit and a wider range only add to what makes `act`.
-pub(super) fn judge(
-    request: &ResolvedSweep,
-    span: &Span,
-    finished: &Finished,
-    peaks: &[WheelCriticalSpeed],
-    asked: &Asked,
-) -> Judged {
+pub(super) fn judge(request: &ResolvedSweep, span: &Span, seen: &Seen<'_>) -> Judged {
+    let Seen { finished, peaks, asked, .. } = *seen;
     let speeds = request.speeds.rad_s();
     let near: Vec<&Point> = finished.points.iter().filter(|point| span.reaches(point.speed_rad_s)).collect();
     let completed: Vec<&Point> = near.iter().copied().filter(|point| is_completed(point)).collect();
@@ -55,7 +50,7 @@ pub(super) fn judge(
         critical_inside: at(Position::Inside),
         critical_within_separation: at(Position::WithinSeparation),
     };
-    let ground = Ground { request, span, range: &range, finished, completed: &completed, peaks, asked };
+    let ground = Ground { request, span, range: &range, completed: &completed, seen };
     let open = questions(&ground);
     range.verdict = word(&range, &completed, asked, !open.is_empty());
     Judged { range, open }
@@ -84,9 +79,5 @@ fn worst(completed: &[&Point], asked: &Asked, kind: LimitKind, allowed: f64) -> 
         let judged = asked.judged(point, kind, allowed)?;
         Some(WorstValue { index: point.index, speed_rad_s: point.speed_rad_s, judged })
     };
-    let order = |a: &WorstValue, b: &WorstValue| {
-        let (a, b) = (&a.judged, &b.judged);
-        a.standing.cmp(&b.standing).then(a.value.total_cmp(&b.value))
-    };
-    completed.iter().filter_map(of).max_by(order)
+    completed.iter().filter_map(of).max_by(|a, b| a.judged.concern(&b.judged))
 }

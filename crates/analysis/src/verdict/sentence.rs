@@ -29,7 +29,7 @@ pub(super) fn sentence(all: &SweepVerdict, request: &ResolvedSweep) -> String {
         let whole = all.ranges.first();
         let (from, to) = whole.map_or((0.0, 0.0), |range| (range.from_rad_s, range.to_rad_s));
         text += &format!(
-            " No operating range was given: all speeds from {} to {} are judged.",
+            " No operating range was given: the whole sweep, {} to {}, is judged.",
             rpm(from),
             rpm(to)
         );
@@ -77,10 +77,13 @@ fn watch(range: &RangeVerdict, all: &SweepVerdict) -> String {
     let separation = range.separation_percent;
     let near = match (range.critical_inside, range.critical_within_separation) {
         (0, 0) => "no critical speed is near".to_owned(),
-        (0, beside) => format!("{} within {separation} % of its ends", critical(beside, range, all)),
-        (inside, 0) => format!("{} inside", critical(inside, range, all)),
+        (0, beside) => {
+            let beside = critical(beside, Position::WithinSeparation, range, all);
+            format!("{beside} within {separation} % of its ends")
+        }
+        (inside, 0) => format!("{} inside", critical(inside, Position::Inside, range, all)),
         (inside, beside) => {
-            let inside = critical(inside, range, all);
+            let inside = critical(inside, Position::Inside, range, all);
             format!("{inside} inside, {beside} more within {separation} % of its ends")
         }
     };
@@ -117,15 +120,11 @@ fn place(range: &RangeVerdict) -> String {
 
 /// Worst value of a range: one that passes its limit before one that does not, then the one that is largest over its limit.
 fn largest(range: &RangeVerdict) -> Option<&WorstValue> {
-    let share = |worst: &WorstValue| worst.judged.value / worst.judged.allowed;
-    let order = |a: &&WorstValue, b: &&WorstValue| {
-        a.judged.standing.cmp(&b.judged.standing).then(share(a).total_cmp(&share(b)))
-    };
-    range.limits.iter().max_by(order)
+    range.limits.iter().max_by(|a, b| a.judged.concern(&b.judged))
 }
 
 fn largest_share(range: &RangeVerdict) -> f64 {
-    largest(range).map_or(0.0, |worst| worst.judged.value / worst.judged.allowed)
+    largest(range).map_or(0.0, |worst| worst.judged.share())
 }
 
 /// Value with its name, its error and their unit.
@@ -141,13 +140,13 @@ fn allowed(judged: &JudgedValue, units: &Units) -> String {
     format!("{} {}", digits(judged.allowed), judged.limit.unit(units)).trim_end().to_owned()
 }
 
-/// Critical speeds of a range in words, with the most severe of them.
-fn critical(count: u32, range: &RangeVerdict, all: &SweepVerdict) -> String {
-    let is_near = |speed: &&JudgedSpeed| {
+/// Critical speeds at a position of a range in words, with the most severe of them.
+fn critical(count: u32, position: Position, range: &RangeVerdict, all: &SweepVerdict) -> String {
+    let is_there = |speed: &&JudgedSpeed| {
         let here = speed.ranges.iter().find(|place| Some(&place.range) == range.name.as_ref());
-        here.is_none_or(|place| place.position != Position::Outside)
+        here.is_none_or(|place| place.position == position)
     };
-    let most_severe = all.critical_speeds.iter().find(is_near).map_or(0.0, |speed| speed.speed_rad_s);
+    let most_severe = all.critical_speeds.iter().find(is_there).map_or(0.0, |speed| speed.speed_rad_s);
     match count {
         1 => format!("a critical speed ({}) lies", rpm(most_severe)),
         several => format!("{several} critical speeds (the most severe at {}) lie", rpm(most_severe)),

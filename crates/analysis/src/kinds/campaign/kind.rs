@@ -19,6 +19,7 @@ use crate::resolved::{ResolvedCampaign, ResolvedSweep};
 #[cfg(feature = "schema")]
 use crate::result::CampaignPlan;
 use crate::result::{Point, SpeedResult, SweepPlan};
+use rubmap_wheel::response::campbell::DrivenCrossing;
 
 /// Contact simulations over speeds, of many designs of a scene.
 pub static CAMPAIGN: Kind = Kind {
@@ -145,7 +146,7 @@ impl Speeds for ResolvedCampaign {
         self.speeds_at_most() > self.speeds()
     }
 
-    fn more(&self, points: &[Point]) -> Option<Arc<dyn ResolvedJob>> {
+    fn more(&self, points: &[Point], _driven: &[DrivenCrossing]) -> Option<Arc<dyn ResolvedJob>> {
         more_designs(self, points).map(|longer| Arc::new(longer) as Arc<dyn ResolvedJob>)
     }
 

@@ -51,7 +51,7 @@ pub struct InterferingMode {
     pub wave: Option<Wave>,
     /// Frequency in the rotating frame, Hz.
     pub frequency_hz: f64,
-    /// Nearest engine order that drives the mode. Absent where none does.
+    /// Nearest engine order of the lobes that drives the mode; absent where none does.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub nearest: Option<NearestOrder>,
     /// Engine orders of the lobes that meet the frequency within the operating range.
@@ -84,7 +84,7 @@ pub struct FoldedOrder {
     /// Direction of the wave that it drives in the rotating frame; absent where the nodal diameter is single and stands.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub wave: Option<Wave>,
-    /// Whether the lobes drive it: whether it is a multiple of their number.
+    /// Whether the order is a multiple of the number of lobes, so that they drive it.
     pub of_lobes: bool,
 }
 

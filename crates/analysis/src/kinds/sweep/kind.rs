@@ -18,6 +18,7 @@ use crate::request::{Sensor, SweepRequest};
 use crate::resolve::resolve_sweep;
 use crate::resolved::ResolvedSweep;
 use crate::result::{Chosen, Point, SpeedResult, SweepPlan};
+use rubmap_wheel::response::campbell::DrivenCrossing;
 
 /// Contact simulations over rotational speeds.
 pub static SWEEP: Kind = Kind {
@@ -175,8 +176,8 @@ impl Speeds for ResolvedSweep {
         self.is_refined()
     }
 
-    fn more(&self, points: &[Point]) -> Option<Arc<dyn ResolvedJob>> {
-        refine(self, points).map(|refined| Arc::new(refined) as Arc<dyn ResolvedJob>)
+    fn more(&self, points: &[Point], driven: &[DrivenCrossing]) -> Option<Arc<dyn ResolvedJob>> {
+        refine(self, points, driven).map(|refined| Arc::new(refined) as Arc<dyn ResolvedJob>)
     }
 
     fn concluded(&self) -> Option<&ResolvedSweep> {

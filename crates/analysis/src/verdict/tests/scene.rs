@@ -5,8 +5,9 @@ use serde_json::{Value, json};
 use crate::request::SweepRequest;
 use crate::resolved::ResolvedSweep;
 use crate::result::{ErrorEstimate, OpenKind, Point, SweepVerdict, VerdictWord};
-use crate::verdict::judge;
+use crate::verdict::{Evidence, judge};
 use rubmap_wheel::dynamics::sector::Units;
+use rubmap_wheel::response::campbell::DrivenCrossing;
 
 /// Sweep by hand, speeds in rad/s.
 #[derive(Clone)]
@@ -20,6 +21,8 @@ pub(super) struct Scene {
     pub(super) errors: Option<(f64, Option<f64>)>,
     /// Fields of the request in place of the usual ones.
     pub(super) request: Vec<(&'static str, Value)>,
+    /// Linear critical speeds; none before the sweep has ended.
+    pub(super) driven: Option<Vec<DrivenCrossing>>,
 }
 
 /// Finished point at `speed` with tip motion `tip`, a clearance of 1, and a force of 10 times the motion.
@@ -47,6 +50,7 @@ impl Scene {
             limits: json!({"tip_motion": 1.0}),
             errors: Some((0.01, None)),
             request: Vec::new(),
+            driven: Some(Vec::new()),
         }
     }
 
@@ -139,7 +143,11 @@ impl Scene {
         });
         let units = |text: &str| text.to_owned();
         let units = Units { length: units("mm"), force: units("N"), time: units("s"), mass: units("t") };
-        judge(&request, &units, &points, errors.as_ref())
+        judge(
+            &request,
+            &units,
+            Evidence { points: &points, errors: errors.as_ref(), driven: self.driven.as_deref() },
+        )
     }
 
     pub(super) fn word(&self) -> VerdictWord {

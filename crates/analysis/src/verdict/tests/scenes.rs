@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::scene::{Scene, range};
+use super::scene::{Scene, point, range};
 use crate::result::{LimitKind, OpenKind, Position, Standing, VerdictWord};
 use VerdictWord::{Act, Clear, Undecided, Watch};
 
@@ -126,6 +126,19 @@ fn critical_speeds_stand_inside_within_the_separation_or_outside() {
     );
 }
 
+/// A more severe critical speed within the separation is not named as the one inside.
+#[test]
+fn the_sentence_names_the_critical_speed_inside() {
+    let two = |speed: f64| {
+        let peak = |at: f64, height: f64| height * (1.0 - 0.09 * (speed - at).abs());
+        peak(103.0, 0.6).max(peak(110.0, 0.5)).max(0.1)
+    };
+    let found = Scene::of(two).ranges(json!([range("run", 105.0, 115.0, 2.0)])).verdict();
+    let said =
+        "every limit is kept, a critical speed (1,050 rpm) lies inside, 1 more within 2 % of its ends;";
+    assert!(found.sentence.contains(said), "{}", found.sentence);
+}
+
 #[test]
 fn everything_that_could_hide_a_passed_limit_leaves_the_verdict_open() {
     let flat = Scene::flat(0.1);
@@ -137,6 +150,12 @@ fn everything_that_could_hide_a_passed_limit_leaves_the_verdict_open() {
         (|s: Scene, at: usize| s.with([at], "", &Value::Null), OpenKind::SpeedsMissing),
         (|s, at| s.with([at], "/status", &json!("failed")), OpenKind::SpeedsFailed),
         (|s, at| s.with([at], "/settling", &json!({"verdict": "not_settled"})), OpenKind::NotSettled),
+        (
+            |s, at| {
+                s.adding([at], "steady", &json!({"taken": true, "stability": "flip", "revolutions": 9.0}))
+            },
+            OpenKind::NotSettled,
+        ),
         (|s, at| s.adding([at], "stiffening", &json!("unsound")), OpenKind::UnsoundStiffness),
         (
             |s, at| s.with([at], "/validity", &json!({"verdict": "beyond", "checks": []})),
@@ -147,7 +166,7 @@ fn everything_that_could_hide_a_passed_limit_leaves_the_verdict_open() {
             OpenKind::LinearTheoryNotChecked,
         ),
         (|s, at| s.with([at], "/tip/half_peak_to_peak", &json!(1.0)), OpenKind::ErrorAcrossLimit),
-    ] as [(fn(Scene, usize) -> Scene, OpenKind); 7]
+    ] as [(fn(Scene, usize) -> Scene, OpenKind); 8]
     {
         let inside = scene(flat.clone(), 10);
         assert_eq!(inside.word(), Undecided, "{kind:?}");
@@ -220,6 +239,11 @@ fn a_range_must_be_covered_by_speeds() {
     };
     assert_eq!(gap(8..13).open(), [OpenKind::RangeNotCovered]);
     assert_eq!(gap(8..12).word(), Clear);
+    // A wide step that ends where the range begins is outside.
+    let mut far = gap(1..5);
+    far.speeds[0] = 60.0;
+    far.points[0]["speed_rad_s"] = json!(60.0);
+    assert_eq!((far.word(), far.open()), (Clear, Vec::new()));
 }
 
 #[test]
@@ -231,15 +255,19 @@ fn without_limits_or_ranges_the_verdict_says_so() {
     assert_eq!((empty.word(), empty.open()), (Undecided, vec![OpenKind::NoLimit]));
     let everywhere = Scene::peak(110.0, 0.5).ranges(Value::Null).verdict();
     assert_eq!((everywhere.verdict, everywhere.ranges_given), (Watch, false));
-    let said = "No operating range was given: all speeds from 955 rpm to 1,146 rpm are judged.";
+    let said = "No operating range was given: the whole sweep, 955 rpm to 1,146 rpm, is judged.";
     assert!(everywhere.sentence.ends_with(said), "{}", everywhere.sentence);
     assert!(everywhere.critical_speeds[0].ranges.is_empty());
-    // Motion is limited to what a scene without clearance cannot tell.
-    let bare = Scene::flat(0.1).limited(json!({"clearance_consumption": 1.0})).with(
-        [10],
-        "/tip/over_clearance",
-        &Value::Null,
-    );
+    // Steps of the sweep must be narrow enough without ranges, too, and one speed shows no peak.
+    for speeds in [vec![100.0, 110.0, 120.0], vec![110.0]] {
+        let mut coarse = Scene::flat(0.1).ranges(Value::Null);
+        coarse.points = speeds.iter().enumerate().map(|(index, &speed)| point(index, speed, 0.1)).collect();
+        coarse.speeds = speeds;
+        assert_eq!((coarse.word(), coarse.open()), (Undecided, vec![OpenKind::RangeNotCovered]));
+    }
+    // Without contact no clearance is consumed.
+    let bare =
+        Scene::flat(0.1).limited(json!({"clearance_consumption": 1.0})).with([10], "/contact", &Value::Null);
     assert_eq!(bare.open(), [OpenKind::ValueUnknown]);
     let no_strength =
         Scene::flat(0.1).limited(json!({"utilisation": 1.0})).adding(0..21, "stress", &stress(None));
