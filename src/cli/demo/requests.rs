@@ -42,10 +42,10 @@ pub(super) fn sweep(model: &str, speeds: u32, revolutions: AutoOr) -> Value {
         "integration": integration(revolutions),
         "max_engine_order": 24,
         "operation": {"ranges": [
-            {"name": "part load", "from": 13000, "to": 13900, "unit": "rpm", "separation_percent": 2},
+            {"name": "part load", "from": 13200, "to": 13900, "unit": "rpm", "separation_percent": 2},
             {"name": "full load", "from": 20500, "to": 24000, "unit": "rpm", "separation_percent": 2},
         ]},
-        "limits": {"clearance_consumption": 1, "utilisation": 0.8},
+        "limits": {"clearance_consumption": 0.9, "utilisation": 0.8},
     })
 }
 

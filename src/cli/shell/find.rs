@@ -52,7 +52,7 @@ async fn find(client: &Client, what: &str, called: &str) -> anyhow::Result<Strin
     let found: Vec<Listed> = all.into_iter().filter(matches).collect();
     let words = match found.as_slice() {
         [one] => return Ok(one.id.clone()),
-        [] => format!("none of the {what} has an id that begins with {called:?}, or this name"),
+        [] => format!("none of the {what} has the name {called:?}, or an id that begins so"),
         several => {
             let ids: Vec<&str> = several.iter().take(SHOWN).map(|listed| listed.id.as_str()).collect();
             let more = several.len().saturating_sub(SHOWN);

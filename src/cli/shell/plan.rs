@@ -101,7 +101,7 @@ fn sweep(plan: &SweepPlan) -> String {
     if plan.validity_speeds_at_most > 0 {
         let _ = writeln!(
             words,
-            "afterwards  at most {} speeds once more, to measure the validity of linear theory where it is in doubt",
+            "afterwards  validity of linear theory measured where it is in doubt: at most {} speeds simulated again",
             plan.validity_speeds_at_most
         );
     }
@@ -109,7 +109,7 @@ fn sweep(plan: &SweepPlan) -> String {
     if let Some(inside) = inside {
         let _ = writeln!(
             words,
-            "casing      at most {inside:.3e} inside the tips at rest, in the model's unit of length"
+            "casing      reaches up to {inside:.3} past the tips at rest, in the model's unit of length"
         );
     }
     for sensor in &plan.placed_sensors {
@@ -187,7 +187,7 @@ fn campaign(plan: &CampaignPlan) -> String {
 
 fn times_of(words: &mut String, machine: Option<&Machine>) {
     if let Some(Machine { name, processor, processors, .. }) = machine {
-        let _ = writeln!(words, "times of    {name}: {processors} processors, {processor}");
+        let _ = writeln!(words, "measured on {name}: {processors} processors, {processor}");
     }
 }
 
@@ -239,10 +239,10 @@ fn effects(effects: &[PlannedEffect]) -> String {
 
 fn reduction(words: &mut String, state: ReductionState, unknowns: u64) {
     let _ = match state {
-        ReductionState::Stored => writeln!(words, "reduction   there is one, of {unknowns} unknowns"),
+        ReductionState::Stored => writeln!(words, "reduction   stored, {unknowns} unknowns"),
         ReductionState::ToBeComputed => writeln!(
             words,
-            "reduction   to be computed first, at most {unknowns} unknowns; what the rest takes can be told afterwards"
+            "reduction   to be computed first, at most {unknowns} unknowns; the time of the rest is known after that"
         ),
     };
 }
