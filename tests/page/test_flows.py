@@ -207,7 +207,8 @@ def test_sweeps_are_compared_and_a_measurement_laid_over(service, swept, model, 
     assert service.finish(job)["status"] == "successful"
     page = new_page(f"{service.url}/#/jobs")
     page.get_by_role("checkbox", name="Compare to compare <b>& so on").check()
-    page.get_by_role("checkbox", name=re.compile("^Compare Sweep")).last.check()
+    name = service.call("GET", f"/v1/jobs/{swept}")["name"]
+    page.get_by_role("checkbox", name=f"Compare {name}", exact=True).last.check()
     page.get_by_role("button", name="Compare the chosen").click()
     page.get_by_role("heading", name="Level over speed").wait_for()
     page.locator(".figure .main-svg").first.wait_for()
@@ -361,7 +362,7 @@ def test_a_form_says_beforehand_by_how_much_lobes_exceed_the_clearance(service, 
     page.get_by_label("Height").fill("0.3")
     page.get_by_text("leaves 0.1 mm of the clearance").wait_for()
     page.get_by_label("Height").fill("0.44")
-    page.get_by_text("stands 0.04 mm farther in than the clearance (10 % of it)").wait_for()
+    page.get_by_text("reaches 0.04 mm past the clearance (10 % of it)").wait_for()
     page.get_by_label("Number of lobes").fill("")
     page.get_by_text("The drawing needs clearance").wait_for()
     assert told.count() == 1
@@ -398,7 +399,7 @@ def test_ranges_and_limits_are_asked_for_over_the_frequencies_of_the_model(servi
     page.get_by_text("The request as JSON").click()
     asked = json.loads(page.get_by_label("Request; the form follows").input_value())
     assert [one["name"] for one in asked["operation"]["ranges"]] == ["Idle", "Full speed"]
-    assert asked["limits"]["tip_motion"] == 0.5 and asked["limits"]["clearance_consumption"] == 1
+    assert asked["limits"]["tip_motion"] == 0.5 and asked["limits"]["clearance_consumption"] == 0.9
 
 
 def test_every_field_of_a_request_has_words(service, new_page):
@@ -611,7 +612,7 @@ def test_a_wheel_is_run_up_seen_and_run_up_again(service, swept, model, new_page
     assert any("sweep" in name for name in names if name), names
     with page.expect_download() as file:
         page.get_by_role("button", name="csv").click()
-    assert open(file.value.path()).read().startswith("run,rate_rad_s2,")
+    assert open(file.value.path()).read().startswith("run,rate_rpm_s,")
     # A run opens its spectrogram.
     page.get_by_role("region", name="Runs", exact=True).get_by_role("button", name="2", exact=True).click()
     page.wait_for_url("**view=spectrogram**")

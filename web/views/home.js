@@ -34,7 +34,7 @@ export async function show(main, _where, signal) {
     // What has not changed stays, and with it the focus.
     if (now === last) return;
     last = now;
-    replace(jobs, list.length === 0 ? null : [h('h2', {}, 'Latest jobs'), h('ul', { class: 'plain jobs' }, list.map((job) => row(job, signal)))]);
+    replace(jobs, list.length === 0 ? null : [h('h2', {}, 'Latest jobs'), h('ul', { class: 'plain jobs' }, list.map(row))]);
   }
   await refresh();
   const found = (await api.get('/v1/models', { query: { limit: MODELS }, signal })).models;
@@ -62,8 +62,8 @@ function tryOut(signal) {
   return h('div', { class: 'row' }, button, h('span', { class: 'quiet' }, 'A small titanium wheel in an oval casing, with an operating range and limits; it takes about a minute when it is computed first.'), told);
 }
 
-function row(job, signal) {
+function row(job) {
   const words = [KINDS[job.kind], ended(job) ? moment(job.finished_at) : `${job.progress} %`].filter(Boolean).join(' · ');
-  const tag = verdictTag(job, signal) ?? h('span', { class: `tag ${job.status === 'failed' ? 'bad' : ''}` }, STATUSES[job.status] ?? job.status);
+  const tag = verdictTag(job) ?? h('span', { class: `tag ${job.status === 'failed' ? 'bad' : ''}` }, STATUSES[job.status] ?? job.status);
   return h('li', { class: 'row between' }, h('span', {}, h('a', { href: `#/jobs/${job.id}` }, nameOf(job)), ' ', h('span', { class: 'quiet small' }, words)), tag);
 }

@@ -117,7 +117,7 @@ function row({ item, progress }, job, context) {
   replace(item,
     h('div', { class: 'row between' },
       h('span', {}, box, ' ', h('a', { href: `#/jobs/${job.id}` }, nameOf(job))),
-      h('span', {}, verdictTag(job, context.signal), ' ', h('span', { class: `tag ${{ successful: 'good', failed: 'bad' }[job.status] ?? ''}` }, STATUSES[job.status] ?? job.status))),
+      h('span', {}, verdictTag(job), ' ', h('span', { class: `tag ${{ successful: 'good', failed: 'bad' }[job.status] ?? ''}` }, STATUSES[job.status] ?? job.status))),
     progress,
     h('div', { class: 'row' }, actions(job, { told: context.told, deleted: () => {
       context.choose(job.id, false);

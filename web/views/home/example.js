@@ -24,7 +24,7 @@ const SWEEP = {
     contact: {},
   },
   operation: { ranges: [{ name: 'Cruise', from: 18_000, to: 24_000, unit: 'rpm', separation_percent: 5 }] },
-  limits: { clearance_consumption: 2, utilisation: 1 },
+  limits: { clearance_consumption: 0.9, utilisation: 1 },
   record: { stress: {} },
 };
 

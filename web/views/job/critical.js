@@ -17,7 +17,7 @@ export async function show(place, context, signal) {
   const { job, query } = context;
   const path = `/v1/jobs/${job.id}/critical-speeds`;
   if (job.status !== 'successful') {
-    replace(place, h('p', { class: 'note' }, ended(job) ? 'The job ended without a table of critical speeds.' : 'Critical speeds are those of all speeds together: they are here when the job has ended.'));
+    replace(place, h('p', { class: 'note' }, ended(job) ? 'The job ended without a table of critical speeds.' : 'Critical speeds are found once all speeds are computed: they appear when the job has ended.'));
     context.onChange((now) => ended(now) && again());
     return;
   }
@@ -73,7 +73,7 @@ function legend() {
     ['Peak', 'Resolved: the neighbouring speeds show its top. Not resolved: the true peak may be higher and elsewhere; finer speeds show it.'],
     ['Error', 'Estimated error of the response, from control runs.'],
     ...Object.entries(SETTLED).map(([name, word]) => [word, SETTLING[name]]),
-    ['Linear theory', 'Whether displacements are small enough: holds, doubtful, or beyond it.'],
+    ['Linear theory', 'Whether displacements are small enough: holds, not checked, doubtful, or beyond it.'],
     ['Off by', 'Distance of the peak from the linear prediction (nodal diameter, family, superharmonic), as a share of the prediction.'],
   ].map(([name, words]) => [h('dt', {}, name), h('dd', {}, words)])));
 }
@@ -82,7 +82,7 @@ const open = (context) => (each) => context.go({ view: 'point', speed: each.inde
 const common = [
   { name: 'Peak', cell: (each) => peakWords(each), sort: (each) => Number(each.resolved) },
   { name: 'Error', number: true, cell: (each) => percent(each.amplitude_error), sort: (each) => each.amplitude_error },
-  { name: 'Settling', cell: (each) => h('span', { title: SETTLING[each.settling] }, SETTLED[each.settling] ?? each.settling), sort: (each) => each.settling },
+  { name: 'Steady state', cell: (each) => h('span', { title: SETTLING[each.settling] }, SETTLED[each.settling] ?? each.settling), sort: (each) => each.settling },
   { name: 'Linear theory', cell: (each) => h('span', { title: VALIDITY[each.validity] }, LINEAR[each.validity] ?? '–'), sort: (each) => each.validity },
   { name: 'Utilisation', number: true, cell: (each) => percent(each.utilisation), sort: (each) => each.utilisation },
 ];
@@ -137,7 +137,7 @@ function wheelTable(found, context, signal) {
       { name: 'Severity', title: SEVERITY, number: true, cell: (each) => number(each.severity, 3), sort: (each) => each.severity },
       { name: 'Tip', cell: (each) => `blade ${each.tip.sector}, node ${each.tip.contact_node}, ${each.tip.component}` },
       { name: `Tip motion, ${length}`, number: true, cell: (each) => number(each.tip.half_peak_to_peak), sort: (each) => each.tip.half_peak_to_peak },
-      { name: 'Clearance used', title: 'Largest share of its clearance that the outward motion of a node uses', number: true, cell: (each) => percent(each.clearance_consumption), sort: (each) => each.clearance_consumption },
+      { name: 'Clearance used, outward', title: 'Largest share of its clearance that the outward motion of a node uses', number: true, cell: (each) => percent(each.clearance_consumption), sort: (each) => each.clearance_consumption },
       { name: `Force, ${force}`, title: 'Largest sum of all contact forces', number: true, cell: (each) => number(each.peak_force), sort: (each) => each.peak_force },
       ...common,
       next(context, signal),

@@ -7,10 +7,11 @@ import { count, number, percent, speed } from '../../lib/format.js';
 import { plot } from '../../lib/plot.js';
 import { unread } from '../../lib/problem.js';
 import { table } from '../../lib/table.js';
+import { TAGS } from '../../lib/verdict-tag.js';
 import { select } from './choices.js';
 import { fromHere } from './from-here.js';
 import { recordedSpeeds } from './recorded.js';
-import { coded, TAGS } from './verdict.js';
+import { coded } from './verdict.js';
 import { wheelPicture } from './wheel-picture.js';
 
 /** Quantities that are judged, with the unit of each among those of the model. */
@@ -37,7 +38,7 @@ export async function show(place, context, signal) {
   const told = h('div');
   const below = h('div');
   const quantity = query.get('quantity') ?? '';
-  const options = [['', 'what decides'], ...Object.entries(QUANTITIES).map(([name, [words]]) => [name, words])];
+  const options = [['', 'the quantity that decides'], ...Object.entries(QUANTITIES).map(([name, [words]]) => [name, words])];
   replace(place,
     ranges,
     h('div', { class: 'row' }, select('Level of the wheel', options, quantity, (chosen) => context.go({ quantity: chosen }))),
@@ -89,7 +90,7 @@ function rangeList({ ranges, ranges_given: given, settings }) {
     const near = [[range.critical_inside, 'inside'], [range.critical_within_separation, `within ${number(range.separation_percent)} % of its ends`]];
     const words = near.filter(([n]) => n > 0).map(([n, where]) => `${count(n, 'critical speed')} ${where}`).join(', ');
     return h('li', {}, h('span', { class: `tag ${TAGS[range.verdict]}` }, range.verdict), ' ',
-      h('strong', {}, range.name), ` ${speed(range.from_rad_s)} to ${speed(range.to_rad_s)}: `, words || 'no critical speed near');
+      h('strong', {}, range.name), ` ${speed(range.from_rad_s)} to ${speed(range.to_rad_s)}: `, words || (range.speeds > 0 ? 'no critical speed was found near' : 'no speed has a result'));
   }));
 }
 
@@ -125,7 +126,7 @@ function worst(verdict, recorded, context, signal) {
       h('h3', {}, h('a', { href: context.address({ view: 'point', speed: one.index }) }, speed(one.speed_rad_s))),
       h('p', { class: 'small' }, [responseWords(one), verdict.ranges_given ? positionWords(one.ranges) : null].filter(Boolean).join('; ')),
       one.limits.length > 0 ? limits(one, verdict.units) : tipWords(one, verdict.units),
-      open.length > 0 ? h('p', { class: 'small' }, 'Open here: ', open.map((question, k) => [k > 0 ? '; ' : null, question.what.replaceAll('_', ' ')])) : null,
+      open.length > 0 ? h('p', { class: 'small' }, 'Undecided here: ', open.map((question, k) => [k > 0 ? '; ' : null, question.what.replaceAll('_', ' ')])) : null,
       wheelPicture(context, one, recorded, signal),
       fromHere(context.job, one.speed_rad_s, signal));
   };
@@ -164,7 +165,7 @@ function critical({ critical_speeds: all, ranges_given: given, units, settings }
   });
   return [
     h('h2', {}, `${count(all.length, 'critical speed')} of the wheel`),
-    all.length === 0 ? h('p', { class: 'quiet' }, 'No peak stands out of the response.') : table({
+    all.length === 0 ? h('p', { class: 'quiet' }, 'The response has no peak.') : table({
       caption: 'Critical speeds of the wheel against ranges and limits',
       onChoose: (one) => context.go({ view: 'point', speed: one.index }),
       rows: all,

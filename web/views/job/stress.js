@@ -23,7 +23,7 @@ export async function show(place, context, signal) {
     return;
   }
   if (job.status !== 'successful') {
-    replace(place, h('p', { class: 'note' }, ended(job) ? 'The job ended without stress.' : 'Stress is here when the job has ended.'));
+    replace(place, h('p', { class: 'note' }, ended(job) ? 'The job ended without stress.' : 'Stress appears when the job has ended.'));
     context.onChange((now) => ended(now) && again());
     return;
   }

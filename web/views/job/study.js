@@ -39,7 +39,7 @@ export async function show(place, context, signal) {
       { name: 'Steps a revolution', number: true, cell: (run) => run.steps_per_revolution ?? '–', sort: (run) => run.steps_per_revolution },
       { name: 'Time of a run', number: true, cell: (run) => duration(run.time_s), sort: (run) => run.time_s },
       { name: 'Error', number: true, cell: (run) => percent(run.errors?.[chosen.quantity]), sort: (run) => run.errors?.[chosen.quantity] },
-      { name: 'Settling', cell: (run) => SETTLING[run.verdict] ?? '–' },
+      { name: 'Steady state', cell: (run) => SETTLING[run.verdict] ?? '–' },
       ...(runs.some((run) => run.steady) ? [{ name: 'Periodic response', cell: (run) => steadyWords(run.steady) ?? '–' }] : []),
       { name: 'Remarks', cell: (run) => [run.status, run.pareto?.length ? 'Pareto-optimal: none is both faster and more accurate' : null, run.message].filter(Boolean).join('; ') },
     ],

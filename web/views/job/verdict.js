@@ -2,11 +2,10 @@
 
 import { api } from '../../lib/api.js';
 import { h, replace } from '../../lib/dom.js';
-import { ended } from '../../lib/events.js';
+import { growing, moreSpeeds } from '../../lib/growing.js';
 import { problem } from '../../lib/problem.js';
 
-/** Looks of the verdicts, as tags and as notes. */
-export const TAGS = { act: 'bad', undecided: '', watch: 'warn', clear: 'good' };
+/** Looks of the verdicts as notes. */
 const LOOKS = { act: 'bad', undecided: '', watch: 'warning', clear: 'fine' };
 
 /** Text whose words between backticks are code. */
@@ -14,9 +13,10 @@ export function coded(text) {
   return text.split('`').map((part, k) => (k % 2 === 1 ? h('code', {}, part) : part));
 }
 
-/** Shows the verdict on a sweep, and again when the job has ended. */
-export async function verdict(element, { job, onChange }, signal) {
-  const show = async () => {
+/** Shows the verdict on a sweep, again when more speeds are finished, and when the job has ended. */
+export async function verdict(element, context, signal) {
+  const { job } = context;
+  const read = async () => {
     try {
       const { verdict: word, sentence } = await api.get(`/v1/jobs/${job.id}/verdict`, { signal });
       const colon = sentence.indexOf(':') + 1;
@@ -25,11 +25,5 @@ export async function verdict(element, { job, onChange }, signal) {
       if (!signal.aborted) replace(element, problem(error));
     }
   };
-  let over = ended(job);
-  onChange((now) => {
-    if (over || !ended(now)) return;
-    over = true;
-    show();
-  });
-  await show();
+  await growing(context, { read, grown: moreSpeeds(job) }, signal);
 }

@@ -1,4 +1,4 @@
-// What the numbers of a sweep are worth, in words: settling, error bars, validity of linear theory.
+// Credentials of a sweep in words: steady state, error bars, validity of linear theory. The verdict on the sweep is in verdict.js.
 
 import { api } from '../../lib/api.js';
 import { h, replace, facts } from '../../lib/dom.js';
@@ -55,7 +55,7 @@ export function points(job, signal) {
   return api.get(`/v1/jobs/${job.id}/interaction-map`, { query: { orders: '0' }, signal });
 }
 
-/** Shows them. */
+/** Shows the credentials of a sweep. */
 export async function verdicts(element, { job }, signal) {
   const map = await points(job, signal);
   if (signal.aborted) return;
@@ -66,7 +66,7 @@ export async function verdicts(element, { job }, signal) {
     h('h2', {}, 'What these numbers are worth'),
     facts([
       ['Speeds', `${count(map.points.length, 'speed')} finished${lost.length > 0 ? `, ${lost.length} of them diverged or failed and have no amplitude` : ''}`],
-      ['Settling', tally(map.points, (point) => point.settling?.verdict, SETTLING)],
+      ['Steady state', tally(map.points, (point) => point.settling?.verdict, SETTLING)],
       ['Linear theory', tally(map.points, (point) => point.validity?.verdict, VALIDITY)],
       ['Estimated error', errors ? `at most ${percent(errors.largest)}${errors.largest_of_stress ? `, of stress ${percent(errors.largest_of_stress)}` : ''}. ${errors.message}` : 'not estimated: the request asked for no control runs'],
       ['Energy identity', `violated by at most ${energy.toExponential(1)} of the largest energy`],

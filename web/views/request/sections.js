@@ -73,11 +73,11 @@ export function sectionsOf({ value, begun, units, wheel, campbell, dial }) {
     },
     {
       title: 'Recorded', parts: recorded, open: open(...recorded),
-      state: ({ sensors, record, stress }) => [sensors?.length ? count(sensors.length, 'sensor') : null, record?.stress || stress ? 'stress' : null, record?.histories ? 'histories' : null].filter(Boolean).join(', ') || 'as usual',
+      state: ({ sensors, record, stress }) => [sensors?.length ? count(sensors.length, 'sensor') : null, record?.stress || stress ? 'stress' : null, record?.histories ? 'histories' : null].filter(Boolean).join(', ') || 'defaults',
     },
     {
       title: 'Accuracy', above: dial, open: open('/accuracy', '/budget', '/modes_per_speed', '/integration', '/refine', '/control_speeds', '/sweep', '/max_engine_order', '/peak_prominence'),
-      state: ({ accuracy, budget }) => (accuracy ? `error below ${percent(accuracy.target)}` : budget ? 'within a budget of time' : 'usual settings'),
+      state: ({ accuracy, budget }) => (accuracy ? `error below ${percent(accuracy.target)}` : budget ? 'within a budget of time' : 'default settings'),
       parts: ['/budget', '/modes_per_speed', '/refine', '/control_speeds', '/integration', '/blade_thickness'], rest: [''],
     },
     { title: 'Name, tags, notes', parts: ['/name', '/tags', '/notes'], open: open('/name', '/tags', '/notes'), state: ({ name }) => name ?? 'named by model, speeds and clearance' },

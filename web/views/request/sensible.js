@@ -1,4 +1,4 @@
-// What is asked of a model that nobody has said anything about: speeds and a casing in proportion to the wheel.
+// Defaults of a request for a model: speeds and a casing in proportion to the wheel.
 
 import { rpm } from '../../lib/format.js';
 
@@ -11,7 +11,7 @@ const SPEEDS = 40;
 /** Where a sweep begins, over where it ends. */
 const LOWEST = 1 / 3;
 
-/** Two significant digits: who edits it wants numbers that one can read. */
+/** Rounds to two significant digits: the numbers are to be read and edited. */
 export function round(value) {
   return Number(value.toPrecision(2));
 }
@@ -37,7 +37,7 @@ export function sceneOf(model) {
   };
 }
 
-/** What a part of a request begins with that is switched on: numbers in proportion to the model, to be changed. */
+/** Values of a part of a request when it is switched on: in proportion to the model, to be changed. */
 export function beginning(pointer, model) {
   const radius = model.contact_radius ?? 100;
   const scene = sceneOf(model);
@@ -50,7 +50,7 @@ export function beginning(pointer, model) {
     '/scene/damping': scene.damping,
     '/operation': { ranges: [range] },
     '/operation/ranges/-': { ...range, name: 'Another' },
-    '/limits': { clearance_consumption: 1, ...((model.mesh?.sets ?? []).some((set) => set.ultimate && set.fatigue) && { utilisation: 1 }) },
+    '/limits': { clearance_consumption: 0.9, ...((model.mesh?.sets ?? []).some((set) => set.ultimate && set.fatigue) && { utilisation: 1 }) },
     '/scene/friction': { coefficient: 0.15 },
     '/scene/casing/single_lobes/-': { angle_rad: 0, amplitude: scene.casing.lobes.amplitude, width_rad: 0.35 },
     '/scene/casing/waves/-': { order: 2, amplitude: round(0.5 * scene.casing.lobes.amplitude) },

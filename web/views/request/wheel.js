@@ -85,10 +85,10 @@ function verdictOf(shape, { length }, cold) {
   const state = cold ? 'The clearance is that of the cold wheel, which grows at speed and leaves less. ' : '';
   if (smallest < 0) return [true, `${state}The casing is ${number(-smallest, 3)} ${length} smaller than the wheel: all tips are pressed.`];
   if (highest <= 0) return [false, `${state}The casing is round: tips touch only where something else moves them by ${number(smallest, 3)} ${length}.`];
-  if (left > 0) return [false, `${state}The casing’s highest place leaves ${number(left, 3)} ${length} of the clearance: tips touch only if something else moves them by that.`];
+  if (left > 0) return [true, `${state}The casing’s highest place leaves ${number(left, 3)} ${length} of the clearance: no tip touches unless something else moves it by that, and a sweep decides nothing.`];
   const share = smallest > 0 ? ` (${percent(-left / smallest)} of it)` : '';
-  const words = `${state}The casing stands ${number(-left, 3)} ${length} farther in than the clearance${share}: every tip is pushed by that much as it passes.`;
-  return [smallest > 0 && -left > 0.25 * smallest, `${words}${-left > 0.25 * smallest ? ' That is much: stress and motion may be beyond what a wheel bears.' : ''}`];
+  const words = `${state}The casing reaches ${number(-left, 3)} ${length} past the clearance${share}: every tip is pushed by that much as it passes.`;
+  return [smallest > 0 && -left > 0.25 * smallest, `${words}${-left > 0.25 * smallest ? ' That is a lot: stress and motion may exceed what the wheel can bear.' : ''}`];
 }
 
 /**
