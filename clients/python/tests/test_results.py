@@ -120,7 +120,10 @@ def test_a_casing_stands_where_its_lobes_say(swept: rubmap.Sweep) -> None:
     lobes = asked["lobes"]
     angle = casing.index.to_numpy()
     height = sum(
-        lobes["amplitude"] * np.exp(-((((angle - k * 2 * np.pi / lobes["count"] + np.pi) % (2 * np.pi) - np.pi) / lobes["width_rad"]) ** 2))
+        lobes["amplitude"]
+        * np.exp(
+            -((((angle - k * 2 * np.pi / lobes["count"] + np.pi) % (2 * np.pi) - np.pi) / lobes["width_rad"]) ** 2)
+        )
         for k in range(lobes["count"])
     )
     np.testing.assert_allclose(casing[0], asked["clearance"]["leading"] - height, atol=1e-3 * lobes["amplitude"])

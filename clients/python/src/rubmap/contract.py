@@ -527,10 +527,12 @@ OpenKind: TypeAlias = Literal[
     "not_settled",
     "unsound_stiffness",
     "beyond_linear_theory",
+    "linear_theory_not_checked",
     "error_across_limit",
     "error_unknown",
     "value_unknown",
     "peak_unresolved",
+    "nothing_touches",
 ]
 
 
@@ -1978,6 +1980,7 @@ class StudyRequest(TypedDict, closed=True):
 
 class SweepRequest(TypedDict, closed=True):
     accuracy: NotRequired[Accuracy | None]
+    blade_thickness: NotRequired[float | None]
     budget: NotRequired[Budget | None]
     control_speeds: NotRequired[int | None]
     fields: NotRequired[bool | None]

@@ -77,7 +77,7 @@ class Job:
         return self
 
     def _repr_html_(self) -> str:
-        """The job as it is now, for notebooks; as it is called where nobody answers soon."""
+        """The job as it is now, for notebooks; its name alone where the service does not answer soon."""
         if self.id is None:
             return escape(repr(self))
         try:
@@ -105,7 +105,7 @@ class Job:
 
     @property
     def state(self) -> dict[str, Any]:
-        """The job as the service tells of it now: status, progress (%), phase, error, times, links."""
+        """The job as the service reports it now: status, progress (%), phase, error, times, links."""
         found: dict[str, Any] = self._service.get(self._own())
         return found
 
@@ -119,12 +119,12 @@ class Job:
 
         Args:
             progress: whether a bar shows how far it is; where there is no terminal and no notebook, a line for every tenth of the work.
-            timeout: seconds after which nobody waits any more.
+            timeout: seconds after which waiting ends.
 
         Raises:
             JobFailed: it failed or was cancelled.
             TimeoutError: it had not ended in time; it goes on.
-            Unreachable: nobody answered for as long as the client's patience lasts.
+            Unreachable: the service did not answer within the client's patience.
         """
         self._own()
         end = None if timeout is None else time.monotonic() + timeout

@@ -17,7 +17,7 @@ def badge(word: str) -> str:
 
 
 def rows(pairs: Iterable[tuple[str, str]]) -> str:
-    """A table of names and what belongs to them."""
+    """A table of names and their values."""
     lines = "".join(
         f'<tr><th style="text-align: left">{escape(name)}</th><td style="text-align: left">{escape(value)}</td></tr>'
         for name, value in pairs

@@ -38,7 +38,7 @@ class Plan(dict[str, Any]):
         for scene in scenes:
             if reduction := scene.get("reduction"):
                 unknowns = scene.get("reduced_unknowns_at_most")
-                stored = f"there is one, of {unknowns} unknowns"
+                stored = f"stored, {unknowns} unknowns"
                 yield (
                     "reduction",
                     stored if reduction == "stored" else f"to be computed first, at most {unknowns} unknowns",
@@ -66,7 +66,10 @@ class Plan(dict[str, Any]):
             beside = f", {self['workers']} side by side" if "workers" in self else ""
             yield "speeds", f"{self['speeds']}{more}{beside}"
         if "points_at_least" in self:
-            yield "points", f"at least {self['points_at_least']}, at most {self['points_at_most']} and doubled branches"
+            yield (
+                "points",
+                f"at least {self['points_at_least']}, at most {self['points_at_most']} and those of doubled branches",
+            )
         for run in self.get("runs", []):
             rate = f"{run['rate_rad_s2']:.4g} rad/s²: " if "rate_rad_s2" in run else ""
             yield "run", f"{rate}{run['duration_s']:.4g} s, {run['revolutions']:.1f} revolutions"

@@ -163,7 +163,9 @@ class Sweep(_Recorded):
         found = self._service.get(f"/v1/models/{self.state['model']}/section", sweep=self.id)
         places = [place for place in found["contact"] if "clearance" in place]
         count = max((len(place.get("heights", [])) for place in places), default=0) or 1
-        gaps = {k: place["clearance"] - np.array(place.get("heights") or [0.0] * count) for k, place in enumerate(places)}
+        gaps = {
+            k: place["clearance"] - np.array(place.get("heights") or [0.0] * count) for k, place in enumerate(places)
+        }
         frame = pd.DataFrame(gaps, index=pd.Index(np.arange(count) * 2.0 * np.pi / count, name="angle_rad"))
         frame.columns.name = "contact_node"
         radius = [place["position"][0] for place in places]

@@ -15,11 +15,11 @@ from .download import Arrays
 #: rad/s in revolutions a minute.
 RPM = 60.0 / (2.0 * np.pi)
 
-#: What says where numbers come from; attributes, not columns.
+#: Arrays that say where numbers come from: attributes of tables, not columns.
 _CREDENTIALS = ("settings", "units", "version", "point", "strengths")
 
 
-#: Words of the contract, and what columns are called in their place.
+#: Words of the contract, and the names of columns in their place.
 _PLAIN = {"validity": "linear_theory", "settling": "steady_state"}
 
 

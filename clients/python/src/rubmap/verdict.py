@@ -9,7 +9,7 @@ from typing import Any
 from .notebook import badge, table
 from .tables import RPM
 
-#: What limits are called, and which of the model's units they have.
+#: Names of limits in words, and which of the model's units they have.
 _LIMITS = {
     "clearance_consumption": ("clearance consumption", None),
     "tip_motion": ("tip motion", "length"),
