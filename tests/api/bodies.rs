@@ -46,7 +46,7 @@ async fn all_structural_errors_come_at_once_in_words() {
     let mut expected = pairs(&[
         (
             "/colour",
-            "this field does not exist here; those here are accuracy, budget, control_speeds, fields, integration, \
+            "this field does not exist here; those here are accuracy, blade_thickness, budget, control_speeds, fields, integration, \
           limits, max_engine_order, model, modes_per_speed, name, notes, operation, peak_prominence, record, refine, \
           reproducible, scene, sensors, speeds, sweep, tags",
         ),

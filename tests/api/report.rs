@@ -52,7 +52,7 @@ async fn a_report_has_what_was_asked_and_found() {
             assert!(both.contains(&format!("<td>{rpm:.0}</td>")), "{rpm}");
         }
     }
-    assert!(page(api, &format!("/v1/jobs/{modal}/report")).await.contains("Modal analysis: springs"));
+    assert!(page(api, &format!("/v1/jobs/{modal}/report")).await.contains("springs: modal analysis"));
 
     api.get(&format!("/v1/jobs/{sweep}/report?sensor=2")).await.problem(400, "invalid-parameter");
     let study = api.post("/v1/studies", &study_of(&model)).await.text("/id");

@@ -25,8 +25,13 @@ async fn a_sweep_is_judged_by_its_ranges_and_limits() {
     let app = TestApp::start().await;
     let api = &app.api;
     let model = api.model(model::package(1.0)).await;
-    // A plain sweep is undecided for want of a limit, and numbers do not depend on what judges them.
-    let mut plain = judged(&model, &json!({}));
+    // A plain sweep is undecided for want of a limit, and numbers of a speed do not depend on what judges them.
+    let unrefined = |limits: &Value| {
+        let mut request = judged(&model, limits);
+        request["refine"] = false.into();
+        request
+    };
+    let mut plain = unrefined(&json!({}));
     for field in ["operation", "limits"] {
         plain.as_object_mut().unwrap().remove(field);
     }
@@ -38,7 +43,7 @@ async fn a_sweep_is_judged_by_its_ranges_and_limits() {
     assert!(found["sentence"].as_str().unwrap().contains("No operating range was given"), "{found}");
     assert!(found["settings"].get("operation").is_none() && found["settings"].get("limits").is_none());
 
-    let strict = api.sweep(&judged(&model, &json!({"tip_motion": 1e-6}))).await;
+    let strict = api.sweep(&unrefined(&json!({"tip_motion": 1e-6}))).await;
     api.finish(&strict).await;
     let map = |id: String| async move { api.get(&format!("/v1/jobs/{id}/interaction-map")).await.body };
     let [before, after] = [map(plain.clone()).await, map(strict.clone()).await];

@@ -20,6 +20,9 @@ const SIZE: (f64, f64) = (1040.0, 400.0);
 /// Room above the frame, with and without labels of critical speeds.
 const ABOVE: [f64; 2] = [190.0, 26.0];
 
+/// Relative difference up to which a speed counts as that of an end, as in verdicts: units are converted.
+const SAME: f64 = 1e-9;
+
 /// Fill of operating ranges, and of the separation around them.
 const INSIDE: &str = "rgba(0, 114, 178, 0.22)";
 const BESIDE: &str = "rgba(0, 114, 178, 0.10)";
@@ -79,9 +82,7 @@ fn nothing(level: &SweepLevel, quantity: LimitKind) -> String {
     match quantity {
         _ if level.speeds.is_empty() => "no speed has finished yet".to_owned(),
         LimitKind::Utilisation => "utilisation needs recorded stress and strengths".to_owned(),
-        LimitKind::ClearanceConsumption => {
-            "clearance consumption needs contact and clearances above 0".to_owned()
-        }
+        LimitKind::ClearanceConsumption => "clearance consumption needs contact".to_owned(),
         LimitKind::TipMotion | LimitKind::NodeForce => format!("no {} is known", quantity.words()),
     }
 }
@@ -202,7 +203,8 @@ fn add_values(
     let is_near = |speed: f64| {
         ranges.iter().any(|range| {
             let share = range.separation_percent / 100.0;
-            ((1.0 - share) * range.from_rad_s..=(1.0 + share) * range.to_rad_s).contains(&speed)
+            let lowest = (1.0 - share) * (1.0 - SAME) * range.from_rad_s;
+            (lowest..=(1.0 + share) * (1.0 + SAME) * range.to_rad_s).contains(&speed)
         })
     };
     let unit = quantity.unit(&level.verdict.units);

@@ -16,7 +16,7 @@ use crate::element::ElementKind;
 use crate::gradients::{Gradients, Recovery};
 use crate::material::Lame;
 
-/// Number of incompatible modes, with a vector each.
+/// Number of incompatible modes (bubble functions) of an element; each has a vector as its coefficient.
 pub const BUBBLES: usize = 3;
 
 /// Element with the gradients of its functions.
@@ -79,7 +79,7 @@ impl GreenLagrange {
         self.points().map(|(gradients, volume)| volume * at(gradient(values, gradients))).sum()
     }
 
-    /// Energy V.
+    /// Strain energy V under Green–Lagrange strain.
     pub fn energy(&self, values: &[Vector3<f64>]) -> f64 {
         let at = |h: Matrix3<f64>| {
             let strain = strain(&h);
@@ -88,7 +88,7 @@ impl GreenLagrange {
         self.points().map(|(gradients, volume)| volume * at(gradient(values, gradients))).sum()
     }
 
-    /// Derivative of V with respect to the nodes' displacements, with R, and to β of the incompatible modes behind them.
+    /// Derivatives of V by the displacements of the nodes, through R as well, and behind them those by β.
     pub fn force(&self, values: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
         let nominal = |h: Matrix3<f64>| {
             let stress = self.stress(&strain(&h));
@@ -139,7 +139,7 @@ impl GreenLagrange {
         std::array::from_fn(|b| solved.fixed_rows::<3>(3 * b).into())
     }
 
-    /// Forces `∫ P ∇N_a dV` of a nominal stress P of the displacement gradient, on all functions.
+    /// Forces `∫ P ∇N_a dV` on all functions, where `nominal` gives the nominal stress P at a displacement gradient.
     fn against(
         &self,
         values: &[Vector3<f64>],

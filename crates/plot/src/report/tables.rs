@@ -76,7 +76,7 @@ fn of_sensor(table: &CriticalSpeeds) -> Markup {
                 th { "engine order" } th { "nodal diameter" } th { "steady state" } th { "resolved" }
                 th { "nearest linear (i, j, n)" } th { "at, rpm" } th { "off" }
                 @if used { th { "utilisation" } }
-                @if judged { th { "validity" } }
+                @if judged { th { "linear theory" } }
             }
             @for peak in &table.critical_speeds { (row(peak, used, judged)) }
         }

@@ -62,7 +62,7 @@ pub fn veerings(
         for point in 0..points.saturating_sub(1) {
             let pair = [lower, lower + 1].map(|rank| modes[point].family(rank));
             let [Some(a), Some(b)] = pair else { continue };
-            // K depends on Ω²: what is before rest is as what is behind it.
+            // K depends on Ω²: the gap is symmetric about rest.
             let before = if point == 0 { gap(1) } else { gap(point - 1) };
             if a.min(b) >= families || gap(point) > before || gap(point) >= gap(point + 1) {
                 continue;

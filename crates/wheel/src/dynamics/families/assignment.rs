@@ -2,7 +2,8 @@
 
 use faer::MatRef;
 
-/// Column of every row of `shares`, one each: the largest share first, of equal ones that with the nearer column.
+/// Assigns a column of its own to every row of `shares`: pairs in descending order of their share, equal ones in ascending distance of row and
+/// column.
 ///
 /// Rows and columns of shares between two orthonormal bases add up to one. Two columns then cannot both have more than half of a row, nor two rows of a
 /// column: all such pairs are assigned to each other, whatever the order in which they are taken.
