@@ -12,7 +12,7 @@ use crate::analysis::kinds::kind::{ResolvedJob, Work};
 use crate::analysis::kinds::sweep::{CRITICAL_SPEEDS, ERRORS, WHEEL_CRITICAL_SPEEDS};
 use crate::analysis::resolved::ResolvedSweep;
 use crate::analysis::result::Point;
-use crate::analysis::run::{self, Evidence};
+use crate::analysis::run::{self, Evidence, ReducedSector};
 use crate::response::campbell::DrivenCrossing;
 use crate::store::jobs::{Failure, FailureCause};
 
@@ -42,15 +42,23 @@ pub(super) async fn speeds(engine: &Engine, job: &Live) -> Result<(), Interrupti
     }
 }
 
+/// Reduction that a sweep ran on.
+async fn reduced(
+    engine: &Engine,
+    job: &Live,
+    request: &ResolvedSweep,
+) -> Result<Arc<ReducedSector>, Interruption> {
+    let monitor = PhaseMonitor::uncounted(job.watch.clone());
+    engine.reductions.get((request.model(), request.modes_per_speed()), request.fields(), monitor).await
+}
+
 /// Linear critical speeds in the range of a sweep that its scene can drive.
 async fn driven_crossings(
     engine: &Engine,
     job: &Live,
     request: &ResolvedSweep,
 ) -> Result<Vec<DrivenCrossing>, Interruption> {
-    let monitor = PhaseMonitor::uncounted(job.watch.clone());
-    let of_model = (request.model(), request.modes_per_speed());
-    let reduced = engine.reductions.get(of_model, request.fields(), monitor).await?;
+    let reduced = reduced(engine, job, request).await?;
     let (monitor, request) = (PhaseMonitor::uncounted(job.watch.clone()), request.clone());
     let compute = move || run::driven_crossings(&reduced, &request, &monitor);
     Ok(engine.computing.run(&job.watch, compute).await??)
@@ -73,11 +81,7 @@ async fn conclude(
     request: &ResolvedSweep,
     points: Vec<Point>,
 ) -> Result<(), Interruption> {
-    let monitor = PhaseMonitor::uncounted(job.watch.clone());
-    let reduced = engine
-        .reductions
-        .get((request.model(), request.modes_per_speed()), request.fields(), monitor)
-        .await?;
+    let reduced = reduced(engine, job, request).await?;
     let points = validity::measured(engine, job, request, &reduced, points).await?;
     let errors = control::errors(engine, job, request, &points).await?;
     if let Some(case) = run::histories_wanted(request, &points) {

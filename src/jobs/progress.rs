@@ -152,7 +152,7 @@ impl Watch {
     pub(super) fn expect_time(&self, plan: CostRange) {
         let mut done = self.done.lock().unwrap_or_else(PoisonError::into_inner);
         let speeds = f64::from(done.speeds);
-        done.pace.expect(plan, speeds);
+        done.pace.hold_against(plan, speeds);
     }
 
     fn report_speeds(&self, done: &mut Done) {

@@ -26,8 +26,8 @@ pub(super) struct Pace {
 }
 
 impl Pace {
-    /// Gives the estimate of the plan for so many `units`.
-    pub(super) fn expect(&mut self, plan: CostRange, units: f64) {
+    /// Holds the pace against the estimate of the plan for so many `units`.
+    pub(super) fn hold_against(&mut self, plan: CostRange, units: f64) {
         self.plan = Some((plan, units));
     }
 
@@ -85,7 +85,7 @@ mod tests {
         let mut pace = Pace::default();
         pace.begin(begin, 0.0);
         if let Some(plan) = plan {
-            pace.expect(plan, 100.0);
+            pace.hold_against(plan, 100.0);
         }
         pace.words(begin + Duration::from_secs(seconds), done, 100.0).to_owned()
     }

@@ -71,38 +71,30 @@ impl Ground<'_> {
         let ascending = self.request.speeds.ascending();
         let (lowest, highest) = (self.span.lowest(), self.span.highest());
         let (first, last) = (ascending.first().copied()?, ascending.last().copied()?);
-        if self.span.name.is_none() && self.same(first, last) {
+        if self.span.name.is_none() && is_same(first, last) {
             let finding = format!("one speed, {}, shows no critical speed", rpm(first));
             let remedy = "ask for a range of `speeds`, in steps of at most 5 %";
             return Some(self.question(OpenKind::RangeNotCovered, Vec::new(), finding, remedy));
         }
         let mut bare: Vec<(f64, f64)> = Vec::new();
-        if first > lowest && !self.same(first, lowest) {
-            bare.push((lowest, first.min(highest)));
-        }
+        bare.push((lowest, first.min(highest)));
         let wide = |pair: &&[f64]| pair[1] - pair[0] > WIDEST_STEP * pair[1];
         let within = |pair: &[f64]| (pair[0].max(lowest), pair[1].min(highest));
-        let is_bare = |&(from, to): &(f64, f64)| from < to && !self.same(from, to);
-        bare.extend(ascending.windows(2).filter(wide).map(within).filter(is_bare));
-        if last < highest && !self.same(last, highest) {
-            bare.push((last.max(lowest), highest));
-        }
+        bare.extend(ascending.windows(2).filter(wide).map(within));
+        bare.push((last.max(lowest), highest));
+        bare.retain(|&(from, to)| from < to && !is_same(from, to));
         if bare.is_empty() && !ascending.iter().any(|&speed| self.span.contains(speed)) {
             bare.push((self.span.from, self.span.to));
         }
         let &(from, to) = bare.first()?;
         let more = match bare.len() {
             1 => String::new(),
+            2 => ", and one more stretch".to_owned(),
             several => format!(", and {} more stretches", several - 1),
         };
         let finding = format!("no speeds were asked for from {} to {}{more}", rpm(from), rpm(to));
         let remedy = "ask for `speeds` over the whole range and its separation, in steps of at most 5 %";
         Some(self.question(OpenKind::RangeNotCovered, Vec::new(), finding, remedy))
-    }
-
-    /// Whether a speed is that of an end, up to the conversion of units.
-    fn same(&self, speed: f64, end: f64) -> bool {
-        (speed - end).abs() <= 1e-8 * end.abs()
     }
 
     fn without_result(&self) -> impl Iterator<Item = OpenQuestion> {
@@ -219,7 +211,7 @@ impl Ground<'_> {
             self.question(
                 OpenKind::NothingTouches,
                 Vec::new(),
-                "no tip touches the casing at any speed, and no force moves the wheel".to_owned(),
+                "no tip touches the casing at any of its speeds, and no force moves the wheel".to_owned(),
                 "lobes that reach the tips or a smaller clearance, or forces: `engine_order_excitation`",
             )
         })
@@ -240,7 +232,7 @@ impl Ground<'_> {
         let unknown = self.those(|point| judged(point).is_none());
         let awaited = (self.seen.asked.awaits_errors(self.request, kind) && unsure.is_empty()).then(|| {
             let finding = format!("the control runs that tell the error of the {words} are not done");
-            self.question(OpenKind::ErrorUnknown, Vec::new(), finding, "wait until the job has ended")
+            self.question(OpenKind::ErrorUnknown, Vec::new(), finding, WAIT)
         });
         [
             self.about(
@@ -277,6 +269,11 @@ impl Ground<'_> {
             "control runs: `control_speeds`"
         }
     }
+}
+
+/// Whether two speeds are one, up to the conversion of units and the tolerance of a range's ends.
+fn is_same(speed: f64, other: f64) -> bool {
+    (speed - other).abs() <= 1e-8 * other.abs()
 }
 
 fn remedy_of_unknown(kind: LimitKind) -> &'static str {
