@@ -4,6 +4,7 @@ import json
 import re
 
 from conftest import branches_of, damped, run_ups_of, sweep_of
+from playwright.sync_api import expect
 from service import Service, package
 
 
@@ -199,6 +200,20 @@ def test_a_click_on_the_map_opens_that_speed(service, swept, new_page):
     assert "speed=4" in page.url
     page.locator(".figure .main-svg").first.wait_for()
     page.get_by_role("heading", name=re.compile("22,66[67] rpm")).wait_for()
+
+
+def test_a_range_that_the_speeds_do_not_reach_is_told_before_the_start(service, model, new_page):
+    page = new_page(f"{service.url}/#/sweep?model={model}")
+    page.get_by_text("The request as JSON").click()
+    text = page.get_by_label("Request; the form follows what you write")
+    text.wait_for()
+    asked = json.loads(text.input_value())
+    asked["operation"] = {"ranges": [{"name": "cruise", "from": 18000, "to": 24000, "unit": "rpm", "separation_percent": 5}]}
+    note = page.get_by_text("ask for 17,100 rpm to 25,200 rpm")
+    for ends, shown in [((18000, 24000), 1), ((17100, 25200), 0), ((17200, 26000), 1)]:
+        asked["speeds"] = {"from": ends[0], "to": ends[1], "count": 40, "unit": "rpm"}
+        text.fill(json.dumps(asked))
+        expect(note).to_have_count(shown)
 
 
 def test_sweeps_are_compared_and_a_measurement_laid_over(service, swept, model, tmp_path, new_page):

@@ -10,6 +10,8 @@ const LOBE = 1.05;
 const SPEEDS = 40;
 /** Where a sweep begins, over where it ends. */
 const LOWEST = 1 / 3;
+/** Separation of critical speeds from an operating range, as a share of its ends. */
+const ASIDE = 0.05;
 
 /** Rounds to two significant digits: the numbers are to be read and edited. */
 export function round(value) {
@@ -37,13 +39,13 @@ export function sceneOf(model) {
   };
 }
 
-/** Values of a part of a request when it is switched on: in proportion to the model, to be changed. */
-export function beginning(pointer, model) {
+/** Values of a part of a request when it is switched on: in proportion to the model and the speeds asked for, rad/s; to be changed. */
+export function beginning(pointer, model, asked = []) {
   const radius = model.contact_radius ?? 100;
   const scene = sceneOf(model);
-  const { from, to } = speedsOf(model);
-  // The middle half of what the form asks for.
-  const range = { name: 'Operation', from: Math.round(from + 0.25 * (to - from)), to: Math.round(to - 0.25 * (to - from)), unit: 'rpm', separation_percent: 5 };
+  const { from, to } = asked.length > 0 ? { from: rpm(Math.min(...asked)), to: rpm(Math.max(...asked)) } : speedsOf(model);
+  // The speeds asked for reach past its separation, as a verdict needs them to.
+  const range = { name: 'Operation', from: Math.ceil(from / (1 - ASIDE)), to: Math.floor(to / (1 + ASIDE)), unit: 'rpm', separation_percent: 100 * ASIDE };
   const known = {
     '/scene/casing': scene.casing,
     '/scene/casing/lobes': scene.casing.lobes,

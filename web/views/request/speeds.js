@@ -89,6 +89,15 @@ function diagram(campbell, ranges, asked) {
     ranges.map(({ name, from, to }, k) => words((x(from) + x(to)) / 2, PLOT.bottom - 6 - 14 * (k % 3), name, { 'text-anchor': 'middle', class: 'of-range' })));
 }
 
+/** Ranges whose ends, or those of their separation, the speeds asked for do not reach, in words: known before anything is computed. */
+function notReached(ranges, asked) {
+  const [first, last] = [Math.min(...asked), Math.max(...asked)];
+  const reached = ({ from, to, aside }) => first <= from * (1 - aside) * (1 + 1e-9) && last >= to * (1 + aside) * (1 - 1e-9);
+  const short = asked.length > 0 ? ranges.filter((range) => !reached(range)) : [];
+  return short.map(({ name, from, to, aside }) => h('p', { class: 'note warning' },
+    h('strong', {}, `${name || 'Range'}: `), `the speeds do not reach its ends${aside > 0 ? ' with their separation' : ''}, so its verdict will be undecided: ask for ${speed(from * (1 - aside))} to ${speed(to * (1 + aside))}.`));
+}
+
 /** Crossings within each range, in words. */
 function inRanges(campbell, ranges) {
   const { driven_crossings: all } = campbell;
@@ -142,6 +151,7 @@ export function speedsOver(model, signal) {
     const forces = model.gyroscopic ? `, ${isSplit(request) ? 'with' : 'without'} Coriolis forces` : '';
     start.textContent = campbell ? `Compute for ${count(lobes, 'lobe')}${forces}` : 'Compute natural frequencies';
     replace(told,
+      notReached(ranges, askedSpeeds(request)),
       h('p', { class: 'quiet' }, campbell
         ? `Lines: natural frequencies, a colour for each family; dashed: engine orders. Dots: where an engine order of ${count(campbell.settings.lobes, 'lobe')} meets a mode that it drives. Ticks below: the speeds asked for.${ranges.length > 0 ? ' Bands: operating ranges, with their separation.' : ''}`
         : 'Ticks: the speeds asked for. Natural frequencies of this model have not been computed yet.'),

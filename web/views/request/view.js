@@ -13,7 +13,7 @@ import { planAside } from './plan.js';
 import { prices } from './prices.js';
 import { RARE, sectionsOf } from './sections.js';
 import { beginning } from './sensible.js';
-import { speedsOver } from './speeds.js';
+import { askedSpeeds, speedsOver } from './speeds.js';
 import { wheelInCasing } from './wheel.js';
 
 /**
@@ -31,7 +31,7 @@ export async function requestForm(place, { model, kind, value, words }, signal) 
   const wheel = wheelInCasing(model, section);
   const campbell = speedsOver(model, signal);
   const plan = kind.plan ? planAside(kind.plan, planned, signal) : null;
-  const initial = (pointer) => beginning(pointer, model);
+  const initial = (pointer) => beginning(pointer, model, askedSpeeds(fields.value()));
   const cost = kind.priced ? prices(kind.plan, model, signal) : null;
   const dial = kind.priced ? accuracyDial(kind.plan, chooseAccuracy, signal) : null;
   const table = casingTable((measured) => {
