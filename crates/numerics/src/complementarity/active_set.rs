@@ -28,6 +28,8 @@ pub struct ActiveSetSolver<F: Factor = Cholesky> {
     violated: Vec<usize>,
     factored: Vec<usize>,
     factor: F,
+    /// Whether W has changed since it was factored.
+    stale: bool,
     statistics: PivotStatistics,
 }
 
@@ -45,6 +47,7 @@ impl<F: Factor> ActiveSetSolver<F> {
             violated: Vec::with_capacity(size),
             factored: Vec::with_capacity(size),
             factor: F::default(),
+            stale: false,
             statistics: PivotStatistics::default(),
         }
     }
@@ -95,6 +98,11 @@ impl<F: Factor> ActiveSetSolver<F> {
         Err(ComplementarityError::NotSolved { pivots: limit })
     }
 
+    /// Takes note that W has changed: a factor that was kept is of no use any more.
+    pub fn operator_changed(&mut self) {
+        self.stale = true;
+    }
+
     /// Active indices, ascending.
     pub fn active(&self) -> &[usize] {
         &self.active
@@ -126,8 +134,9 @@ impl<F: Factor> ActiveSetSolver<F> {
     /// Solves for λ with g = 0 on the active set, and for g everywhere.
     #[inline(always)]
     fn solve_active<W: ContactOperator>(&mut self, w: &W, q: &[f64]) -> Result<(), ComplementarityError> {
-        if self.factored != self.active {
+        if self.stale || self.factored != self.active {
             self.factorise(w)?;
+            self.stale = false;
         }
         self.lambda.clear();
         self.lambda.extend(self.active.iter().map(|&i| -q[i]));

@@ -35,6 +35,8 @@ pub struct BranchSolver<F: Factor = Cholesky> {
     /// Compliance dx/dλ of every index.
     compliance: Vec<f64>,
     factor: F,
+    /// Whether W has changed since it was factored.
+    stale: bool,
     statistics: PivotStatistics,
 }
 
@@ -58,6 +60,7 @@ impl<F: Factor> BranchSolver<F> {
             factored: Vec::with_capacity(size),
             compliance: vec![0.0; size],
             factor: F::default(),
+            stale: false,
             statistics: PivotStatistics::default(),
         }
     }
@@ -102,6 +105,11 @@ impl<F: Factor> BranchSolver<F> {
         Err(ComplementarityError::NotSolved { pivots: limit })
     }
 
+    /// Takes note that W has changed: a factor that was kept is of no use any more.
+    pub fn operator_changed(&mut self) {
+        self.stale = true;
+    }
+
     /// Indices with a force, ascending.
     pub fn active(&self) -> &[usize] {
         &self.active
@@ -144,8 +152,9 @@ impl<F: Factor> BranchSolver<F> {
         let lines = self.active.iter().zip(&self.laws).map(|(&i, law)| law.line(self.branches[i]));
         self.lines.extend(lines);
         let wanted = || self.active.iter().zip(&self.lines).map(|(&i, &(_, slope))| (i, slope));
-        if !wanted().eq(self.factored.iter().copied()) {
+        if self.stale || !wanted().eq(self.factored.iter().copied()) {
             self.factorise(w)?;
+            self.stale = false;
         }
         self.lambda.clear();
         self.lambda.extend(self.active.iter().zip(&self.lines).map(|(&i, &(start, _))| -(q[i] + start)));
