@@ -10,7 +10,7 @@
 //! Incompatible modes are α = R u + β: they follow the nodes as in the stiffness (R of [`crate::integrals`]), and β is their own
 //! non-linear part. In (u, β) the quadratic part of V is ½ uᵀK u + ½ βᵀK_αα β, without a mixed term.
 
-use nalgebra::{Cholesky, Const, Matrix3, SMatrix, SVector, Vector3};
+use nalgebra::{Cholesky, Const, DMatrix, Matrix3, SMatrix, SVector, Vector3};
 
 use crate::element::ElementKind;
 use crate::gradients::{Gradients, Recovery};
@@ -95,15 +95,62 @@ impl GreenLagrange {
             stress + h * stress
         };
         let mut force = self.against(values, nominal);
-        if let Some(bubbles) = &self.bubbles {
-            let nodes = force.len() - BUBBLES;
-            let of_alpha = SVector::<f64, 9>::from_fn(|d, _| force[nodes + d / 3][d % 3]);
-            let through = bubbles.recovery.tr_mul(&of_alpha);
-            for (node, force) in force[..nodes].iter_mut().enumerate() {
-                *force += through.fixed_rows::<3>(3 * node);
+        self.add_through_bubbles(&mut force);
+        force
+    }
+
+    /// Part of second order of the force, on the nodes and by β: G(a, b), symmetric, so that G(u, u) is the part of [`Self::force`] at u that is
+    /// quadratic in u.
+    pub fn second_order_force(&self, a: &[Vector3<f64>], b: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
+        let mut force = vec![Vector3::zeros(); a.len()];
+        for (gradients, volume) in self.points() {
+            let (a, b) = (gradient(a, gradients), gradient(b, gradients));
+            let symmetric = |h: Matrix3<f64>| (h + h.transpose()) * 0.5;
+            let nominal = self.stress(&(symmetric(a.transpose() * b) * 0.5))
+                + (a * self.stress(&symmetric(b)) + b * self.stress(&symmetric(a))) * 0.5;
+            for (force, gradient) in force.iter_mut().zip(gradients) {
+                *force += nominal * gradient * volume;
             }
         }
+        self.add_through_bubbles(&mut force);
         force
+    }
+
+    /// Parts of third and fourth order of V(Σ p_j u_j) for the shapes u: B and A of Σ_ja B_ja p_j q_a + ½ Σ_ab A_ab q_a q_b, q the products
+    /// p_j p_k in the order (0, 0), (0, 1), …, (1, 1), ….
+    pub fn energy_products(&self, shapes: &[Vec<Vector3<f64>>]) -> (DMatrix<f64>, DMatrix<f64>) {
+        let pairs: Vec<_> = (0..shapes.len()).flat_map(|j| (j..shapes.len()).map(move |k| (j, k))).collect();
+        let mut cubic = DMatrix::zeros(shapes.len(), pairs.len());
+        let mut quartic = DMatrix::zeros(pairs.len(), pairs.len());
+        for (gradients, volume) in self.points() {
+            let h: Vec<_> = shapes.iter().map(|shape| gradient(shape, gradients)).collect();
+            let of_pair = |&(j, k): &(usize, usize)| {
+                let product = h[j].transpose() * h[k];
+                if j == k { product * 0.5 } else { (product + product.transpose()) * 0.5 }
+            };
+            let strains: Vec<_> = pairs.iter().map(of_pair).collect();
+            for (a, strain) in strains.iter().enumerate() {
+                let stress = self.stress(strain) * volume;
+                for (j, h) in h.iter().enumerate() {
+                    cubic[(j, a)] += stress.dot(h);
+                }
+                for (b, other) in strains.iter().enumerate() {
+                    quartic[(a, b)] += stress.dot(other);
+                }
+            }
+        }
+        (cubic, quartic)
+    }
+
+    /// Adds to a force on all functions what acts on the nodes through the incompatible modes.
+    fn add_through_bubbles(&self, force: &mut [Vector3<f64>]) {
+        let Some(bubbles) = &self.bubbles else { return };
+        let nodes = force.len() - BUBBLES;
+        let of_alpha = SVector::<f64, 9>::from_fn(|d, _| force[nodes + d / 3][d % 3]);
+        let through = bubbles.recovery.tr_mul(&of_alpha);
+        for (node, force) in force[..nodes].iter_mut().enumerate() {
+            *force += through.fixed_rows::<3>(3 * node);
+        }
     }
 
     /// Linear part K u of the force on the nodes, for values whose β is zero.
@@ -323,6 +370,38 @@ mod tests {
                 assert!((2.0 * step / work - 1.0).abs() < 1e-8, "{kind:?}");
                 assert_eq!(element.values(&u, &still).len(), 8 + BUBBLES);
             }
+        }
+    }
+
+    #[test]
+    fn parts_of_second_order_are_those_of_force_and_energy() {
+        for (kind, _, element) in elements() {
+            let bubbles = if element.has_bubbles() { BUBBLES } else { 0 };
+            let shapes: Vec<Vec<Vector3<f64>>> = [5, 300]
+                .map(|seed| element.values(&noisy(kind.nodes(), 0.3, seed), &noisy(bubbles, 0.1, seed + 70)))
+                .into();
+            let combine = |p: &[f64; 2]| -> Vec<Vector3<f64>> {
+                shapes[0].iter().zip(&shapes[1]).map(|(a, b)| a * p[0] + b * p[1]).collect()
+            };
+            // The even part of the force is its quadratic one.
+            let p = [0.7, -1.3];
+            let (ahead, back) = (element.force(&combine(&p)), element.force(&combine(&p.map(|p| -p))));
+            let g = |j: usize, k: usize| element.second_order_force(&shapes[j], &shapes[k]);
+            let (g00, g01, g10, g11) = (g(0, 0), g(0, 1), g(1, 0), g(1, 1));
+            let size = ahead.iter().map(|f| f.norm()).fold(0.0, f64::max);
+            for i in 0..ahead.len() {
+                let found = g00[i] * p[0] * p[0] + (g01[i] + g10[i]) * p[0] * p[1] + g11[i] * p[1] * p[1];
+                assert!((found - (ahead[i] + back[i]) * 0.5).norm() < 1e-9 * size, "{kind:?} {i}");
+                assert!((g01[i] - g10[i]).norm() < 1e-9 * size, "{kind:?} {i}");
+            }
+            let (cubic, quartic) = element.energy_products(&shapes);
+            let q = [p[0] * p[0], p[0] * p[1], p[1] * p[1]];
+            let third: f64 = (0..6).map(|at| cubic[(at / 3, at % 3)] * p[at / 3] * q[at % 3]).sum();
+            let fourth: f64 = (0..9).map(|at| 0.5 * quartic[(at / 3, at % 3)] * q[at / 3] * q[at % 3]).sum();
+            let origin = vec![Vector3::zeros(); shapes[0].len()];
+            let [_, _, _, c3, c4] = element.line(&origin, &combine(&p));
+            assert!((third / c3 - 1.0).abs() < 1e-8, "{kind:?}: {third} {c3}");
+            assert!((fourth / c4 - 1.0).abs() < 1e-8, "{kind:?}: {fourth} {c4}");
         }
     }
 

@@ -2,6 +2,7 @@
 
 use allocation_counter::measure;
 use faer::{Mat, c64};
+use rubmap_wheel::dynamics::bending::{Bending, BladeBending, Potential, products};
 use rubmap_wheel::dynamics::casing::{Casing, Lobes};
 use rubmap_wheel::dynamics::clearance_change::ClearanceChange;
 use rubmap_wheel::dynamics::clearance_drift::ClearanceDrift;
@@ -101,6 +102,21 @@ fn long_runs_take_no_more(scheme: Scheme, coriolis: bool, effects: Effects<'_>) 
     assert_eq!(of(12), of(2), "{scheme:?}");
 }
 
+/// Blades whose coordinates are the displacements of contact node 0.
+fn bending() -> BladeBending {
+    let count = products(3).count();
+    BladeBending {
+        asked: 3,
+        rows: Vec::new(),
+        potential: Potential::new(
+            Mat::from_fn(3, count, |_, _| 1e-3),
+            Mat::from_fn(count, count, |_, _| 1e-3),
+        ),
+        linear: Mat::from_fn(3 * NODES, 3, |_, _| 1e-4),
+        second_order: Mat::from_fn(3 * NODES, count, |_, _| 1e-4),
+    }
+}
+
 #[test]
 fn without_effects_and_with_coriolis_forces() {
     for scheme in [Scheme::CentralDifferences, Scheme::ExactModal, Scheme::MasslessBoundary { kept_modes: 5 }]
@@ -153,6 +169,9 @@ fn with_each_effect_and_with_all() {
         rate: SpeedRate(vec![StraightRate { revolutions: [0.0, 4.0], rad_s2: [1e3, -1e3] }]),
         load: vec![1e-3; MODES],
     };
+    let blade = bending();
+    let bending = Bending { blade: &blade, first: 0, stiffens: true };
+    let bending = Effects { bending: Some(bending), ..Effects::default() };
     let all = Effects {
         friction: friction.friction,
         flexible_casing: casing.flexible_casing,
@@ -163,10 +182,14 @@ fn with_each_effect_and_with_all() {
         excitation: excitation.excitation,
         euler_force: Some(&euler),
         coating: None,
+        bending: None,
         energies: false,
     };
     let whole = Effects { friction: disc.friction, ..all };
-    for effects in [friction, disc, coating, casing, orbit, mistuning, excitation, all, whole] {
+    let coated = Effects { coating: coating.coating, ..bending };
+    let bent = [bending, coated];
+    let effects = [friction, disc, coating, casing, orbit, mistuning, excitation, all, whole];
+    for effects in effects.into_iter().chain(bent) {
         for coriolis in [false, true] {
             long_runs_take_no_more(Scheme::ExactModal, coriolis, effects);
         }

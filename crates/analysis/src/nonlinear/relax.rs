@@ -212,6 +212,12 @@ impl<'a> Relaxation<'a> {
         Relaxed { linear, raw, relaxed: self.energy(now), second_order, to_casing, steps }
     }
 
+    /// Factor of the stiffness.
+    #[cfg(test)]
+    pub(super) fn factor(&self) -> &SparseCholesky<'a, f64> {
+        &self.factor
+    }
+
     /// Held modes over the free displacements.
     #[cfg(test)]
     pub(super) fn modes(&self) -> &Mat<f64> {

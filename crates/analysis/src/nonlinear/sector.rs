@@ -21,6 +21,8 @@ pub(crate) struct HeldSector {
     pub(super) nodes: usize,
     /// Node and direction in x, y, z of every free displacement; those of one node are neighbours.
     pub(super) rows: Vec<(u32, Vector3<f64>)>,
+    /// Own DOF of every free displacement.
+    pub(super) own: Vec<usize>,
     /// First row of every node and one past its last.
     of_node: Vec<(usize, usize)>,
     pub(super) stiffness: SparseColMat<usize, f64>,
@@ -51,7 +53,7 @@ impl HeldSector {
         for &(low, high) in &mesh.cyclic {
             (held[low as usize], held[high as usize]) = (true, true);
         }
-        let (mut rows, mut of_node) = (Vec::new(), Vec::with_capacity(nodes.len()));
+        let (mut rows, mut own, mut of_node) = (Vec::new(), Vec::new(), Vec::with_capacity(nodes.len()));
         for (index, node) in nodes.iter().enumerate() {
             let first = rows.len();
             if !held[index] {
@@ -59,6 +61,7 @@ impl HeldSector {
                 for dof in node.dofs.iter().flatten() {
                     let along = (0..3).map(|k| unit[k] * dof.components[k]).sum::<Vector3<f64>>();
                     rows.push((index as u32, along));
+                    own.push(dof.dof);
                 }
             }
             of_node.push((first, rows.len()));
@@ -98,6 +101,7 @@ impl HeldSector {
             elements: mesh.elements.par_iter().map(bending).collect(),
             nodes: nodes.len(),
             rows,
+            own,
             of_node,
             stiffness,
             mass,
@@ -132,6 +136,11 @@ impl HeldSector {
         spread
     }
 
+    /// Components of the field of all nodes on the free displacements.
+    pub(super) fn gathered(&self, field: &[Vector3<f64>]) -> Vec<f64> {
+        self.rows.iter().map(|&(node, along)| along.dot(&field[node as usize])).collect()
+    }
+
     /// Displacements of an element's nodes.
     pub(super) fn at(nodes: &[u32], field: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
         nodes.iter().map(|&node| field[node as usize]).collect()
@@ -147,11 +156,16 @@ impl HeldSector {
         let forces = self.of_elements(|index, nodes, element| {
             element.force(&element.values(&Self::at(nodes, field), &beta[index]))
         });
+        self.spread_forces(&forces)
+    }
+
+    /// Forces of elements on the free displacements, and on β of every element.
+    fn spread_forces(&self, forces: &[Vec<Vector3<f64>>]) -> (Vec<f64>, Vec<[Vector3<f64>; BUBBLES]>) {
         let on_beta = |(force, (nodes, _)): (&Vec<Vector3<f64>>, &(Vec<u32>, GreenLagrange))| {
             let own = &force[nodes.len()..];
             std::array::from_fn(|b| own.get(b).copied().unwrap_or_default())
         };
-        (self.on_rows(&forces), forces.iter().zip(&self.elements).map(on_beta).collect())
+        (self.on_rows(forces), forces.iter().zip(&self.elements).map(on_beta).collect())
     }
 
     /// Linear part K u of the force at displacements of all nodes, on the free ones.
@@ -161,6 +175,20 @@ impl HeldSector {
             element.linear_force(&element.values(&Self::at(nodes, field), &still))
         });
         self.on_rows(&forces)
+    }
+
+    /// Part of second order G(a, b) of the force at two fields, as [`Self::force`] has it.
+    pub(super) fn second_order_force(
+        &self,
+        a: &[Vector3<f64>],
+        b: &[Vector3<f64>],
+    ) -> (Vec<f64>, Vec<[Vector3<f64>; BUBBLES]>) {
+        let still = [Vector3::zeros(); BUBBLES];
+        let forces = self.of_elements(|_, nodes, element| {
+            let values = |field| element.values(&Self::at(nodes, field), &still);
+            element.second_order_force(&values(a), &values(b))
+        });
+        self.spread_forces(&forces)
     }
 
     /// Sum of the forces of elements on the free displacements.
@@ -177,7 +205,10 @@ impl HeldSector {
     }
 
     /// Results of all elements, computed in parallel, in their order.
-    fn of_elements<T: Send>(&self, of: impl Fn(usize, &[u32], &GreenLagrange) -> T + Sync) -> Vec<T> {
+    pub(super) fn of_elements<T: Send>(
+        &self,
+        of: impl Fn(usize, &[u32], &GreenLagrange) -> T + Sync,
+    ) -> Vec<T> {
         let elements = self.elements.par_iter().enumerate();
         elements.map(|(index, (nodes, element))| of(index, nodes, element)).collect()
     }

@@ -6,6 +6,7 @@ use faer::linalg::solvers::Solve;
 use faer::{Col, Mat};
 use nalgebra::Vector3;
 
+use super::condense::{Condensed, condense, held};
 use super::relax::{NotRelaxed, Relaxation};
 use super::sector::HeldSector;
 use rubmap_solid::element::ElementKind;
@@ -274,4 +275,72 @@ fn a_small_motion_is_linear_and_no_motion_is_refused() {
     assert!(found.second_order[0].iter().all(|v| v.abs() < 1e-6), "{found:?}");
     let still = vec![Vector3::zeros(); mesh.nodes.len()];
     assert_eq!(relaxation.relax(&still).unwrap_err(), NotRelaxed::Still);
+}
+
+/// Second-order bending of one out-of-plane mode of a strip of unit width whose largest displacement is `amplitude`, and its field.
+fn condensed_mode(both_ends: bool, [length, thickness]: [f64; 2], amplitude: f64) -> (Condensed, f64, f64) {
+    let (mesh, nodes) = strip(ElementKind::C3D20, [length, 2.0, thickness], 16, both_ends);
+    let sector = HeldSector::new(&mesh, &nodes).unwrap();
+    let relaxation = Relaxation::new(&sector).unwrap();
+    let bending = out_of_plane(&sector, &relaxation);
+    let field = mode(&sector, &relaxation, bending[0], amplitude);
+    let relaxed = relaxation.relax(&field).unwrap();
+    (condense(&sector, relaxation.factor(), &[field]), relaxed.linear, relaxed.relaxed)
+}
+
+#[test]
+fn condensed_energy_is_that_of_the_relaxed_field_and_of_the_closed_form() {
+    // Clamped at both ends: energy of fourth order alone, EA/(8L) (∫w′²)², which relaxation finds to its own tolerance.
+    let (condensed, linear, relaxed) = condensed_mode(true, [100.0, 1.0], 1.0);
+    let (excess, expected) = (condensed.potential.energy(&[1.0]) / linear, relaxed / linear - 1.0);
+    assert!((excess / expected - 1.0).abs() < 0.01, "{excess} {expected}");
+    let half = condensed.potential.energy(&[0.5]);
+    assert!((16.0 * half / condensed.potential.energy(&[1.0]) - 1.0).abs() < 1e-9);
+    // Free at one end: hardly any.
+    let (condensed, linear, _) = condensed_mode(false, [60.0, 0.5], 1.5);
+    let excess = condensed.potential.energy(&[1.0]) / linear;
+    assert!(excess.abs() < 2e-3, "{excess}");
+    let tip = 60.0f64;
+    let back = condensed.second_order[0].iter().map(|v| v.x).fold(0.0, f64::min);
+    // A cantilever's first mode: ½ ∫w′² = 0.581 times the squared tip displacement over its length.
+    let (beta, sigma) = (1.875_104_068_711_961 / tip, 0.734_095_513_758_536);
+    let points = 4000;
+    let slope = |k: usize| {
+        let x = beta * tip * (k as f64 + 0.5) / points as f64;
+        0.5 * 1.5 * beta * (x.sinh() + x.sin() - sigma * (x.cosh() - x.cos()))
+    };
+    let drawn = 0.5 * (0..points).map(|k| slope(k).powi(2)).sum::<f64>() * tip / points as f64;
+    assert!((back / -drawn - 1.0).abs() < 0.02, "{back} {drawn}");
+}
+
+#[test]
+fn condensed_energy_of_several_shapes_is_the_relaxed_one_to_fourth_order() {
+    // The two lowest modes out of the plane and one in it, of a strip that is not straight, so that the third order matters, too.
+    let (mut mesh, mut nodes) = strip(ElementKind::QM6, [40.0, 4.0, 1.0], 6, true);
+    for (place, node) in mesh.nodes.iter_mut().zip(&mut nodes) {
+        place[2] += 2.0 * (std::f64::consts::PI * place[0] / 40.0).sin();
+        node.position = *place;
+    }
+    let sector = HeldSector::new(&mesh, &nodes).unwrap();
+    let relaxation = Relaxation::new(&sector).unwrap();
+    let shapes: Vec<_> = [0, 1, 3].map(|number| mode(&sector, &relaxation, number, 0.3)).into();
+    let condensed = condense(&sector, relaxation.factor(), &shapes);
+    let held = held(&sector, relaxation.factor(), &shapes);
+    let error = |scale: f64| {
+        let p = [scale, -0.7 * scale, 0.4 * scale];
+        let field: Vec<_> = (0..mesh.nodes.len())
+            .map(|node| shapes.iter().zip(p).map(|(shape, p)| shape[node] * p).sum::<Vector3<f64>>())
+            .collect();
+        let exact = converged(&sector, &held, &field);
+        let linear: f64 = {
+            let force = sector.linear_force(&field);
+            0.5 * sector.gathered(&field).iter().zip(&force).map(|(u, f)| u * f).sum::<f64>()
+        };
+        let excess = exact - linear;
+        (condensed.potential.energy(&p) - excess, excess)
+    };
+    let ((coarse, excess), (fine, _)) = (error(1.0), error(0.5));
+    assert!(coarse.abs() < 0.05 * excess.abs(), "{coarse} {excess}");
+    // What is left is of fifth order.
+    assert!(fine.abs() < coarse.abs() / 20.0, "{coarse} {fine}");
 }

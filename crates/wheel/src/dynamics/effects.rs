@@ -1,5 +1,6 @@
 //! Effects beyond damping and contact with a rigid casing. An effect that is absent is no part of the run.
 
+use super::bending::Bending;
 use super::clearance_change::ClearanceChange;
 use super::clearance_drift::ClearanceDrift;
 use super::contact::coating::Coating;
@@ -26,6 +27,8 @@ pub struct Effects<'a> {
     pub clearance_drift: Option<&'a ClearanceDrift>,
     /// Relative stiffness deviation of every sector.
     pub mistuning: Option<&'a [f64]>,
+    /// Blades that bend far.
+    pub bending: Option<Bending<'a>>,
     /// Forces at engine orders.
     pub excitation: &'a [EngineOrderExcitation],
     /// Euler force of a speed that changes; on the vibration where the wheel has gyroscopic matrices.
@@ -59,6 +62,11 @@ impl<'a> Effects<'a> {
     /// Friction of tips that slide forwards, if the scene has that law.
     pub(crate) fn sliding(&self) -> Option<Friction<'a>> {
         self.friction.filter(|friction| friction.law == FrictionLaw::Sliding)
+    }
+
+    /// Bending of blades that stiffen, if the scene has it.
+    pub(crate) fn stiffening(&self) -> Option<Bending<'a>> {
+        self.bending.filter(|bending| bending.stiffens)
     }
 
     /// Whether forces act that are known beforehand: excitation or the Euler force.

@@ -9,6 +9,8 @@ pub struct EffectWork {
     pub excitation: f64,
     /// Work of mistuning: minus the change of the energy that the stiffness deviations store.
     pub mistuning: f64,
+    /// Work of blades that stiffen: minus the change of their energy beyond the quadratic one, to second order of the step.
+    pub stiffening: f64,
     /// Work of contact forces on the casing.
     pub casing: f64,
     /// Energy lost in the casing's damping.
@@ -31,6 +33,8 @@ pub struct EnergyAudit {
     largest_energy: f64,
     largest_residual: f64,
     last: f64,
+    /// Energy of stiffening and its work when they were first compared, together, and their largest change since.
+    stiffening: Option<(f64, f64)>,
     effects: EffectWork,
 }
 
@@ -63,10 +67,25 @@ impl EnergyAudit {
         self.last = energy;
         self.largest_energy = larger(self.largest_energy, energy.abs());
         // The heat of friction comes from the shaft, or is part of the work of contact.
-        let EffectWork { excitation, mistuning, casing, casing_loss, friction_heat: _ } = self.effects;
-        let effects = excitation + mistuning + casing - casing_loss;
+        let EffectWork { excitation, mistuning, stiffening, casing, casing_loss, friction_heat: _ } =
+            self.effects;
+        let effects = excitation + mistuning + stiffening + casing - casing_loss;
         let expected = self.initial + self.work - self.loss + effects;
         self.largest_residual = larger(self.largest_residual, (energy - expected).abs());
+    }
+
+    /// Compares the energy of blades that stiffen beyond the quadratic one with their work so far.
+    pub(crate) fn check_stiffening(&mut self, energy: f64) {
+        let total = energy + self.effects.stiffening;
+        let (start, largest) = self.stiffening.get_or_insert((total, 0.0));
+        *largest = larger(*largest, (total - *start).abs());
+    }
+
+    /// Largest difference between the energy that blades stored by stiffening and what they took for it, relative to the largest mechanical
+    /// energy: of second order in the step; none without stiffening.
+    pub fn stiffening_residual(&self) -> Option<f64> {
+        let (_, largest) = self.stiffening?;
+        Some(if self.largest_energy > 0.0 { largest / self.largest_energy } else { 0.0 })
     }
 
     /// Largest mechanical energy seen, force·length.

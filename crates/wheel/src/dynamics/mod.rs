@@ -1,6 +1,7 @@
 //! Physics of the wheel: cyclic structure, reduction, contact and time integration, in the words of docs/method.md.
 
 mod amplitude_sums;
+pub mod bending;
 #[cfg(test)]
 mod bouncing_bar;
 pub mod casing;

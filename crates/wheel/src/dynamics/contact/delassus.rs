@@ -2,6 +2,7 @@
 
 use faer::{Mat, c64};
 
+use super::super::bending::MOST_COORDINATES;
 use super::super::oscillators::lanes::LANES;
 use rubmap_numerics::aligned::Aligned;
 use rubmap_numerics::complementarity::{ContactOperator, any_below};
@@ -11,7 +12,10 @@ use rubmap_numerics::sector_fourier::{SectorFourier, is_single};
 #[derive(Debug, Clone)]
 pub(crate) struct Delassus {
     sectors: usize,
+    /// Rows of a sector: contact nodes, and behind them coordinates of blades that bend far.
     nodes: usize,
+    /// Number of these coordinates.
+    coordinates: usize,
     stride: usize,
     /// Entries of W, `[sector distance][column node][row node]`.
     table: Aligned,
@@ -20,28 +24,51 @@ pub(crate) struct Delassus {
     largest: Vec<f64>,
     /// Sector and node of every index.
     places: Vec<(usize, usize)>,
+    /// Motion of contact nodes per unit of a coordinate of their sector, `[sector][node][coordinate]`; empty without coordinates.
+    slopes: Vec<f64>,
+    /// Largest share by which slopes make any entry larger than the largest of the table: (1 + Σ |slope|)².
+    steepest: f64,
 }
 
 impl Delassus {
     /// Operator W = Σ_i w_i² Re(W_i e^{jiα(s−s')}) from the `nodes × nodes` blocks W_i of the nodal diameters, with the
-    /// [`ridge`](super::flexibility::ridge) of the blocks without friction.
-    pub(crate) fn new(blocks: &[Mat<c64>], ridge: f64, stride: usize, fourier: &SectorFourier) -> Self {
+    /// [`ridge`](super::flexibility::ridge) of the blocks without friction. The last of the nodes are so many `coordinates` of blades that
+    /// bend far, at most [`MOST_COORDINATES`].
+    pub(crate) fn new(
+        blocks: &[Mat<c64>],
+        ridge: f64,
+        stride: usize,
+        coordinates: usize,
+        fourier: &SectorFourier,
+    ) -> Self {
         let (sectors, nodes) = (fourier.sectors(), blocks[0].nrows());
         let mut table = Aligned::zeros(sectors * nodes * stride);
         circulant(blocks, fourier, |distance, to, from, value| {
             table[(distance * nodes + from) * stride + to] += value;
         });
         let places = (0..sectors * stride).map(|index| (index / stride, index % stride)).collect();
-        let mut this = Self { sectors, nodes, stride, table, ridge, largest: Vec::new(), places };
+        let mut this = Self {
+            sectors,
+            nodes,
+            coordinates,
+            stride,
+            table,
+            ridge,
+            largest: Vec::new(),
+            places,
+            slopes: vec![0.0; sectors * (nodes - coordinates) * coordinates],
+            steepest: 1.0,
+        };
         this.find_largest();
         this
     }
 
     /// Adds the opening of a gap by a unit force at another node, `term(sector distance, to, from)`.
     pub(crate) fn add(&mut self, term: impl Fn(usize, usize, usize) -> f64) {
+        let nodes = self.contact_nodes();
         for distance in 0..self.sectors {
-            for from in 0..self.nodes {
-                for to in 0..self.nodes {
+            for from in 0..nodes {
+                for to in 0..nodes {
                     self.table[(distance * self.nodes + from) * self.stride + to] += term(distance, to, from);
                 }
             }
@@ -52,6 +79,79 @@ impl Delassus {
     fn find_largest(&mut self) {
         let largest = |block: &[f64]| block.iter().fold(0.0f64, |m, w| m.max(w.abs()));
         self.largest = self.table.chunks_exact(self.nodes * self.stride).map(largest).collect();
+    }
+
+    /// Number of contact nodes of a sector.
+    pub(crate) fn contact_nodes(&self) -> usize {
+        self.nodes - self.coordinates
+    }
+
+    /// Sets the motion of contact nodes per unit of a coordinate of their sector, `[sector][node][coordinate]`: W becomes J W Jᵀ, J reading a
+    /// node and by its slopes the coordinates.
+    #[inline(always)]
+    pub(crate) fn bend(&mut self, slopes: &[f64]) {
+        self.slopes.copy_from_slice(slopes);
+        let of_node = slopes.chunks_exact(self.coordinates).map(|of| of.iter().map(|s| s.abs()).sum::<f64>());
+        self.steepest = (1.0 + of_node.fold(0.0, f64::max)).powi(2);
+    }
+
+    /// Motion of the node of an index per unit of each coordinate of its sector; nothing without coordinates.
+    #[inline(always)]
+    pub(crate) fn slope(&self, index: usize) -> &[f64] {
+        let (sector, node) = self.place(index);
+        let m = self.coordinates;
+        &self.slopes[(sector * self.contact_nodes() + node) * m..][..m]
+    }
+
+    /// Entry that the slopes add to that of the table.
+    fn bent_entry(&self, i: usize, j: usize) -> f64 {
+        let ((to_sector, to), (from_sector, from)) = (self.place(i), self.place(j));
+        let (distance, first) = (self.distance(to_sector, from_sector), self.contact_nodes());
+        let (to_slope, from_slope) = (self.slope(i), self.slope(j));
+        let along = |column: &[f64]| to_slope.iter().zip(&column[first..]).map(|(s, w)| s * w).sum::<f64>();
+        let own = along(self.column(distance, from));
+        let pushed = from_slope.iter().enumerate().map(|(b, slope)| {
+            let column = self.column(distance, first + b);
+            slope * (column[to] + along(column))
+        });
+        own + pushed.sum::<f64>()
+    }
+
+    /// Adds to the gaps of `sector` what bending adds to W λ.
+    #[inline(always)]
+    fn add_bent(&self, sector: usize, active: &[usize], lambda: &[f64], gap: &mut [f64]) {
+        let (first, m) = (self.contact_nodes(), self.coordinates);
+        let gap = &mut gap[..first];
+        let mut moved = [0.0; MOST_COORDINATES];
+        let mut add = |column: &[f64], force: f64, to_nodes: bool| {
+            moved.iter_mut().zip(&column[first..first + m]).for_each(|(moved, w)| *moved += w * force);
+            if to_nodes {
+                gap.iter_mut().zip(column).for_each(|(gap, w)| *gap += w * force);
+            }
+        };
+        let mut loads = active.iter().zip(lambda).peekable();
+        while let Some(&(&index, _)) = loads.peek() {
+            let from_sector = self.place(index).0;
+            let distance = self.distance(sector, from_sector);
+            // Forces of one sector push the same coordinates.
+            let mut pushed = [0.0; MOST_COORDINATES];
+            while let Some((&index, lambda)) =
+                loads.next_if(|&(&index, _)| self.place(index).0 == from_sector)
+            {
+                pushed
+                    .iter_mut()
+                    .zip(self.slope(index))
+                    .for_each(|(pushed, slope)| *pushed += slope * lambda);
+                add(self.column(distance, self.place(index).1), *lambda, false);
+            }
+            for (b, &force) in pushed[..m].iter().enumerate() {
+                add(self.column(distance, first + b), force, true);
+            }
+        }
+        let slopes = self.slopes[sector * first * m..][..first * m].chunks_exact(m);
+        for (gap, slope) in gap.iter_mut().zip(slopes) {
+            *gap += slope.iter().zip(&moved).map(|(s, p)| s * p).sum::<f64>();
+        }
     }
 
     /// Sector and contact node of an index.
@@ -81,7 +181,7 @@ impl Delassus {
                 force += more;
             }
             for to in 0..self.sectors {
-                gap[to * stride] += force * self.largest[self.distance(to, from)];
+                gap[to * stride] += self.steepest * force * self.largest[self.distance(to, from)];
             }
         }
     }
@@ -124,7 +224,9 @@ impl ContactOperator for Delassus {
 
     fn entry(&self, i: usize, j: usize) -> f64 {
         let ((to_sector, to), (from_sector, from)) = (self.place(i), self.place(j));
-        self.column(self.distance(to_sector, from_sector), from)[to] + if i == j { self.ridge } else { 0.0 }
+        let entry = self.column(self.distance(to_sector, from_sector), from)[to]
+            + if i == j { self.ridge } else { 0.0 };
+        if self.coordinates == 0 { entry } else { entry + self.bent_entry(i, j) }
     }
 
     #[inline(always)]
@@ -148,6 +250,9 @@ impl ContactOperator for Delassus {
                     }
                 }
                 *gap = sums;
+            }
+            if self.coordinates > 0 {
+                self.add_bent(sector, active, lambda, gap);
             }
         }
     }
@@ -174,7 +279,7 @@ mod tests {
             })
         };
         let blocks: Vec<_> = (0..=SECTORS / 2).map(block).collect();
-        let w = Delassus::new(&blocks, 0.0, LANES, &fourier);
+        let w = Delassus::new(&blocks, 0.0, LANES, 0, &fourier);
         let mut kept = 0;
         for turn in 0..SECTORS {
             // Candidates may have forces of either sign.

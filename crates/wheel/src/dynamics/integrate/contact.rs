@@ -2,12 +2,14 @@
 
 use pulp::Simd;
 
+use super::super::bending::Bending;
 use super::super::casing::Casing;
 use super::super::clearance_change::ClearanceChange;
 use super::super::clearance_drift::ClearanceDrift;
 use super::super::contact::coating::{Coating, WornCoating};
 use super::super::contact::delassus::Delassus;
 use super::super::contact::flexibility::{outward_normals, ridge};
+use super::super::direction::Direction;
 use super::super::effects::{Effects, Friction};
 use super::super::energy::EffectWork;
 use super::super::flexible_casing::CasingMotion;
@@ -42,6 +44,8 @@ pub(super) struct Contact {
     sliding: Option<Sliding>,
     delassus: Delassus,
     residual: ResidualDisplacement,
+    /// Derivatives of the motion of second order by the coordinates, `[sector][node][coordinate]`; empty for blades that do not bend far.
+    slopes: Vec<f64>,
     tolerance: f64,
     /// Largest penetration that may be left where W is singular.
     most_left: f64,
@@ -74,7 +78,7 @@ impl Contact {
         fourier: &SectorFourier,
     ) -> Self {
         let Simulation { wheel, scheme, contact_nodes: nodes, effects, .. } = *simulation;
-        let normals = outward_normals(nodes);
+        let normals = read(simulation);
         let rows = Rows::new(wheel, &normals, |modes| scheme.integrated_modes(modes));
         let (stride, sectors) = (rows.stride, fourier.sectors());
         let gaps = Gaps::new(simulation, casing, stride);
@@ -90,6 +94,7 @@ impl Contact {
             + clearance_change.map_or(0.0, ClearanceChange::largest)
             + clearance_drift.map_or(0.0, ClearanceDrift::largest);
         Self {
+            slopes: vec![0.0; sectors * nodes.len() * (normals.len() - nodes.len())],
             delassus,
             residual: ResidualDisplacement::new(simulation, &normals),
             // Gaps are differences of lengths of this scale. A casing far out of reach of some node must not loosen it.
@@ -111,7 +116,9 @@ impl Contact {
 
     /// Whether effects change contact with a rigid casing that stays where it is.
     pub(super) fn is_affected(&self) -> bool {
-        self.gaps.shift.is_some() || !matches!(self.law, Law::Symmetric(_))
+        self.gaps.shift.is_some()
+            || self.gaps.second_order.is_some()
+            || !matches!(self.law, Law::Symmetric(_))
     }
 
     /// Coating as it is now, if there is one.
@@ -157,7 +164,12 @@ impl Contact {
         statistics: &mut RunStatistics,
         work: &mut EffectWork,
     ) -> Result<(), ComplementarityError> {
-        let Self { law, gaps, delassus, .. } = self;
+        let Self { law, gaps, delassus, slopes, .. } = self;
+        if let Some(second_order) = &mut gaps.second_order {
+            second_order.slopes(fourier, &gaps.harmonic, self.rows.stride, slopes);
+            delassus.bend(slopes);
+            law.operator_changed();
+        }
         loop {
             let solved = law.solve(delassus, &gaps.predicted, self.tolerance, now.step, &read);
             let Solution { active, gap, .. } = law.solution();
@@ -187,8 +199,7 @@ impl Contact {
                 Some(disc) => disc.forces()[number].as_slice(),
                 None => std::slice::from_ref(lambda),
             };
-            for (direction, force) in forces.iter().enumerate() {
-                let row = self.force_rows * row + direction;
+            let mut press = |row: usize, force: f64| {
                 if !self.is_loaded[row] {
                     self.is_loaded[row] = true;
                     self.loaded.push(row);
@@ -196,8 +207,14 @@ impl Contact {
                 for (column, &f) in fourier.row(sector).iter().enumerate() {
                     self.force[column * self.force_stride + row] -= f * force;
                 }
+            };
+            for (direction, &force) in forces.iter().enumerate() {
+                press(self.force_rows * row + direction, force);
             }
             let lambda = *lambda;
+            for (coordinate, slope) in delassus.slope(index).iter().enumerate() {
+                press(delassus.contact_nodes() + coordinate, slope * lambda);
+            }
             if let Some(sliding) = &self.sliding {
                 work.friction_heat += sliding.heat[row] * lambda;
             }
@@ -301,6 +318,13 @@ fn applied<'a>(rows: &'a Rows, sliding: Option<&'a Sliding>, law: &'a Law) -> &'
     }
 }
 
+/// Directions that contact reads: the normals, and behind them the coordinates of blades that bend far.
+fn read(simulation: &Simulation<'_>) -> Vec<Direction> {
+    let mut directions = outward_normals(simulation.contact_nodes);
+    directions.extend(simulation.effects.bending.iter().flat_map(Bending::directions));
+    directions
+}
+
 /// Contact operator W of the scheme, with the contributions of the effects.
 fn delassus(
     simulation: &Simulation<'_>,
@@ -312,12 +336,23 @@ fn delassus(
     let normals = outward_normals(simulation.contact_nodes);
     let symmetric = symmetric_flexibility(simulation, oscillators, &normals, &normals);
     let ridge = ridge(&symmetric, simulation.wheel.sectors);
+    let coordinates: Vec<_> = simulation.effects.bending.iter().flat_map(Bending::directions).collect();
+    let (normals, symmetric) = match coordinates.len() {
+        0 => (normals, symmetric),
+        _ => {
+            let read = read(simulation);
+            let symmetric = symmetric_flexibility(simulation, oscillators, &read, &read);
+            (read, symmetric)
+        }
+    };
     let mut delassus = match simulation.effects.sliding() {
-        None if !simulation.wheel.turns() => Delassus::new(&symmetric, ridge, stride, fourier),
+        None if !simulation.wheel.turns() => {
+            Delassus::new(&symmetric, ridge, stride, coordinates.len(), fourier)
+        }
         friction => {
             let from = friction.map_or(normals.as_slice(), |friction| friction.directions);
             let blocks = step_flexibility(simulation, oscillators, &normals, from);
-            Delassus::new(&blocks, ridge, stride, fourier)
+            Delassus::new(&blocks, ridge, stride, coordinates.len(), fourier)
         }
     };
     if let Some(casing) = casing {

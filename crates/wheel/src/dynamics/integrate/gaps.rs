@@ -6,6 +6,7 @@ use super::super::amplitude_sums::amplitude_sums;
 use super::super::casing::{Casing, RestrictionTable, ramp};
 use super::gap_shift::GapShift;
 use super::instant::Instant;
+use super::second_order::SecondOrder;
 use super::simulation::Simulation;
 use rubmap_numerics::complementarity::any_below;
 use rubmap_numerics::sector_fourier::SectorFourier;
@@ -27,7 +28,7 @@ pub(super) struct Gaps {
     pub(super) clearance: Vec<f64>,
     /// Number of contact nodes of a sector, padded to whole vectors.
     stride: usize,
-    /// Normal displacements of the integrated modes, `[Fourier column][node]`.
+    /// Normal displacements of the integrated modes, `[Fourier column][node]`; behind them the coordinates of blades that bend far.
     pub(super) harmonic: Vec<f64>,
     /// Upper bounds of nᵀu in any sector.
     amplitude_sums: Vec<f64>,
@@ -39,6 +40,8 @@ pub(super) struct Gaps {
     near: Vec<usize>,
     /// Shift of all gaps, where something moves them.
     pub(super) shift: Option<GapShift>,
+    /// Motion of second order towards the casing, of blades that bend far.
+    pub(super) second_order: Option<SecondOrder>,
 }
 
 /// Casing as the gaps of one step see it.
@@ -73,14 +76,21 @@ impl Gaps {
             is_far: vec![false; sectors],
             near: (0..sectors).collect(),
             shift: GapShift::new(simulation, stride),
+            second_order: (simulation.effects.bending)
+                .map(|bending| SecondOrder::towards_casing(bending, simulation.contact_nodes)),
         }
     }
 
     /// Predicts the gaps g_p = c − p − nᵀu of all sectors. Returns the smallest if it is negative, otherwise a number that is not.
     ///
+    /// Normal displacements must have been read since: what blades move by bending far is added to them.
+    ///
     /// A far sector, where c − p is not below the upper bound of nᵀu in any sector, gets c − p less that bound.
     #[inline(always)]
     pub(super) fn predict<S: Simd>(&mut self, simd: S, fourier: &SectorFourier, now: Instant) -> f64 {
+        if let Some(second_order) = &mut self.second_order {
+            second_order.add(fourier, &mut self.harmonic, self.stride);
+        }
         let growth = ramp(now.revolutions, self.ramp_revolutions);
         if let Some(shift) = &mut self.shift {
             shift.move_to(now.revolutions, growth);

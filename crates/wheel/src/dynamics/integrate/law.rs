@@ -114,6 +114,19 @@ impl Law {
         }
     }
 
+    /// Takes note that the contact operator has changed since the last solution.
+    #[inline(always)]
+    pub(super) fn operator_changed(&mut self) {
+        match self {
+            Self::Symmetric(solver) => solver.operator_changed(),
+            Self::General(solver) => solver.operator_changed(),
+            Self::Coated(CoatedSolver::Symmetric(solver), _) => solver.operator_changed(),
+            Self::Coated(CoatedSolver::General(solver), _) => solver.operator_changed(),
+            // Blades that bend far, which change it, have no friction.
+            Self::Disc(_) => {}
+        }
+    }
+
     /// Solution that was found last.
     #[inline(always)]
     pub(super) fn solution(&self) -> Solution<'_> {

@@ -20,6 +20,7 @@ mod repetition;
 mod residual;
 mod revolutions;
 mod run;
+mod second_order;
 mod simulation;
 mod states;
 mod step_flexibility;

@@ -15,6 +15,9 @@ pub enum PassageError {
     /// Coulomb friction as a disc.
     #[error("of friction with the law \"disc\" no tangent is known: march, or take the law \"sliding\"")]
     Disc,
+    /// Blades that bend far.
+    #[error("of blades that bend far no tangent is known: march")]
+    Bending,
     /// Orbit of the shaft that returns too late, or never.
     #[error("an orbit of whirl ratio {whirl_ratio} does not come round within {most} revolutions")]
     Orbit {

@@ -2,6 +2,7 @@
 
 use pulp::Simd;
 
+use super::super::bending::Bending;
 use super::super::energy::EnergyAudit;
 use super::super::initial::{InitialMode, SteppedWave};
 use super::super::modal_wheel::ModalWheel;
@@ -12,6 +13,7 @@ use super::detail::DetailRecorder;
 use super::residual::ResidualDisplacement;
 use super::revolutions::Repeated;
 use super::run::History;
+use super::second_order::SecondOrder;
 use super::simulation::Simulation;
 use super::states::StateRecorder;
 use super::tally::ContactInterval;
@@ -26,6 +28,8 @@ pub(super) struct Recorder {
     samples_per_revolution: usize,
     /// Displacements of the sensors by contact forces that no integrated mode has.
     residual: ResidualDisplacement,
+    /// Displacements of second order of the sensors, of blades that bend far.
+    second_order: Option<SecondOrder>,
     /// Displacements in Fourier coordinates as they were read last, `[column][sensor]`, sensors padded.
     harmonic: Vec<f64>,
     /// Displacements in Fourier coordinates as they were read last, without padding.
@@ -47,7 +51,11 @@ impl Recorder {
     ) -> Self {
         let directions: Vec<_> = simulation.sensors.iter().map(|sensor| sensor.direction).collect();
         let scheme = simulation.scheme;
-        let rows = Rows::new(simulation.wheel, &directions, |modes| scheme.integrated_modes(modes));
+        let bending = simulation.effects.bending;
+        let second_order = bending.map(|bending| SecondOrder::along(bending, &directions));
+        let read: Vec<_> =
+            directions.iter().copied().chain(bending.iter().flat_map(Bending::directions)).collect();
+        let rows = Rows::new(simulation.wheel, &read, |modes| scheme.integrated_modes(modes));
         let samples = simulation.samples_per_revolution;
         let sensors = directions.len();
         let width = fourier.sectors() * sensors;
@@ -59,7 +67,8 @@ impl Recorder {
             energies: simulation.effects.energies,
             samples_per_revolution: samples,
             sectors: simulation.sensors.iter().map(|sensor| sensor.sector).collect(),
-            residual: ResidualDisplacement::until_applied(simulation, oscillators, &directions),
+            residual: ResidualDisplacement::until_applied(simulation, oscillators, &read),
+            second_order,
             tips: TipTally::new(simulation),
             detail: simulation.detail.map(|detail| DetailRecorder::new(simulation, detail, interval)),
             states: simulation.states.map(|states| StateRecorder::new(simulation, states, oscillators)),
@@ -94,6 +103,9 @@ impl Recorder {
         let stride = self.rows.stride;
         if let Some(force) = force {
             self.residual.add(force, force.len() / fourier.sectors(), &mut self.harmonic, stride);
+        }
+        if let Some(second_order) = &mut self.second_order {
+            second_order.add(fourier, &mut self.harmonic, stride);
         }
         let sensors = self.sectors.len();
         if windowed && sensors > 0 {

@@ -51,7 +51,8 @@ impl<'a> Recurrences<'a> {
     /// Recurrences of the scene of `simulation`.
     ///
     /// # Errors
-    /// [`PassageError::Coating`], [`PassageError::ClearanceChange`], [`PassageError::Disc`] and [`PassageError::Orbit`].
+    /// [`PassageError::Coating`], [`PassageError::ClearanceChange`], [`PassageError::Disc`], [`PassageError::Bending`] and
+    /// [`PassageError::Orbit`].
     pub(super) fn of(simulation: &Simulation<'a>) -> Result<Self, PassageError> {
         let effects = &simulation.effects;
         let touching = simulation.casing.is_some();
@@ -63,6 +64,9 @@ impl<'a> Recurrences<'a> {
         }
         if touching && effects.friction.is_some_and(|friction| friction.law == FrictionLaw::Disc) {
             return Err(PassageError::Disc);
+        }
+        if effects.bending.is_some() {
+            return Err(PassageError::Bending);
         }
         let orbit = match effects.orbit.filter(|_| touching) {
             Some(Orbit { whirl_ratio, .. }) => Some(turns(whirl_ratio)?),

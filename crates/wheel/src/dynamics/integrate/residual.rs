@@ -3,6 +3,7 @@
 
 use faer::{Mat, c64};
 
+use super::super::bending::Bending;
 use super::super::contact::flexibility::outward_normals;
 use super::super::direction::Direction;
 use super::super::oscillators::Oscillators;
@@ -99,8 +100,11 @@ impl ResidualDisplacement {
 
 /// Directions along which contact forces act.
 pub(super) fn applied(simulation: &Simulation<'_>) -> Vec<Direction> {
-    match simulation.effects.friction {
+    let mut applied = match simulation.effects.friction {
         Some(friction) => friction.directions.to_vec(),
         None => outward_normals(simulation.contact_nodes),
-    }
+    };
+    // Blades that bend far are pushed along their coordinates, too.
+    applied.extend(simulation.effects.bending.iter().flat_map(Bending::directions));
+    applied
 }

@@ -2,11 +2,13 @@
 
 use pulp::Simd;
 
+use super::super::bending::Bending;
 use super::super::direction::{COMPONENTS, Direction};
 use super::super::oscillators::Oscillators;
 use super::super::oscillators::rows::Rows;
 use super::excursion::{Excursion, ExcursionTally};
 use super::residual::ResidualDisplacement;
+use super::second_order::SecondOrder;
 use super::simulation::Simulation;
 use rubmap_numerics::sector_fourier::SectorFourier;
 
@@ -26,7 +28,11 @@ const INSTANTS: usize = 128;
 #[derive(Debug)]
 pub(super) struct TipTally {
     rows: Rows,
+    /// Number of components of all nodes of a blade.
+    components: usize,
     residual: ResidualDisplacement,
+    /// Displacements of second order, of blades that bend far.
+    second_order: Option<SecondOrder>,
     harmonic: Vec<f64>,
     /// Number of samples from one reading to the next.
     every: usize,
@@ -57,11 +63,17 @@ impl TipTally {
         let directions: Vec<Direction> = nodes
             .flat_map(|node| (0..COMPONENTS).map(move |d| Direction { node, components: unit(d) }))
             .collect();
-        let rows = Rows::new(wheel, &directions, |modes| scheme.integrated_modes(modes));
+        let bending = simulation.effects.bending;
+        let second_order = bending.map(|bending| SecondOrder::along(bending, &directions));
+        let read: Vec<_> =
+            directions.iter().copied().chain(bending.iter().flat_map(Bending::directions)).collect();
+        let rows = Rows::new(wheel, &read, |modes| scheme.integrated_modes(modes));
         let none = Sums { origin: 0.0, sum: 0.0, squares: 0.0, low: f64::INFINITY, high: f64::NEG_INFINITY };
         Self {
-            residual: ResidualDisplacement::new(simulation, &directions),
+            residual: ResidualDisplacement::new(simulation, &read),
+            second_order,
             harmonic: vec![0.0; wheel.sectors * rows.stride],
+            components: directions.len(),
             every: simulation.samples_per_revolution.div_ceil(INSTANTS),
             samples: 0,
             looks: 0,
@@ -90,8 +102,12 @@ impl TipTally {
         if let Some(force) = force {
             self.residual.add(force, force.len() / fourier.sectors(), harmonic, rows.stride);
         }
+        if let Some(second_order) = &mut self.second_order {
+            second_order.add(fourier, harmonic, rows.stride);
+        }
         let columns = harmonic.chunks_exact(rows.stride);
-        let blades = self.motions.chunks_exact_mut(rows.count).zip(self.now.chunks_exact_mut(rows.count));
+        let components = self.components;
+        let blades = self.motions.chunks_exact_mut(components).zip(self.now.chunks_exact_mut(components));
         for (sector, (blade, now)) in blades.enumerate() {
             for (row, (sums, now)) in blade.iter_mut().zip(now).enumerate() {
                 let terms = fourier.row(sector).iter().zip(columns.clone());

@@ -140,6 +140,11 @@ impl WithSimd for Record<'_> {
         }
         let energy = stepper.mechanical_energy();
         stepper.energy.check(energy);
+        let Stepper { drive, oscillators, .. } = &mut *stepper;
+        let stored = drive.as_mut().and_then(|drive| drive.stiffening_energy(simd, oscillators));
+        if let Some(stored) = stored {
+            stepper.energy.check_stiffening(stored);
+        }
         stepper.read_on(simd, windowed);
         let Stepper { oscillators, fourier, contact, statistics, recorder, .. } = stepper;
         let force = contact.as_ref().map(|contact| contact.force.as_slice());

@@ -66,6 +66,8 @@ pub(super) struct Acting {
     pub(super) excited: Vec<bool>,
     /// Modal forces of mistuning on all nodal diameters; empty without.
     pub(super) mistuning: Aligned,
+    /// Modal forces of blades that stiffen on all nodal diameters; empty without.
+    pub(super) stiffening: Aligned,
 }
 
 impl Acting {
@@ -115,11 +117,12 @@ impl Acting {
     ) -> Forces<'_, S> {
         let range = start..start + segment.length;
         let offset = start - segment.state;
-        let mistuned = !self.mistuning.is_empty();
+        let (mistuned, stiffens) = (!self.mistuning.is_empty(), !self.stiffening.is_empty());
         Forces {
             contact: loaded.then(|| S::as_simd_f64s(&self.contact[offset..offset + segment.length]).0),
             excitation: self.is_excited(index).then(|| S::as_simd_f64s(&self.excitation[range.clone()]).0),
-            mistuning: mistuned.then(|| S::as_simd_f64s(&self.mistuning[range]).0),
+            mistuning: mistuned.then(|| S::as_simd_f64s(&self.mistuning[range.clone()]).0),
+            stiffening: stiffens.then(|| S::as_simd_f64s(&self.stiffening[range]).0),
         }
     }
 }
@@ -130,6 +133,7 @@ pub(super) struct Forces<'a, S: Simd> {
     pub(super) contact: Option<&'a [S::f64s]>,
     pub(super) excitation: Option<&'a [S::f64s]>,
     pub(super) mistuning: Option<&'a [S::f64s]>,
+    pub(super) stiffening: Option<&'a [S::f64s]>,
 }
 
 impl<S: Simd> Forces<'_, S> {
@@ -137,7 +141,8 @@ impl<S: Simd> Forces<'_, S> {
     #[inline(always)]
     pub(super) fn sum(&self, simd: S, m: usize) -> S::f64s {
         let mut sum = simd.splat_f64s(0.0);
-        for force in [self.contact, self.excitation, self.mistuning].into_iter().flatten() {
+        let all = [self.contact, self.excitation, self.mistuning, self.stiffening];
+        for force in all.into_iter().flatten() {
             sum = simd.add_f64s(sum, force[m]);
         }
         sum
@@ -149,6 +154,7 @@ pub(super) struct DrivenSums<S: Simd> {
     contact: S::f64s,
     excitation: S::f64s,
     mistuning: S::f64s,
+    stiffening: S::f64s,
     loss: S::f64s,
 }
 
@@ -156,7 +162,7 @@ impl<S: Simd> DrivenSums<S> {
     #[inline(always)]
     pub(super) fn new(simd: S) -> Self {
         let zero = simd.splat_f64s(0.0);
-        Self { contact: zero, excitation: zero, mistuning: zero, loss: zero }
+        Self { contact: zero, excitation: zero, mistuning: zero, stiffening: zero, loss: zero }
     }
 
     /// Adds the exchange of the final swing of vector `m` under `forces`.
@@ -172,6 +178,9 @@ impl<S: Simd> DrivenSums<S> {
         if let Some(force) = forces.mistuning {
             self.mistuning = simd.mul_add_e_f64s(force[m], swing, self.mistuning);
         }
+        if let Some(force) = forces.stiffening {
+            self.stiffening = simd.mul_add_e_f64s(force[m], swing, self.stiffening);
+        }
     }
 
     /// Adds the works of effects to `work`, and returns the exchange with contact and damping.
@@ -179,6 +188,7 @@ impl<S: Simd> DrivenSums<S> {
     pub(super) fn total(self, simd: S, work: &mut EffectWork) -> Exchange {
         work.excitation += 0.5 * simd.reduce_sum_f64s(self.excitation);
         work.mistuning += 0.5 * simd.reduce_sum_f64s(self.mistuning);
+        work.stiffening += 0.5 * simd.reduce_sum_f64s(self.stiffening);
         Exchange { work: 0.5 * simd.reduce_sum_f64s(self.contact), loss: simd.reduce_sum_f64s(self.loss) }
     }
 }

@@ -1,4 +1,4 @@
-//! Modal oscillators under forces other than contact: engine orders, mistuning, Coriolis and Euler forces.
+//! Modal oscillators under forces other than contact: engine orders, mistuning, blades that stiffen, Coriolis and Euler forces.
 //!
 //! The recursion of [`recursion`](super::recursion), with known modal forces at the middle instant of each step and, for
 //! Coriolis forces, swings turned by S ([`super::super::coriolis`]):
@@ -7,11 +7,12 @@
 //! z⁺ − z⁻ = S (keep·d − pull·z + receptance·f + d),   d⁺ = z⁺ − z⁻ − d,   z⁺ = z + d⁺
 //! ```
 //!
-//! A step is completed before the next one is predicted: of one nodal diameter after the other, or with mistuning, whose pull depends on
-//! the displacements of all of them, in two passes over the mode shapes. Contact forces move S R φᴴ f within a step.
+//! A step is completed before the next one is predicted: of one nodal diameter after the other, or with mistuning or stiffening, whose
+//! pull depends on the displacements of all of them, in two passes over the mode shapes. Contact forces move S R φᴴ f within a step.
 
 mod acting;
 mod circulation;
+mod stiffening;
 mod turning;
 
 use faer::{Mat, c64};
@@ -33,6 +34,8 @@ use acting::{Acting, DrivenSums, Excitation};
 use circulation::Circulation;
 use rubmap_numerics::aligned::Aligned;
 use rubmap_numerics::sector_fourier::SectorFourier;
+use stiffening::Stiffening;
+pub(crate) use stiffening::coordinates;
 use turning::Turning;
 
 /// Drive of the oscillators: forces other than contact, and the numbers of the step under way.
@@ -40,6 +43,7 @@ use turning::Turning;
 pub(crate) struct Drive {
     excitations: Vec<Excitation>,
     mistuning: Option<ModalMistuning>,
+    stiffening: Option<Stiffening>,
     offsets: Vec<ModeOffsets>,
     turning: Option<Turning>,
     circulation: Option<Circulation>,
@@ -72,6 +76,9 @@ impl Drive {
         let mistuning = effects.mistuning.map(|deviations| {
             ModalMistuning::new(deviations, wheel, contact_nodes, fourier, oscillators.resolved_families())
         });
+        let stiffening = effects.stiffening().map(|bending| {
+            Stiffening::new(bending, wheel, oscillators, fourier, oscillators.resolved_families())
+        });
         let longest = oscillators.segments.iter().map(|segment| segment.length).max().unwrap_or(0);
         let segments = &oscillators.segments;
         let engine_order = |excitation: &EngineOrderExcitation| {
@@ -90,9 +97,11 @@ impl Drive {
                 excitation: of(effects.forces_are_known()),
                 excited: (0..wheel.harmonics.len()).map(excited).collect(),
                 mistuning: of(mistuning.is_some()),
+                stiffening: of(stiffening.is_some()),
             },
             excitations,
             mistuning,
+            stiffening,
             offsets: oscillators.segments.iter().map(Segment::offsets).collect(),
             turning,
             circulation,
@@ -104,7 +113,10 @@ impl Drive {
 
     /// Whether anything but contact acts on the modes.
     pub(crate) fn acts(wheel: &ModalWheel, effects: &Effects<'_>) -> bool {
-        wheel.turns() || effects.mistuning.is_some() || effects.forces_are_known()
+        wheel.turns()
+            || effects.mistuning.is_some()
+            || effects.stiffening().is_some()
+            || effects.forces_are_known()
     }
 
     /// Adds the part of the drive's forces after `revolutions` to the first increments d = z − z⁻, which are those of free motion: without
@@ -153,7 +165,7 @@ impl Drive {
     ) {
         Arch::new().dispatch(Prepare(self, oscillators, revolutions));
         self.swing.fill(0.0);
-        for force in [&self.acting.excitation, &self.acting.mistuning] {
+        for force in [&self.acting.excitation, &self.acting.mistuning, &self.acting.stiffening] {
             for (sum, f) in self.swing.iter_mut().zip(force.iter()) {
                 *sum += f;
             }
@@ -205,11 +217,30 @@ impl Drive {
         }
     }
 
-    /// Computes the forces of mistuning in the state `z`.
+    /// Strain energy of blades that stiffen beyond the quadratic one, half-way through the last complete step: the mean of both its ends. None
+    /// where blades do not stiffen.
     #[inline(always)]
-    fn pull<S: Simd>(&mut self, simd: S, z: &[f64]) {
+    pub(crate) fn stiffening_energy<S: Simd>(&mut self, simd: S, oscillators: &Oscillators) -> Option<f64> {
+        let Self { stiffening, acting, .. } = self;
+        let (stiffening, state) = (stiffening.as_mut()?, &oscillators.state);
+        // The forces are not needed any more once the step is complete.
+        let before = &mut acting.stiffening;
+        before
+            .iter_mut()
+            .zip(state.z.iter().zip(state.d.iter()))
+            .for_each(|(before, (z, d))| *before = z - d);
+        let mut at = |z: &[f64]| stiffening.energy(simd, &oscillators.segments, z);
+        Some(0.5 * (at(before) + at(&state.z)))
+    }
+
+    /// Computes the forces of mistuning and stiffening in the state `z` of the oscillators with these segments.
+    #[inline(always)]
+    fn pull<S: Simd>(&mut self, simd: S, segments: &[Segment], z: &[f64]) {
         if let Some(mistuning) = &mut self.mistuning {
             mistuning.force(simd, &self.offsets, z, &mut self.acting.mistuning);
+        }
+        if let Some(stiffening) = &mut self.stiffening {
+            stiffening.force(simd, segments, z, &mut self.acting.stiffening);
         }
     }
 }
@@ -223,7 +254,7 @@ impl WithSimd for Prepare<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
         let Self(drive, oscillators, revolutions) = self;
-        drive.pull(simd, &oscillators.state.z);
+        drive.pull(simd, &oscillators.segments, &oscillators.state.z);
         for (index, &segment) in oscillators.segments.iter().enumerate() {
             drive.force(simd, index, segment, revolutions, &oscillators.state.z);
         }
@@ -279,14 +310,14 @@ impl Oscillators {
         work: &mut EffectWork,
     ) -> Exchange {
         let mut sums = DrivenSums::new(simd);
-        // Mistuning pulls at what all nodal diameters have come to. Without it one after the other is completed and predicted while its
+        // Mistuning and stiffening pull at what all nodal diameters have come to. Without them one after the other is completed and predicted while its
         // mode shapes are in the first-level cache.
-        let at_once = drive.mistuning.is_none();
+        let at_once = drive.mistuning.is_none() && drive.stiffening.is_none();
         if !at_once {
             for index in 0..self.segments.len() {
                 self.complete_one(simd, index, drive, loads, &mut sums);
             }
-            drive.pull(simd, &self.state.z);
+            drive.pull(simd, &self.segments, &self.state.z);
         }
         for index in 0..self.segments.len() {
             if at_once {
@@ -352,7 +383,7 @@ impl Oscillators {
         work: &mut EffectWork,
     ) -> Exchange {
         let mut sums = DrivenSums::new(simd);
-        drive.pull(simd, &self.state.z);
+        drive.pull(simd, &self.segments, &self.state.z);
         for index in 0..self.segments.len() {
             let segment = self.segments[index];
             if let Some(loads) = loads {

@@ -1,0 +1,340 @@
+//! Blades that bend far, against a literal model: all unknowns of the wheel in one vector, every product written out.
+
+use faer::linalg::solvers::Solve;
+use faer::{Mat, c64};
+
+use super::*;
+use crate::dynamics::casing::Casing;
+use crate::dynamics::effects::Effects;
+use crate::dynamics::initial::InitialMode;
+use crate::dynamics::integrate::{Outcome, Run, SensorRow, Simulation};
+use crate::dynamics::modal_wheel::ModalHarmonic;
+use crate::dynamics::numbers::Numbers;
+use crate::dynamics::schemes::Scheme;
+use crate::dynamics::sector::ContactNode;
+use rubmap_numerics::sector_fourier::SectorFourier;
+
+const NODES: usize = 2;
+const MODES: usize = 3;
+const COORDINATES: usize = 2;
+const PRODUCTS: usize = 3;
+const CLEARANCE: f64 = 0.006;
+const REVOLUTIONS: usize = 2;
+/// Largest angular frequency over the speed.
+const HIGHEST: f64 = 9.0;
+
+/// Wheel with the coordinates of its blades behind its contact nodes.
+fn wheel(sectors: usize) -> ModalWheel {
+    let mut numbers = Numbers(11);
+    let harmonics = (0..=sectors / 2).map(|harmonic| {
+        let single = harmonic == 0 || 2 * harmonic == sectors;
+        let mut entry = || {
+            let (re, im) = (numbers.next(), numbers.next());
+            c64::new(re, if single { 0.0 } else { im })
+        };
+        let contact = Mat::from_fn(3 * (NODES + 1), MODES, |row, _| {
+            let entry = entry();
+            if row < 3 * NODES + COORDINATES { entry } else { c64::ZERO }
+        });
+        let omega = (0..MODES).map(|m| 100.0 * (2.0 + 3.0 * m as f64 + 0.1 * harmonic as f64)).collect();
+        ModalHarmonic { harmonic, single, omega, contact, gyroscopic: None }
+    });
+    ModalWheel { speed_rad_s: 100.0, sectors, repeats: 1, harmonics: harmonics.collect() }
+}
+
+/// Blade whose stiffening and second-order displacement matter at a displacement of 0.02.
+fn blade() -> BladeBending {
+    let mut numbers = Numbers(23);
+    let a: Mat<f64> = Mat::from_fn(PRODUCTS, PRODUCTS, |_, _| numbers.next());
+    BladeBending {
+        asked: COORDINATES,
+        rows: Vec::new(),
+        potential: Potential::new(
+            Mat::from_fn(COORDINATES, PRODUCTS, |_, _| 2e5 * numbers.next()),
+            4e7 * (&a.transpose().to_owned() * &a),
+        ),
+        linear: Mat::from_fn(3 * NODES, COORDINATES, |_, _| numbers.next()),
+        second_order: Mat::from_fn(3 * NODES, PRODUCTS, |_, _| 8.0 * numbers.next()),
+    }
+}
+
+fn nodes() -> [ContactNode; NODES] {
+    std::array::from_fn(|k| ContactNode {
+        id: k as u64,
+        position: [0.5, 0.03 * k as f64, 4.0 * k as f64],
+        normal: [0.8, 0.0, 0.6],
+        dofs: [3 * k, 3 * k + 1, 3 * k + 2],
+    })
+}
+
+fn initial(sectors: usize) -> Vec<InitialMode> {
+    let of = |harmonic: usize| InitialMode {
+        harmonic,
+        family: 0,
+        displacement: c64::new(0.012, 0.0),
+        velocity: c64::new(-1.0, if harmonic == 1 && sectors > 2 { 2.0 } else { 0.0 }),
+    };
+    (0..=sectors / 2).map(of).collect()
+}
+
+/// Scene of a test.
+#[derive(Clone, Copy)]
+struct Scene {
+    sectors: usize,
+    touches: bool,
+    stiffens: bool,
+    scheme: Scheme,
+    steps: usize,
+}
+
+/// Run of a scene, and the displacement of a sensor at contact node 1 of the last sector at every step.
+fn run(scene: Scene) -> (Run, Vec<f64>) {
+    let (wheel, blade, nodes) = (wheel(scene.sectors), blade(), nodes());
+    let casing = Casing { clearance: vec![CLEARANCE; NODES], restriction: None, ramp_revolutions: 0.0 };
+    let bending = Bending { blade: &blade, first: NODES, stiffens: scene.stiffens };
+    let direction = Direction { node: 1, components: [0.8, 0.0, 0.6] };
+    let sensors = [SensorRow { direction, sector: scene.sectors - 1 }];
+    let run = Simulation {
+        wheel: &wheel,
+        contact_nodes: &nodes,
+        damping: None,
+        casing: scene.touches.then_some(&casing),
+        effects: Effects { bending: Some(bending), ..Effects::default() },
+        initial: &initial(scene.sectors),
+        sensors: &sensors,
+        scheme: scene.scheme,
+        steps_per_revolution: scene.steps,
+        samples_per_revolution: scene.steps,
+        revolutions: REVOLUTIONS,
+        window_revolutions: 1,
+        repeats: None,
+        detail: None,
+        states: None,
+    }
+    .run(&|_| true);
+    let Outcome::Completed(history) = &run.outcome else { panic!("{:?}", run.outcome) };
+    let displacement = history.displacement[0].clone();
+    (run, displacement)
+}
+
+/// Row over all unknowns of the displacement along `direction` in a sector.
+fn row(wheel: &ModalWheel, fourier: &SectorFourier, direction: Direction, sector: usize) -> Vec<f64> {
+    let (mut row, mut column) = (Vec::new(), 0);
+    for harmonic in &wheel.harmonics {
+        let of = |m: usize| direction.of(harmonic.contact.as_ref(), m);
+        let f = &fourier.row(sector)[column..];
+        if harmonic.single {
+            row.extend((0..MODES).map(|m| f[0] * of(m).re));
+        } else {
+            row.extend((0..MODES).map(|m| f[0] * of(m).re + f[1] * of(m).im));
+            row.extend((0..MODES).map(|m| f[1] * of(m).re - f[0] * of(m).im));
+        }
+        column += if harmonic.single { 1 } else { 2 };
+    }
+    row
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// Displacement of the sensor of [`run`] at every step, by central differences of all unknowns and contact forces found by trying all sets.
+fn literal(scene: Scene) -> Vec<f64> {
+    let Scene { sectors, touches, stiffens, steps, .. } = scene;
+    let (wheel, blade, nodes) = (wheel(sectors), blade(), nodes());
+    let fourier = SectorFourier::new(sectors);
+    let unit = |j: usize| {
+        let mut components = [0.0; 3];
+        components[j] = 1.0;
+        Direction { node: NODES, components }
+    };
+    let coordinate: Vec<Vec<Vec<f64>>> =
+        (0..sectors).map(|s| (0..COORDINATES).map(|j| row(&wheel, &fourier, unit(j), s)).collect()).collect();
+    let normal = |k: usize| Direction { node: k, components: nodes[k].normal };
+    let tips: Vec<(usize, usize, Vec<f64>)> = (0..sectors)
+        .flat_map(|s| (0..NODES).map(move |k| (s, k)))
+        .map(|(s, k)| (s, k, row(&wheel, &fourier, normal(k), s)))
+        .collect();
+    let omega: Vec<f64> = (wheel.harmonics.iter())
+        .flat_map(|h| std::iter::repeat_n(&h.omega, if h.single { 1 } else { 2 }).flatten().copied())
+        .collect();
+    let p_of = |z: &[f64], s: usize| -> Vec<f64> { coordinate[s].iter().map(|row| dot(row, z)).collect() };
+    let along = |p: &[f64], k: usize, around: bool| -> f64 {
+        let second: f64 = products(COORDINATES)
+            .enumerate()
+            .map(|(a, (i, j))| {
+                let v: f64 = (0..3).map(|d| nodes[k].normal[d] * blade.second_order[(3 * k + d, a)]).sum();
+                v * p[i] * p[j]
+            })
+            .sum();
+        let theta: f64 = (0..COORDINATES).map(|j| blade.linear[(3 * k + 1, j)] * p[j]).sum();
+        second + if around { nodes[k].normal[0] * theta * theta / (2.0 * nodes[k].position[0]) } else { 0.0 }
+    };
+    // Central differences of a polynomial: exact for degrees up to four.
+    let slope = |f: &dyn Fn(&[f64]) -> f64, p: &[f64], j: usize| -> f64 {
+        let at = |by: f64| {
+            let mut moved = p.to_vec();
+            moved[j] += by;
+            f(&moved)
+        };
+        let h = 1e-2;
+        (8.0 * (at(h) - at(-h)) - (at(2.0 * h) - at(-2.0 * h))) / (12.0 * h)
+    };
+    let acceleration = |z: &[f64]| -> Vec<f64> {
+        let mut a: Vec<f64> = z.iter().zip(&omega).map(|(z, w)| -w * w * z).collect();
+        for s in 0..sectors {
+            let p = p_of(z, s);
+            for j in (0..COORDINATES).filter(|_| stiffens) {
+                let f = slope(&|p| blade.potential.energy(p), &p, j);
+                a.iter_mut().zip(&coordinate[s][j]).for_each(|(a, r)| *a -= f * r);
+            }
+        }
+        a
+    };
+    let h = std::f64::consts::TAU / (wheel.speed_rad_s * steps as f64);
+    let (mut z, mut d) = (vec![0.0; omega.len()], vec![0.0; omega.len()]);
+    let mut first = 0;
+    for (harmonic, mode) in wheel.harmonics.iter().zip(initial(sectors)) {
+        (z[first], d[first]) = (mode.displacement.re, h * mode.velocity.re);
+        if !harmonic.single {
+            (z[first + MODES], d[first + MODES]) = (mode.displacement.im, h * mode.velocity.im);
+        }
+        first += MODES * if harmonic.single { 1 } else { 2 };
+    }
+    d.iter_mut().zip(acceleration(&z)).for_each(|(d, a)| *d -= 0.5 * h * h * a);
+    let mut displacement = Vec::new();
+    for _ in 0..REVOLUTIONS * steps {
+        d.iter_mut().zip(acceleration(&z)).for_each(|(d, a)| *d += h * h * a);
+        z.iter_mut().zip(&d).for_each(|(z, d)| *z += d);
+        if touches {
+            let of_tip = |(s, k, normal): &(usize, usize, Vec<f64>)| {
+                let p = p_of(&z, *s);
+                let mut jacobian = normal.clone();
+                for j in 0..COORDINATES {
+                    let by = slope(&|p| along(p, *k, true), &p, j);
+                    jacobian.iter_mut().zip(&coordinate[*s][j]).for_each(|(n, r)| *n += by * r);
+                }
+                (CLEARANCE - dot(normal, &z) - along(&p, *k, true), jacobian)
+            };
+            let gaps: Vec<(f64, Vec<f64>)> = tips.iter().map(of_tip).collect();
+            for (lambda, (_, jacobian)) in forces(&gaps, h).iter().zip(&gaps) {
+                for ((z, d), n) in z.iter_mut().zip(&mut d).zip(jacobian) {
+                    *z -= h * h * n * lambda;
+                    *d -= h * h * n * lambda;
+                }
+            }
+        }
+        let (s, k, normal) = tips.last().unwrap();
+        displacement.push(dot(normal, &z) + along(&p_of(&z, *s), *k, false));
+    }
+    displacement
+}
+
+/// Forces of the only set of tips whose forces push and leave all gaps open.
+fn forces(gaps: &[(f64, Vec<f64>)], h: f64) -> Vec<f64> {
+    for set in 0..1u32 << gaps.len() {
+        let active: Vec<usize> = (0..gaps.len()).filter(|i| set >> i & 1 == 1).collect();
+        let w = |i: usize, j: usize| h * h * dot(&gaps[i].1, &gaps[j].1);
+        let matrix: Mat<f64> = Mat::from_fn(active.len(), active.len(), |i, j| w(active[i], active[j]));
+        let right: Mat<f64> = Mat::from_fn(active.len(), 1, |i, _| -gaps[active[i]].0);
+        let solved = matrix.partial_piv_lu().solve(&right);
+        let mut lambda = vec![0.0; gaps.len()];
+        active.iter().enumerate().for_each(|(row, &i)| lambda[i] = solved[(row, 0)]);
+        let open = |i: usize| gaps[i].0 + (0..gaps.len()).map(|j| w(i, j) * lambda[j]).sum::<f64>() > -1e-13;
+        if lambda.iter().all(|&force| force >= 0.0) && (0..gaps.len()).all(open) {
+            return lambda;
+        }
+    }
+    panic!("no set of tips in contact is a solution");
+}
+
+fn difference(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}
+
+#[test]
+fn histories_are_those_of_a_literal_model() {
+    for sectors in [1, 2, 3, 4] {
+        for (touches, stiffens) in [(false, true), (true, false), (true, true)] {
+            let scene = Scene { sectors, touches, stiffens, scheme: Scheme::CentralDifferences, steps: 150 };
+            let (run, found) = run(scene);
+            let expected = literal(scene);
+            assert_eq!(run.statistics.contact_impulse > 0.0, touches, "{sectors}");
+            let size = expected.iter().fold(0.0f64, |m, u| m.max(u.abs()));
+            let error = difference(&found, &expected) / size;
+            assert!(error < 1e-8, "{sectors} {touches} {stiffens}: {error}");
+            assert!(run.energy.residual() < 1e-12, "{sectors}: {}", run.energy.residual());
+        }
+    }
+}
+
+#[test]
+fn work_of_stiffening_is_its_energy_to_second_order_in_the_step() {
+    for scheme in [Scheme::CentralDifferences, Scheme::ExactModal] {
+        let residual = |steps: usize| {
+            let (run, _) = run(Scene { sectors: 3, touches: true, stiffens: true, scheme, steps });
+            run.energy.stiffening_residual().unwrap()
+        };
+        let (coarse, fine) = (residual(400), residual(1600));
+        assert!(coarse < 2e-2 && fine < 0.1 * coarse, "{scheme:?}: {coarse} {fine}");
+    }
+}
+
+#[test]
+fn steps_converge_to_one_motion_with_every_scheme() {
+    let of =
+        |scheme, steps: usize| run(Scene { sectors: 3, touches: false, stiffens: true, scheme, steps }).1;
+    let at = |line: &[f64], steps: usize, every: usize| -> Vec<f64> {
+        line.iter().skip(every - 1).step_by(every).take(steps).copied().collect()
+    };
+    let fine = at(&of(Scheme::CentralDifferences, 6400), 200, 64);
+    let size = fine.iter().fold(0.0f64, |m, u| m.max(u.abs()));
+    for scheme in [Scheme::CentralDifferences, Scheme::ExactModal] {
+        let error = |every: usize| difference(&at(&of(scheme, 100 * every), 200, every), &fine) / size;
+        let (coarse, finer) = (error(4), error(8));
+        assert!(coarse < 0.05 && finer < 0.35 * coarse, "{scheme:?}: {coarse} {finer}");
+    }
+}
+
+#[test]
+fn a_small_motion_is_that_without_bending() {
+    // The potential is of third order in the motion, the displacement of second order.
+    let (wheel, blade, nodes) = (wheel(3), blade(), nodes());
+    let small = |scale: f64, bending: bool| {
+        let mut initial = initial(3);
+        for mode in &mut initial {
+            (mode.displacement, mode.velocity) = (mode.displacement * scale, mode.velocity * scale);
+        }
+        let bending = bending.then_some(Bending { blade: &blade, first: NODES, stiffens: true });
+        let direction = Direction { node: 0, components: [0.3, 0.9, 0.2] };
+        let run = Simulation {
+            wheel: &wheel,
+            contact_nodes: &nodes,
+            damping: None,
+            casing: None,
+            effects: Effects { bending, ..Effects::default() },
+            initial: &initial,
+            sensors: &[SensorRow { direction, sector: 1 }],
+            scheme: Scheme::ExactModal,
+            steps_per_revolution: 200,
+            samples_per_revolution: 200,
+            revolutions: 1,
+            window_revolutions: 1,
+            repeats: None,
+            detail: None,
+            states: None,
+        }
+        .run(&|_| true);
+        let Outcome::Completed(history) = run.outcome else { panic!("it is bounded") };
+        history.displacement[0].iter().map(|u| u / scale).collect::<Vec<_>>()
+    };
+    let change = |scale: f64| difference(&small(scale, true), &small(scale, false));
+    let (large, tiny) = (change(1e-2), change(1e-4));
+    assert!(large > 0.0 && (tiny / large - 1e-2).abs() < 2e-3, "{large} {tiny}");
+}
+
+#[test]
+fn the_highest_frequency_is_well_resolved() {
+    let highest = wheel(4).largest_frequency() / 100.0;
+    assert!(highest < HIGHEST, "{highest}");
+}
