@@ -1,5 +1,7 @@
 //! Price list: cost of a step with each effect of a scene, beside the scene without.
 
+use faer::Mat;
+use rubmap::dynamics::bending::{Bending, BladeBending, Potential, products};
 use rubmap::dynamics::clearance_change::ClearanceChange;
 use rubmap::dynamics::contact::coating::{Coating, CoatingMaterial};
 use rubmap::dynamics::contact::disc::disc_directions;
@@ -57,6 +59,9 @@ pub(crate) fn measure() {
         load: vec![1.0; scene.modal.harmonics[0].omega.len()],
     };
     let euler_force = Some(&euler);
+    let blade = bending(contact.len());
+    let [kinematics, full] =
+        [false, true].map(|stiffens| Some(Bending { blade: &blade, first: 0, stiffens }));
     let none = Effects::default();
     let all = Effects {
         friction,
@@ -66,6 +71,7 @@ pub(crate) fn measure() {
         clearance_change,
         clearance_drift: None,
         mistuning: Some(&deviations),
+        bending: None,
         excitation: &excitation,
         euler_force,
         energies: false,
@@ -82,6 +88,8 @@ pub(crate) fn measure() {
         ("orbit", exact, &scene.modal, Effects { orbit, ..none }),
         ("clearance_change", exact, &scene.modal, Effects { clearance_change, ..none }),
         ("mistuning", exact, &scene.modal, Effects { mistuning: Some(&deviations), ..none }),
+        ("geometric_nonlinearity, kinematics", exact, &scene.modal, Effects { bending: kinematics, ..none }),
+        ("geometric_nonlinearity, full", exact, &scene.modal, Effects { bending: full, ..none }),
         ("engine_order_excitation", exact, &scene.modal, Effects { excitation: &excitation, ..none }),
         ("euler_force", exact, &scene.modal, Effects { euler_force, ..none }),
         ("coriolis", exact, &turning, none),
@@ -132,6 +140,21 @@ pub(crate) fn measure() {
             1e9 * time,
             time / times[0]
         );
+    }
+}
+
+/// Blades in four coordinates, the displacements of their first contact nodes, that hardly bend.
+fn bending(nodes: usize) -> BladeBending {
+    let count = products(4).count();
+    BladeBending {
+        asked: 4,
+        rows: Vec::new(),
+        potential: Potential::new(
+            Mat::from_fn(4, count, |_, _| 1e-3),
+            Mat::from_fn(count, count, |_, _| 1e-3),
+        ),
+        linear: Mat::from_fn(3 * nodes, 4, |_, _| 1e-5),
+        second_order: Mat::from_fn(3 * nodes, count, |_, _| 1e-5),
     }
 }
 

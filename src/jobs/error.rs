@@ -56,6 +56,18 @@ impl Interruption {
         Self::Failed(Failure { cause: FailureCause::Memory, message, violations: Vec::new() })
     }
 
+    /// Failure of a job for which the bending of second order needs more memory than there is.
+    pub(super) fn bending_memory(TooLarge { needed, allowed }: TooLarge) -> Self {
+        let mib = |bytes: u64| bytes as f64 / f64::from(1 << 20);
+        let message = format!(
+            "the bending of second order of this model needs about {:.1} MiB of memory and may take {:.1} MiB: leave \
+             `geometric_nonlinearity` away, {MORE_MEMORY}",
+            mib(needed),
+            mib(allowed)
+        );
+        Self::Failed(Failure { cause: FailureCause::Memory, message, violations: Vec::new() })
+    }
+
     /// Failure of a job whose owner has too much already.
     pub(super) fn limit(reached: LimitReached) -> Self {
         let message = reached.to_string();

@@ -21,6 +21,7 @@
 //! a small job is never more than a few speeds away from its turn. A reduction may take minutes of one thread: of the
 //! large ones only one runs at a time (`memory`), so that with two threads or more the other jobs go on.
 
+mod bending;
 mod calibration;
 mod choice;
 #[cfg_attr(feature = "cluster", path = "cluster/shared/mod.rs")]

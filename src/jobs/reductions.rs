@@ -3,6 +3,7 @@
 use std::collections::{HashMap, VecDeque};
 use std::sync::{Arc, Mutex, PoisonError};
 
+use super::bending;
 use super::computing::Computing;
 use super::error::Interruption;
 use super::euler_load;
@@ -42,6 +43,8 @@ struct Beside {
     growth: bool,
     /// Whether the Euler force is wanted.
     euler_force: bool,
+    /// Number of coordinates in which second-order bending is wanted.
+    bending: Option<u32>,
     /// Whether rows of the basis at all nodes are wanted: they must be there, must not, or, with `None`, are stored if it reduces.
     fields: Option<bool>,
 }
@@ -49,7 +52,7 @@ struct Beside {
 impl Beside {
     /// Whether the basis itself must be there.
     fn needs_basis(&self) -> bool {
-        self.fields == Some(true)
+        self.fields == Some(true) || self.bending.is_some()
     }
 
     /// Whether `reduced` has all that is wanted.
@@ -57,7 +60,13 @@ impl Beside {
         let tells = self.stress_outside.is_none_or(|radius| reduced.tells_stress(radius));
         let grows = reduced.growth.is_some() || !self.growth;
         let pushes = reduced.euler_load.is_some() || !self.euler_force;
-        tells && grows && pushes && reduced.reads(&self.nodes) && (reduced.has_basis || !self.needs_basis())
+        let bends = self.bending.is_none_or(|coordinates| reduced.bends_in(coordinates));
+        tells
+            && grows
+            && pushes
+            && bends
+            && reduced.reads(&self.nodes)
+            && (reduced.has_basis || !self.needs_basis())
     }
 }
 
@@ -130,6 +139,7 @@ impl Reductions {
             nodes: sweep.sensor_nodes(),
             stress_outside: sweep.stress_outside(),
             growth: sweep.has_cold_clearances(),
+            bending: sweep.bending_coordinates(),
             ..beside
         };
         self.reading(sweep.model(), sweep.modes_per_speed(), &beside, monitor).await
@@ -313,6 +323,8 @@ impl Reductions {
         self.growth(key, &mut reduced, beside, &monitor).await?;
         let pushed = self.euler_load(key, &mut reduced, beside, &monitor).await?;
         pushed.map_err(|error| Interruption::Store(StoreError::File(error)))?;
+        let bent = self.bending(key, &mut reduced, beside, &monitor).await?;
+        bent.map_err(|error| Interruption::Store(StoreError::File(error)))?;
         Ok(self.remember(key, reduced))
     }
 
@@ -339,6 +351,9 @@ impl Reductions {
             reduced.has_basis = true;
         }
         if let Err(error) = self.euler_load(key, reduced, beside, monitor).await? {
+            return Ok(Err(error));
+        }
+        if let Err(error) = self.bending(key, reduced, beside, monitor).await? {
             return Ok(Err(error));
         }
         let stress = self.stress(key, reduced, beside, monitor).await?;
@@ -396,6 +411,29 @@ impl Reductions {
         let read = move || euler_load::from_package(&package, (&basis, &wheel));
         let read = self.computing.run(monitor.watch(), read).await??;
         Ok(read.map(|load| reduced.euler_load = Some(Arc::new(load))))
+    }
+
+    /// Adds to `reduced` the bending of second order, if it is wanted; makes it from the mesh and the basis.
+    async fn bending(
+        &self,
+        (model, modes_per_speed): &Key,
+        reduced: &mut ReducedSector,
+        beside: &Beside,
+        monitor: &PhaseMonitor,
+    ) -> Result<std::io::Result<()>, Interruption> {
+        let Some(coordinates) = beside.bending.filter(|&wanted| !reduced.bends_in(wanted)) else {
+            return Ok(Ok(()));
+        };
+        let making = bending::Making {
+            package: self.store.package(model).await?,
+            basis: self.store.basis(model, *modes_per_speed),
+            wheel: Arc::clone(&reduced.wheel),
+            coordinates: coordinates as usize,
+            memory: Arc::clone(&self.memory),
+            monitor: monitor.clone(),
+        };
+        let made = bending::make(&self.computing, making).await?;
+        Ok(made.map(|made| reduced.bending = Some(Arc::new(made))))
     }
 
     /// Adds to `reduced` the stress that is wanted, if any is; makes it if it is not there.

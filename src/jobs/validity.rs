@@ -80,7 +80,7 @@ async fn bent(
 }
 
 /// Elements and nodes of a package; none for a package without elements.
-fn mesh_and_nodes(package: &Path) -> Result<Option<(SectorMesh, Vec<SectorNode>)>, Interruption> {
+pub(super) fn mesh_and_nodes(package: &Path) -> Result<Option<(SectorMesh, Vec<SectorNode>)>, Interruption> {
     let limits = Limits::default();
     let mesh = package::read_mesh(package, &limits).map_err(Interruption::stored_package)?;
     let Some(mesh) = mesh else { return Ok(None) };

@@ -1,11 +1,16 @@
 //! Scenes with effects through the door: which run together, which are refused by name, and which must agree.
 
+use std::sync::Arc;
+
+use faer::{Mat, c64};
 use rubmap::analysis::error::AnalysisError;
 use rubmap::analysis::monitor::Unwatched;
 use rubmap::analysis::request::{SchemeChoice, SweepRequest};
 use rubmap::analysis::result::{Point, SpeedResult};
-use rubmap::analysis::run::{ModelFacts, ReducedSector, check, resolve_sweep, run_speed};
+use rubmap::analysis::run::{MeshFacts, ModelFacts, ReducedSector, check, resolve_sweep, run_speed};
+use rubmap::dynamics::bending::{BladeBending, Potential};
 use rubmap::dynamics::sector::SectorModel;
+use rubmap::numerics::sector_fourier::is_single;
 use serde_json::{Value, json};
 
 use crate::fixtures::{WheelRecipe, gyroscopic, wheel};
@@ -38,6 +43,7 @@ fn effects() -> Vec<(&'static str, Value)> {
                 {"nodal_diameter": 0, "frequency_hz": 2000.0, "modal_mass": 1e-3},
                 {"nodal_diameter": 2, "frequency_hz": 500.0, "modal_mass": 1e-3}]}}),
         ),
+        ("geometric_nonlinearity", json!({"geometric_nonlinearity": {"include": "full", "coordinates": 2}})),
         ("mistuning", json!({"mistuning": {"spread": 0.03, "seed": 7}})),
         (
             "engine_order_excitation",
@@ -57,6 +63,36 @@ fn effects() -> Vec<(&'static str, Value)> {
         ("exact", json!({"symmetry": "exact"})),
         ("probe", json!({"symmetry": "probe"})),
     ]
+}
+
+/// Facts of a sector that is taken to have a mesh.
+fn facts(sector: &SectorModel) -> ModelFacts {
+    let mesh = MeshFacts { elements: 1, sets: Vec::new(), tip_thickness: None };
+    ModelFacts { mesh: Some(mesh), ..ModelFacts::of(sector) }
+}
+
+/// Reduction whose blades bend far in two coordinates, of no particular shape.
+fn bending(reduced: ReducedSector) -> ReducedSector {
+    let number = |seed: usize| (12.9898 * (seed + 1) as f64).sin();
+    let rows = reduced.wheel.harmonics.iter().map(|harmonic| {
+        Mat::from_fn(2, harmonic.mass.ncols(), |j, unknown| {
+            let imaginary = if is_single(harmonic.harmonic, reduced.wheel.sectors) { 0.0 } else { 0.3 };
+            let seed = 40 * harmonic.harmonic + 2 * unknown + j;
+            c64::new(0.2 * number(seed), 0.2 * imaginary * number(seed + 500))
+        })
+    });
+    let nodes = reduced.wheel.contact.len();
+    let blade = BladeBending {
+        asked: 2,
+        rows: rows.collect(),
+        potential: Potential::new(
+            Mat::from_fn(2, 3, |j, a| number(j + 2 * a)),
+            Mat::from_fn(3, 3, |a, b| 20.0 * f64::from(u8::from(a == b))),
+        ),
+        linear: Mat::from_fn(3 * nodes, 2, |row, j| 0.1 * number(row + 60 * j)),
+        second_order: Mat::from_fn(3 * nodes, 3, |row, a| 0.05 * number(row + 30 * a)),
+    };
+    ReducedSector { bending: Some(Arc::new(blade)), ..reduced }
 }
 
 /// Request for a sweep over `speeds` with two lobes beyond the clearance and the fields of `scene`.
@@ -80,7 +116,7 @@ fn request(speeds: &[f64], scene: &[&Value], integration: Value) -> SweepRequest
 }
 
 fn run(reduced: &ReducedSector, sector: &SectorModel, request: SweepRequest) -> SpeedResult {
-    let request = resolve_sweep(request, &ModelFacts::of(sector)).unwrap();
+    let request = resolve_sweep(request, &facts(sector)).unwrap();
     run_speed(reduced, &request, 0, None, &Unwatched).unwrap()
 }
 
@@ -88,7 +124,7 @@ fn run(reduced: &ReducedSector, sector: &SectorModel, request: SweepRequest) -> 
 #[test]
 fn every_pair_of_effects_runs_or_is_refused_by_name() {
     let sector = sector();
-    let (facts, reduced) = (ModelFacts::of(&sector), reduced(&sector, 6));
+    let (facts, reduced) = (facts(&sector), bending(reduced(&sector, 6)));
     let effects = effects();
     let mut refused = Vec::new();
     for (i, (a, fields)) in effects.iter().enumerate() {
@@ -114,7 +150,9 @@ fn every_pair_of_effects_runs_or_is_refused_by_name() {
         }
     }
     let expected = [
+        ("friction", "geometric_nonlinearity"),
         ("disc", "abradable"),
+        ("disc", "geometric_nonlinearity"),
         ("abradable", "exact"),
         ("mistuning", "exact"),
         ("mistuning", "probe"),
@@ -129,7 +167,7 @@ fn every_pair_of_effects_runs_or_is_refused_by_name() {
 #[test]
 fn every_effect_changes_the_response() {
     let sector = sector();
-    let reduced = reduced(&sector, 6);
+    let reduced = bending(reduced(&sector, 6));
     let spectra =
         |scene: &[&Value]| run(&reduced, &sector, request(&[SPEED], scene, json!({}))).spectra.unwrap();
     let plain = spectra(&[]);
@@ -145,11 +183,13 @@ fn every_effect_changes_the_response() {
 #[test]
 fn exact_symmetry_says_what_the_whole_wheel_says() {
     let sector = sector();
-    let reduced = reduced(&sector, 6);
+    let reduced = bending(reduced(&sector, 6));
     let names = ["coriolis", "friction", "disc", "flexible_casing", "engine_order_excitation", "initial"];
     let all = effects();
     let alone = names.map(|name| vec![name]);
-    for named in alone.iter().chain([&Vec::new(), &names.to_vec()]) {
+    let bent =
+        [vec!["geometric_nonlinearity"], vec!["geometric_nonlinearity", "coriolis", "flexible_casing"]];
+    for named in alone.iter().chain(&bent).chain([&Vec::new(), &names.to_vec()]) {
         let fields: Vec<_> = all.iter().filter(|(name, _)| named.contains(name)).map(|(_, f)| f).collect();
         let exact = json!({"symmetry": "exact"});
         let sensors = |mut request: SweepRequest| {

@@ -315,6 +315,7 @@ impl Scene {
                 clearance_change: self.clearance_change.as_ref(),
                 clearance_drift: None,
                 mistuning: self.mistuning.as_deref(),
+                bending: None,
                 excitation: &self.excitation,
                 euler_force: None,
                 energies: false,

@@ -13,6 +13,7 @@ use crate::stress::ReducedStress;
 use crate::tip_growth::TipGrowth;
 use crate::tip_thickness::tip_thickness;
 use rubmap_solid::mesh::SectorMesh;
+use rubmap_wheel::dynamics::bending::BladeBending;
 use rubmap_wheel::dynamics::casing::arc_lengths;
 use rubmap_wheel::dynamics::findings::{DigitNoise, Findings, InSi};
 use rubmap_wheel::dynamics::modal_wheel::natural_frequencies;
@@ -41,6 +42,9 @@ pub struct ReducedSector {
     /// Euler force in reduced coordinates, where the speed changes and it is asked for; stored beside the reduction.
     #[serde(skip)]
     pub euler_load: Option<Arc<EulerLoad>>,
+    /// Second-order bending of a blade, where blades bend far.
+    #[serde(skip)]
+    pub bending: Option<Arc<BladeBending>>,
     /// Whether the rows of the basis at all nodes are stored beside the reduction.
     #[serde(skip)]
     pub has_basis: bool,
@@ -89,6 +93,11 @@ impl ReducedSector {
             euler_load: Some(self.euler_load.clone().unwrap_or_else(|| Arc::new(EulerLoad::none()))),
             ..self.clone()
         }
+    }
+
+    /// Whether the bending of second order that was made is in so many coordinates.
+    pub fn bends_in(&self, coordinates: u32) -> bool {
+        self.bending.as_ref().is_some_and(|blade| blade.asked == coordinates as usize)
     }
 
     /// Whether the stress that was read excludes exactly this radius about the contact nodes.

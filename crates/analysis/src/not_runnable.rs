@@ -24,6 +24,9 @@ pub(crate) enum NotRunnable {
     /// Euler force that was not read beside the reduction.
     #[error("the Euler force was not read, and this run-up has it")]
     UnreadEulerForce,
+    /// Bending of second order that was not read beside the reduction.
+    #[error("the bending of second order was not read, and this scene has it")]
+    UnreadBending,
     /// Sensor along the normal of a node that has none.
     #[error("node {id}, where a sensor is, has no normal: only contact nodes have")]
     NoNormal { id: u64 },

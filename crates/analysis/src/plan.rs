@@ -14,6 +14,7 @@ use crate::effects::symmetry::request::Symmetry;
 use crate::effects::table::planned;
 use crate::measured;
 use crate::model::{ModelFacts, ReducedSector};
+use crate::nonlinear::with_bending_cost;
 use crate::refine::most_added;
 use crate::request::{FamiliesBy, HistorySpeeds, Recorded, SweepDirection};
 use crate::resolve::recorded::{lines, revolutions};
@@ -70,6 +71,7 @@ pub(crate) fn plan_sweep(
         machine: None,
         estimate: reduced.and_then(|reduced| {
             let all = estimate(&points, speeds, workers, reduced_bytes(reduced))?;
+            let all = with_bending_cost(all, request, facts);
             let recorded = recorded_speeds(request);
             if recorded.is_empty() {
                 return Some(all);

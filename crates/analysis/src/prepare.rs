@@ -47,6 +47,7 @@ pub fn prepare(
         stress: None,
         growth: None,
         euler_load: None,
+        bending: None,
         has_basis: false,
         tip_thickness: None,
         families: FamilyTracks::default(),

@@ -10,6 +10,7 @@ pub use crate::check::check;
 pub use crate::contact::{force_map, force_row};
 pub use crate::effects::casing::convert::{clearances, heights};
 pub use crate::effects::casing::measured::{LineError, MeasuredLine, measured_casing};
+pub use crate::fields::BasisProduct;
 pub use crate::histories::{histories_wanted, speed_histories};
 pub use crate::kinds::campaign::answer::campaign;
 pub use crate::kinds::modal_analysis::compute::modal_analysis;
@@ -20,7 +21,9 @@ pub use crate::kinds::study::resolve::resolve_study;
 pub use crate::kinds::study::work_precision::work_precision;
 pub use crate::measured::{judge_by_measures, largest_motion, speeds_to_measure};
 pub use crate::model::{MeshFacts, ModelFacts, ReducedSector};
-pub use crate::nonlinear::{Bent, LargestMotion, NotMeasured, measure, measuring_bytes};
+pub use crate::nonlinear::{
+    BasisProjection, Bent, LargestMotion, NotMeasured, bending_bytes, blade_bending, measure, measuring_bytes,
+};
 pub use crate::plan::{histories_memory, most_basis_bytes, trial_memory};
 pub use crate::prepare::prepare;
 pub use crate::refine::refine;

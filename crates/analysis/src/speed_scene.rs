@@ -1,6 +1,7 @@
 //! Scene at one speed: its wheel and its stepping, made once, and runs of them.
 
 use std::borrow::Cow;
+use std::sync::Arc;
 
 use crate::effects::casing::convert::{casing, check_table, lasting_clearance, running_clearance};
 use crate::effects::damping::convert::modal_damping;
@@ -16,6 +17,7 @@ use crate::steady::{Simulated, repeats, run_steady};
 use crate::stepping::{Stepping, touching};
 use crate::wheel::wheel_of;
 use rubmap_wheel::dynamics::casing::Casing;
+use rubmap_wheel::dynamics::error::ModelError;
 use rubmap_wheel::dynamics::initial::InitialMode;
 use rubmap_wheel::dynamics::integrate::{Detail, Revolutions, Simulation};
 use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
@@ -166,9 +168,17 @@ impl<'a> SpeedScene<'a> {
         let damping = modal_damping(request, sector, wheel)?;
         let clearance = running_clearance(sector, request, wheel.speed_rad_s)?;
         let casing = self.casing(clearance, ramp_revolutions)?;
-        let surroundings = Surroundings { contact_nodes, sectors: wheel.around(), ramp_revolutions };
+        let (mut wheel, sensors) = sensed(sector, wheel, request)?;
+        let bending = sector.bending.as_ref().filter(|_| request.scene.geometric_nonlinearity.is_some());
+        let bending = bending.map(|blade| {
+            let stiffening = request.scene.centrifugal_stiffening;
+            let first = blade.join(wheel.to_mut(), &sector.wheel, stiffening)?;
+            Ok::<_, ModelError>((Arc::clone(blade), first))
+        });
+        let sectors = wheel.around();
+        let surroundings =
+            Surroundings { contact_nodes, sectors, ramp_revolutions, bending: bending.transpose()? };
         let effects = SceneEffects::of(&request.scene, &surroundings)?;
-        let (wheel, sensors) = sensed(sector, wheel, request)?;
         Ok(act(Simulation {
             wheel: &wheel,
             contact_nodes,

@@ -38,8 +38,8 @@ pub(super) fn revolutions_taken(request: &ResolvedSweep) -> [u64; 2] {
     let least = ramp_revolutions.ceil() as u64 + LEAST_REVOLUTIONS;
     // The ramp, and what two searches take beyond their most.
     let begun = ramp_revolutions.ceil() as u64 + 2 * MOST_BEYOND * product.ceil() as u64;
-    // No tangent is known of a disc of friction: it is marched.
-    match if scene.has_disc() { SteadyChoice::March } else { steady } {
+    // Without a tangent there is nothing but the march.
+    match if scene.is_marched() { SteadyChoice::March } else { steady } {
         SteadyChoice::March => match revolutions {
             AutoOr::Auto if goes_on(request).is_none() => {
                 let changed = request.scene.clearance_change.as_ref().and_then(|change| change.course.last());

@@ -34,6 +34,9 @@ macro_rules! effects {
             /// Elastic casing; absent: rigid.
             #[serde(default, skip_serializing_if = "Option::is_none")]
             flexible_casing: Option<crate::effects::flexible_casing::request::FlexibleCasing>,
+            /// Blades that bend far; absent: linear theory.
+            #[serde(default, skip_serializing_if = "Option::is_none")]
+            geometric_nonlinearity: Option<crate::effects::geometric_nonlinearity::request::GeometricNonlinearity>,
             /// Stiffness deviations of the sectors; absent: a tuned wheel.
             #[serde(default, skip_serializing_if = "Option::is_none")]
             mistuning: Option<crate::effects::mistuning::request::Mistuning>,

@@ -17,6 +17,7 @@ pub mod damping;
 pub mod engine_order_excitation;
 pub mod flexible_casing;
 pub mod friction;
+pub mod geometric_nonlinearity;
 pub mod initial;
 pub mod mistuning;
 pub mod orbit;

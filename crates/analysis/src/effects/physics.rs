@@ -1,6 +1,9 @@
 //! Effects in the terms of the physics.
 
+use std::sync::Arc;
+
 use crate::not_runnable::NotRunnable;
+use rubmap_wheel::dynamics::bending::BladeBending;
 use rubmap_wheel::dynamics::effects::Effects;
 use rubmap_wheel::dynamics::sector::ContactNode;
 
@@ -16,6 +19,8 @@ pub(crate) struct Surroundings<'a> {
     /// Number of sectors of the whole wheel.
     pub(crate) sectors: usize,
     pub(crate) ramp_revolutions: f64,
+    /// Second-order bending of a blade and the place of its coordinates in the wheel, for blades that bend far.
+    pub(crate) bending: Option<(Arc<BladeBending>, usize)>,
 }
 
 /// Effect that a field of the scene is converted to; none where the scene does not name it.

@@ -162,7 +162,7 @@ pub(crate) fn expected_bytes(elements: usize, dofs: usize, motions: usize) -> u6
     HeldSector::expected_bytes(elements, dofs) + fields_bytes(dofs.div_ceil(3), motions)
 }
 
-fn fields_bytes(nodes: usize, motions: usize) -> u64 {
+pub(super) fn fields_bytes(nodes: usize, motions: usize) -> u64 {
     (200 * nodes * motions) as u64
 }
 
@@ -193,19 +193,24 @@ pub(super) fn fields(
             }
         }
     }
+    own.iter().map(|own| at_nodes((mesh, nodes), own)).collect()
+}
+
+/// Displacements in x, y, z of all nodes, for own DOF of the first sector and of the next one, whose low face is its high face.
+pub(super) fn at_nodes(
+    (mesh, nodes): (&SectorMesh, &[SectorNode]),
+    own: &[Vec<f64>; 2],
+) -> Result<Vec<Vector3<f64>>, NotMeasured> {
     let frame = AxisFrame::new(mesh.axis.0, mesh.axis.1).ok_or(NotRelaxed::CanMove)?;
-    let at_nodes = |own: &[Vec<f64>; 2]| -> Vec<Vector3<f64>> {
-        let displacement = |node: &SectorNode| {
-            let own = &own[usize::from(node.on_high_face)];
-            let mut local = Vector3::zeros();
-            for dof in node.dofs.iter().flatten() {
-                local += Vector3::from(dof.components) * own.get(dof.dof).copied().unwrap_or(0.0);
-            }
-            frame.cylindrical(node.coordinates[1]).tr_mul(&local)
-        };
-        nodes.iter().map(displacement).collect()
+    let displacement = |node: &SectorNode| {
+        let own = &own[usize::from(node.on_high_face)];
+        let mut local = Vector3::zeros();
+        for dof in node.dofs.iter().flatten() {
+            local += Vector3::from(dof.components) * own.get(dof.dof).copied().unwrap_or(0.0);
+        }
+        frame.cylindrical(node.coordinates[1]).tr_mul(&local)
     };
-    Ok(own.iter().map(at_nodes).collect())
+    Ok(nodes.iter().map(displacement).collect())
 }
 
 /// Largest second-order change of the distance to the casing over the clearance, over the contact nodes that have one.
@@ -221,7 +226,7 @@ fn gap(relaxed: &Relaxed, clearance: &[f64], contact: &[ContactNode]) -> Option<
 }
 
 /// Phase e^{jisα} of nodal diameter i in sector s.
-fn phase(sectors: usize, harmonic: usize, sector: usize) -> c64 {
+pub(super) fn phase(sectors: usize, harmonic: usize, sector: usize) -> c64 {
     let (sin, cos) = (TAU * (harmonic * sector % sectors) as f64 / sectors as f64).sin_cos();
     c64::new(cos, sin)
 }

@@ -3,12 +3,16 @@
 //! A linear field has no room for the in-plane shortening that bending brings, so its own energy under Green–Lagrange strain is mostly an
 //! artefact. What remains once everything has relaxed that carries no motion tells how far linear theory holds.
 
+mod bending;
+mod condense;
 mod measure;
 mod modes;
 mod quartic;
 mod relax;
 mod sector;
 
+pub(crate) use bending::with_bending_cost;
+pub use bending::{BasisProjection, bending_bytes, blade_bending};
 pub use measure::{Bent, LargestMotion, NotMeasured, measure, measuring_bytes};
 pub(crate) use measure::{PHASE, expected_bytes, relaxing_seconds};
 

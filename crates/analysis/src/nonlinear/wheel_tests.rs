@@ -8,16 +8,19 @@ use rubmap_model::impeller::{ImpellerParameters, generate};
 use rubmap_model::package::{Limits, read, read_mesh, read_nodes, write};
 use rubmap_solid::frame::AxisFrame;
 use rubmap_solid::mesh::SectorMesh;
+use rubmap_wheel::dynamics::bending::products;
 use rubmap_wheel::dynamics::casing::arc_lengths;
 use rubmap_wheel::dynamics::integrate::Excursion;
 use rubmap_wheel::dynamics::nodes::SectorNode;
 use rubmap_wheel::dynamics::reduction::{BasisRows, Checkpoints};
 use rubmap_wheel::dynamics::sector::SectorModel;
 
-use super::measure::{Bent, LargestMotion, NotMeasured, fields, measure, measuring_bytes};
+use super::bending::{BasisProjection, blade_bending};
+use super::measure::{Bent, LargestMotion, NotMeasured, fields, measure, measuring_bytes, phase};
 use super::relax::Relaxation;
 use super::sector::HeldSector;
 use crate::end_state::EndState;
+use crate::fields::BasisProduct;
 use crate::measured::{judge_by_measures, largest_motion, speeds_to_measure, with_cost};
 use crate::model::{MeshFacts, ModelFacts, ReducedSector};
 use crate::monitor::Unwatched;
@@ -306,4 +309,66 @@ fn sectors_of_the_demos_wheel_at_its_largest_motion() {
     // The other code relaxed by a few damped steps, to 1.11; converged energies lie below.
     let (_, _, relaxed, radial) = found.iter().max_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
     assert!((1.05..1.11).contains(relaxed) && (radial / -0.065 - 1.0).abs() < 0.1, "{relaxed} {radial}");
+}
+
+/// Energy beyond the quadratic one and second-order motion towards the casing of a motion scaled down, condensed on coordinates that the
+/// reduction reads, beside the relaxed field: excess shares and largest motions.
+fn condensed_beside_relaxed(wheel: &Wheel, coordinates: usize, rpm: f64, scale: f64) -> ([f64; 2], [f64; 2]) {
+    let mut worst = wheel.motion(rpm);
+    worst.coordinates.iter_mut().flat_map(|(_, column)| column).for_each(|z| *z *= scale);
+    let (sector, reduced) = ((&wheel.mesh, &wheel.nodes[..]), &*wheel.reduced.wheel);
+    let mut product = |harmonic: usize, columns: MatRef<'_, c64>| Ok(wheel.basis(harmonic, columns));
+    let mut project = |harmonic: usize, load: &[f64]| {
+        let (_, rows) = wheel.bases.iter().find(|(of, _)| *of == harmonic).unwrap();
+        let mut sums = vec![c64::ZERO; rows[0].len() / 2];
+        for (row, load) in rows.iter().zip(load) {
+            for (sum, value) in sums.iter_mut().zip(row.chunks_exact(2)) {
+                *sum += c64::new(value[0], -value[1]) * load;
+            }
+        }
+        Ok(sums)
+    };
+    let maps: (BasisProduct<'_>, BasisProjection<'_>) = (&mut product, &mut project);
+    let blade = blade_bending(sector, reduced, coordinates, maps, &Unwatched).unwrap();
+    let field = fields(sector, reduced, std::slice::from_ref(&worst), &mut product).unwrap().remove(0);
+    let p: Vec<f64> = (0..blade.coordinates())
+        .map(|j| {
+            let of = worst.coordinates.iter().map(|(harmonic, column)| {
+                let row = blade.rows[*harmonic].row(j);
+                let sum: c64 = row.iter().zip(column).map(|(r, z)| r * z).sum();
+                (phase(reduced.sectors, *harmonic, worst.sector) * sum).re
+            });
+            of.sum()
+        })
+        .collect();
+    let held = HeldSector::new(sector.0, sector.1).unwrap();
+    let relaxed = Relaxation::new(&held).unwrap().relax(&field).unwrap();
+    let q: Vec<f64> = products(p.len()).map(|(j, k)| p[j] * p[k]).collect();
+    let towards = |node: usize, to_casing: [f64; 2]| {
+        let [r, _, z] = reduced.contact[node].normal;
+        r * to_casing[0] + z * to_casing[1]
+    };
+    let condensed = |node: usize| {
+        let v = |d: usize| -> f64 {
+            q.iter().enumerate().map(|(a, q)| blade.second_order[(3 * node + d, a)] * q).sum()
+        };
+        let around: f64 = p.iter().enumerate().map(|(j, p)| blade.linear[(3 * node + 1, j)] * p).sum();
+        towards(node, [v(0) + around * around / (2.0 * reduced.contact[node].position[0]), v(2)])
+    };
+    let nodes = 0..reduced.contact.len();
+    let largest = |of: &dyn Fn(usize) -> f64| nodes.clone().map(|node| of(node).abs()).fold(0.0, f64::max);
+    (
+        [blade.potential.energy(&p) / relaxed.linear, relaxed.relaxed / relaxed.linear - 1.0],
+        [largest(&condensed), largest(&|node| towards(node, relaxed.to_casing[node]))],
+    )
+}
+
+#[test]
+fn condensed_bending_of_a_wheel_is_that_of_its_relaxed_fields() {
+    for coordinates in [4, 6] {
+        let ([energy, relaxed], [motion, expected]) =
+            condensed_beside_relaxed(&SMALL, coordinates, 20_000.0, 0.5);
+        println!("{coordinates}: κ {energy} {relaxed}, motion {motion} {expected}");
+        assert!((motion / expected - 1.0).abs() < 0.2, "{coordinates}: {motion} {expected}");
+    }
 }

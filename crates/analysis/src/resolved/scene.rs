@@ -39,6 +39,11 @@ impl Scene {
         self.casing.as_ref().map(|casing| &casing.shape)
     }
 
+    /// Whether no tangent of the motion is known, so that it is always marched.
+    pub(crate) fn is_marched(&self) -> bool {
+        self.has_disc() || self.geometric_nonlinearity.is_some()
+    }
+
     /// Whether tips may stick, and slide in any direction.
     pub(crate) fn has_disc(&self) -> bool {
         self.friction.as_ref().is_some_and(|friction| friction.law == FrictionLaw::Disc)

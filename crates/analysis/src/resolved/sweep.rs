@@ -154,6 +154,11 @@ impl ResolvedSweep {
         self.scene.centrifugal_stiffening
     }
 
+    /// Number of coordinates in which blades bend far; none where the scene has linear theory.
+    pub fn bending_coordinates(&self) -> Option<u32> {
+        self.scene.geometric_nonlinearity.as_ref().map(|of| of.coordinates)
+    }
+
     /// Whether clearances are given cold and the casing may be touched.
     pub fn has_cold_clearances(&self) -> bool {
         let cold = self.scene.casing.as_ref().is_some_and(|casing| casing.given == ClearanceState::Cold);

@@ -90,6 +90,12 @@ pub struct EnergyReport {
     /// Work of mistuning: minus the change of the energy that the stiffness deviations store.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mistuning_work: Option<f64>,
+    /// Work of blades that stiffen: minus the change of their energy beyond the quadratic one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stiffening_work: Option<f64>,
+    /// Largest difference between that work and energy over the largest mechanical energy; of second order in the step.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stiffening_residual: Option<f64>,
     /// Work of the contact forces on the elastic casing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub casing_work: Option<f64>,
@@ -106,8 +112,9 @@ impl EnergyReport {
     /// Reads the energies of a run on one of the `parts` of a wheel, without the works of effects, which add theirs; none if a number is not finite.
     pub(crate) fn of(audit: &EnergyAudit, parts: f64) -> Option<Self> {
         let (initial, last) = audit.ends();
-        let EffectWork { excitation, mistuning, casing, casing_loss, friction_heat } = audit.effects();
-        let of_effects = [excitation, mistuning, casing, casing_loss, friction_heat];
+        let EffectWork { excitation, mistuning, stiffening, casing, casing_loss, friction_heat } =
+            audit.effects();
+        let of_effects = [excitation, mistuning, stiffening, casing, casing_loss, friction_heat];
         let mut all = [initial, last, audit.work(), audit.loss()].into_iter().chain(of_effects);
         all.all(f64::is_finite).then(|| Self {
             initial: parts * initial,
@@ -116,6 +123,8 @@ impl EnergyReport {
             damping_loss: parts * audit.loss(),
             excitation_work: None,
             mistuning_work: None,
+            stiffening_work: None,
+            stiffening_residual: None,
             casing_work: None,
             casing_loss: None,
             friction_heat: None,

@@ -151,8 +151,13 @@ fn check_scene(found: &mut Findings, along: Along, sweep: &ResolvedSweep) {
     );
 }
 
-/// Requires that everything the wheel may touch repeats.
+/// Requires that everything the wheel may touch repeats, and that its motion has a tangent.
 fn check_repeats(found: &mut Findings, scene: &Scene) {
+    found.require(
+        scene.geometric_nonlinearity.is_none(),
+        "/scene/geometric_nonlinearity",
+        PassageError::Bending.to_string(),
+    );
     if scene.contact.is_none() {
         return;
     }

@@ -1,0 +1,61 @@
+//! Checks of blades that bend far.
+
+use crate::model::ModelFacts;
+use crate::resolve::findings::Findings;
+use crate::resolved::ResolvedSweep;
+use rubmap_wheel::dynamics::bending::MOST_COORDINATES;
+
+const AT: &str = "/scene/geometric_nonlinearity";
+
+pub(super) fn check(found: &mut Findings, request: &ResolvedSweep, facts: &ModelFacts) {
+    let Some(asked) = &request.scene.geometric_nonlinearity else { return };
+    found.require(
+        facts.mesh.is_some(),
+        AT,
+        "the model has no mesh, from which the bending of second order is made: upload a package with elements, or leave this away",
+    );
+    found.require(
+        request.fields() != Some(false),
+        "/record/fields",
+        "the bending of second order is made from the rows of the basis: let them be stored",
+    );
+    found.require(
+        (1..=MOST_COORDINATES as u32).contains(&asked.coordinates),
+        &format!("{AT}/coordinates"),
+        format!("between 1 and {MOST_COORDINATES} coordinates"),
+    );
+    found.require(
+        request.scene.friction.is_none(),
+        "/scene/friction",
+        "friction on blades that bend far is not known: leave it or `geometric_nonlinearity` away",
+    );
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::resolved::from_json;
+
+    #[test]
+    fn refusals_point_at_their_fields() {
+        let pointers = |scene: serde_json::Value| {
+            let request = from_json::sweep(serde_json::json!({
+                "model": "", "speeds": {"values": [1.0], "unit": "rad_s"}, "scene": scene, "integration": {}
+            }));
+            let mut found = Findings::default();
+            check(&mut found, &request, &ModelFacts::of_ten_sectors(16));
+            found.0.into_iter().map(|violation| violation.pointer).collect::<Vec<_>>()
+        };
+        // The model has no mesh.
+        let bent = |coordinates: u32| serde_json::json!({"include": "full", "coordinates": coordinates});
+        assert_eq!(pointers(serde_json::json!({})), [""; 0]);
+        assert_eq!(pointers(serde_json::json!({"geometric_nonlinearity": bent(4)})), [AT]);
+        for coordinates in [0, 9] {
+            let refused = pointers(serde_json::json!({"geometric_nonlinearity": bent(coordinates)}));
+            assert_eq!(refused, [AT.to_owned(), format!("{AT}/coordinates")]);
+        }
+        let friction = serde_json::json!({"coefficient": 0.1});
+        let refused = pointers(serde_json::json!({"geometric_nonlinearity": bent(2), "friction": friction}));
+        assert_eq!(refused, [AT, "/scene/friction"]);
+    }
+}

@@ -1,0 +1,16 @@
+//! Record of the work of blades that stiffen.
+
+use super::request::Bending;
+use crate::effects::effect::Ran;
+use crate::result::Point;
+
+pub(super) fn record(point: &mut Point, ran: &Ran<'_>) {
+    let stiffens =
+        ran.request.scene.geometric_nonlinearity.as_ref().is_some_and(|of| of.include == Bending::Full);
+    if let Some(energy) = &mut point.energy
+        && stiffens
+    {
+        energy.stiffening_work = Some(ran.parts * ran.run.energy.effects().stiffening);
+        energy.stiffening_residual = ran.run.energy.stiffening_residual();
+    }
+}
