@@ -153,6 +153,11 @@ coriolis|Coriolis forces||Forward and backward waves get frequencies of their ow
 coriolis|Coriolis forces||Forward and backward waves get frequencies of their own. Needs the gyroscopic matrix.
 # scene
 mistuning|Mistuning||Sectors that differ in stiffness.
+# scene
+geometric_nonlinearity|Blades that bend far||Off: linear theory. Needs a mesh.
+# geometric_nonlinearity
+include|Included
+coordinates|Coordinates of a blade
 # mistuning
 spread|Standard deviation|of the stiffness
 deviations|Deviations|of the stiffness

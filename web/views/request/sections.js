@@ -50,7 +50,7 @@ function differs(value, begun, pointers) {
  * @returns {import('../../lib/form/form.js').Section[]}
  */
 export function sectionsOf({ value, begun, units, wheel, campbell, dial }) {
-  const scene = ['contact', 'friction', 'abradable', 'clearance_change', 'centrifugal_stiffening', 'coriolis', 'mistuning', 'initial', 'flexible_casing', 'orbit', 'engine_order_excitation', 'symmetry', 'probe'];
+  const scene = ['contact', 'friction', 'abradable', 'clearance_change', 'centrifugal_stiffening', 'coriolis', 'geometric_nonlinearity', 'mistuning', 'initial', 'flexible_casing', 'orbit', 'engine_order_excitation', 'symmetry', 'probe'];
   const at = (...names) => names.map((name) => `/scene/${name}`);
   const open = (...pointers) => differs(value, begun, pointers);
   const recorded = ['/sensors', '/record', '/stress', '/fields'];
@@ -66,7 +66,7 @@ export function sectionsOf({ value, begun, units, wheel, campbell, dial }) {
       title: 'Effects', open: open(...at(...scene), '/euler_force'), state: effects,
       groups: [
         { title: 'At the contact', parts: at('contact', 'friction', 'abradable', 'clearance_change') },
-        { title: 'In the wheel', parts: [...at('centrifugal_stiffening', 'coriolis', 'mistuning', 'initial'), '/euler_force'] },
+        { title: 'In the wheel', parts: [...at('centrifugal_stiffening', 'coriolis', 'geometric_nonlinearity', 'mistuning', 'initial'), '/euler_force'] },
         { title: 'Around it', parts: at('flexible_casing', 'orbit', 'engine_order_excitation') },
         { title: 'How it is computed', parts: at('symmetry', 'probe'), rest: ['/scene'] },
       ],
