@@ -74,6 +74,28 @@ fn without_a_known_error_a_fifth_of_the_limit_is_open() {
     assert_eq!((waiting.word(), waiting.open()), (Undecided, vec![OpenKind::ErrorUnknown]));
 }
 
+/// The control run at speed 5 does not repeat: its level of 0.28 instead of 0.35 is chance, and not the error of the speeds beside it, which was
+/// taken from it once.
+#[test]
+fn the_error_of_a_motion_that_does_not_repeat_is_that_of_its_own_speed() {
+    let fine = 0.35 / 1.004;
+    let scene = |repeats: bool, limit: f64| {
+        let controls = [(5, 0.28, repeats), (10, fine, true), (15, fine, true)];
+        Scene::flat(0.5).limited(json!({"tip_motion": limit})).controlled(&controls).verdict()
+    };
+    let open = |repeats: bool, limit: f64| {
+        let found = scene(repeats, limit);
+        found.would_decide.into_iter().map(|open| (open.what, open.speeds)).collect::<Vec<_>>()
+    };
+    // 2.5 times a fourth: 0.5 may be 0.81. A fourth from a run that repeats is the error of the neighbourhood.
+    assert_eq!(open(true, 0.7), [(OpenKind::ErrorAcrossLimit, (5..10).collect())]);
+    assert_eq!(open(false, 0.7), [(OpenKind::ErrorAcrossLimit, vec![5])]);
+    // Where the value is within a fifth of its limit, an unknown error leaves it open.
+    let unknown = [(OpenKind::ErrorAcrossLimit, vec![5]), (OpenKind::ErrorUnknown, (6..10).collect())];
+    assert_eq!(open(false, 0.6), unknown);
+    assert_eq!(scene(false, 0.6).verdict, Undecided);
+}
+
 #[test]
 fn only_what_lies_in_a_range_or_its_separation_counts() {
     // A limit is passed at one speed, by a single sharp value that is no resolved peak but beside the range.
