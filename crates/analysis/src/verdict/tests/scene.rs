@@ -6,7 +6,7 @@ use crate::request::{AutoOr, SchemeChoice, Setting, SweepRequest};
 use crate::resolved::ResolvedSweep;
 use crate::result::{ErrorEstimate, OpenKind, Point, SpeedSpectra, SweepVerdict, Trial, VerdictWord};
 use crate::run::{FinerRun, error_estimate};
-use crate::verdict::{Evidence, judge};
+use crate::verdict::{Evidence, coverage_warnings, judge};
 use rubmap_wheel::dynamics::sector::Units;
 use rubmap_wheel::response::campbell::DrivenCrossing;
 
@@ -128,7 +128,8 @@ impl Scene {
         self
     }
 
-    pub(super) fn verdict(&self) -> SweepVerdict {
+    /// Request of the scene, resolved.
+    fn request(&self) -> ResolvedSweep {
         let mut request = json!({
             "model": "m", "speeds": {"values": self.speeds, "unit": "rad_s"}, "scene": {"contact": {}},
             "sensors": [],
@@ -143,7 +144,16 @@ impl Scene {
             request[*field] = value.clone();
         }
         let request: SweepRequest = serde_json::from_value(request).unwrap();
-        let request = ResolvedSweep::stored(request, 0).unwrap();
+        ResolvedSweep::stored(request, 0).unwrap()
+    }
+
+    /// Warnings of the plan about ranges without speeds.
+    pub(super) fn warnings(&self) -> Vec<String> {
+        coverage_warnings(&self.request())
+    }
+
+    pub(super) fn verdict(&self) -> SweepVerdict {
+        let request = self.request();
         let finished = self.points.iter().filter(|point| !point.is_null());
         let points: Vec<Point> =
             finished.map(|point| serde_json::from_value(point.clone()).unwrap()).collect();

@@ -257,7 +257,17 @@ fn a_range_must_be_covered_by_speeds() {
         for (index, point) in scene.points.iter_mut().enumerate() {
             point["index"] = index.into();
         }
+        assert_eq!(scene.warnings().len(), 1, "{from} {to}");
         scene
+    assert!(flat(100.0, 120.0).warnings().is_empty());
+    // The plan names the stretch: 99.9 and 100 rad/s.
+    assert_eq!(
+        flat(99.9, 110.0).warnings(),
+        [
+            "the verdict on range \"run\" will be undecided: no speeds were asked for from 954 rpm to 955 rpm; ask for `speeds` over the whole \
+          range and its separation, in steps of at most 5 %"
+        ]
+    );
     };
     assert_eq!(gap(8..13).open(), [OpenKind::RangeNotCovered]);
     assert_eq!(gap(8..12).word(), Clear);
@@ -295,6 +305,8 @@ fn without_limits_or_ranges_the_verdict_says_so() {
         Scene::flat(0.1).limited(json!({"utilisation": 1.0})).adding(0..21, "stress", &stress(None));
     assert!(no_strength.verdict().would_decide[0].remedy.starts_with("strengths"));
 }
+        assert_eq!(coarse.warnings().len(), 1);
+        assert!(coarse.limited(Value::Null).warnings().is_empty(), "a request that asks for no verdict");
 
 #[test]
 fn the_three_worst_speeds_are_those_closest_to_a_limit() {
