@@ -17,7 +17,7 @@ use crate::span::Span;
 const WAIT: &str = "wait until the job has ended; if it was cancelled or failed, post its request again";
 
 /// Range with everything by which its open questions are found.
-pub(super) struct Ground<'a> {
+pub(super) struct RangeEvidence<'a> {
     pub(super) request: &'a ResolvedSweep,
     pub(super) span: &'a Span,
     pub(super) range: &'a RangeVerdict,
@@ -27,21 +27,21 @@ pub(super) struct Ground<'a> {
 }
 
 /// Questions that are open in a range.
-pub(super) fn questions(ground: &Ground) -> Vec<OpenQuestion> {
+pub(super) fn questions(evidence: &RangeEvidence) -> Vec<OpenQuestion> {
     let mut found = Vec::new();
-    found.extend(ground.not_covered());
-    found.extend(ground.beside_critical());
-    found.extend(ground.still());
-    found.extend(ground.without_result());
-    found.extend(ground.not_trusted());
-    found.extend(ground.of_peaks());
-    for &(kind, allowed) in &ground.seen.asked.limits {
-        found.extend(ground.of_limit(kind, allowed));
+    found.extend(evidence.not_covered());
+    found.extend(evidence.beside_critical());
+    found.extend(evidence.still());
+    found.extend(evidence.without_result());
+    found.extend(evidence.not_trusted());
+    found.extend(evidence.of_peaks());
+    for &(kind, allowed) in &evidence.seen.asked.limits {
+        found.extend(evidence.of_limit(kind, allowed));
     }
     found
 }
 
-impl Ground<'_> {
+impl RangeEvidence<'_> {
     fn question(&self, what: OpenKind, speeds: Vec<u32>, finding: String, remedy: &str) -> OpenQuestion {
         OpenQuestion { what, range: self.span.name.clone(), speeds, finding, remedy: remedy.to_owned() }
     }
