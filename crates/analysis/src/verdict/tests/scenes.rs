@@ -113,6 +113,15 @@ fn only_what_lies_in_a_range_or_its_separation_counts() {
     assert_eq!(separated(1.0).word(), Act);
     let wide = passed_at(20).ranges(json!([range("run", 105.0, 115.0, 5.0)]));
     assert_eq!((wide.word(), wide.open()), (Act, vec![OpenKind::RangeNotCovered]));
+    // The largest peak may be that of another tip than the one with the largest root mean square.
+    let knock = |index: usize| {
+        let mut scene = Scene::flat(0.1);
+        scene.points[index]["tip"]["largest_half_peak_to_peak"] = json!(2.0);
+        scene
+    };
+    for (index, word) in [(4, Clear), (5, Act)] {
+        assert_eq!(knock(index).word(), word, "{index}");
+    }
     // One of several ranges decides.
     let several =
         passed_at(4).ranges(json!([range("low", 101.0, 104.0, 0.0), range("run", 105.0, 115.0, 0.0)]));
@@ -248,17 +257,8 @@ fn a_range_must_be_covered_by_speeds() {
     for (from, to) in [(99.9, 110.0), (110.0, 120.1), (80.0, 90.0), (130.0, 140.0), (110.2, 110.8)] {
         let scene = flat(from, to);
         assert_eq!((scene.word(), scene.open()), (Undecided, vec![OpenKind::RangeNotCovered]), "{from} {to}");
-    }
-    // A step of 6 % in the middle of the range, and of 5 %.
-    let gap = |removed: std::ops::Range<usize>| {
-        let mut scene = Scene::flat(0.1);
-        scene.speeds.drain(removed.clone());
-        scene.points.drain(removed);
-        for (index, point) in scene.points.iter_mut().enumerate() {
-            point["index"] = index.into();
-        }
         assert_eq!(scene.warnings().len(), 1, "{from} {to}");
-        scene
+    }
     assert!(flat(100.0, 120.0).warnings().is_empty());
     // The plan names the stretch: 99.9 and 100 rad/s.
     assert_eq!(
@@ -268,6 +268,15 @@ fn a_range_must_be_covered_by_speeds() {
           range and its separation, in steps of at most 5 %"
         ]
     );
+    // A step of 6 % in the middle of the range, and of 5 %.
+    let gap = |removed: std::ops::Range<usize>| {
+        let mut scene = Scene::flat(0.1);
+        scene.speeds.drain(removed.clone());
+        scene.points.drain(removed);
+        for (index, point) in scene.points.iter_mut().enumerate() {
+            point["index"] = index.into();
+        }
+        scene
     };
     assert_eq!(gap(8..13).open(), [OpenKind::RangeNotCovered]);
     assert_eq!(gap(8..12).word(), Clear);
@@ -296,6 +305,8 @@ fn without_limits_or_ranges_the_verdict_says_so() {
         coarse.points = speeds.iter().enumerate().map(|(index, &speed)| point(index, speed, 0.1)).collect();
         coarse.speeds = speeds;
         assert_eq!((coarse.word(), coarse.open()), (Undecided, vec![OpenKind::RangeNotCovered]));
+        assert_eq!(coarse.warnings().len(), 1);
+        assert!(coarse.limited(Value::Null).warnings().is_empty(), "a request that asks for no verdict");
     }
     // Without contact no clearance is consumed.
     let bare =
@@ -305,8 +316,6 @@ fn without_limits_or_ranges_the_verdict_says_so() {
         Scene::flat(0.1).limited(json!({"utilisation": 1.0})).adding(0..21, "stress", &stress(None));
     assert!(no_strength.verdict().would_decide[0].remedy.starts_with("strengths"));
 }
-        assert_eq!(coarse.warnings().len(), 1);
-        assert!(coarse.limited(Value::Null).warnings().is_empty(), "a request that asks for no verdict");
 
 #[test]
 fn the_three_worst_speeds_are_those_closest_to_a_limit() {
