@@ -20,7 +20,7 @@ pub use crate::kinds::study::resolve::resolve_study;
 pub use crate::kinds::study::work_precision::work_precision;
 pub use crate::measured::{judge_by_measures, largest_motion, speeds_to_measure};
 pub use crate::model::{MeshFacts, ModelFacts, ReducedSector};
-pub use crate::nonlinear::{Bent, LargestMotion, NotMeasured, measure, measuring_bytes};
+pub use crate::nonlinear::{LargestMotion, MeasuredMotion, NotMeasured, measure, measuring_bytes};
 pub use crate::plan::{histories_memory, most_basis_bytes, trial_memory};
 pub use crate::prepare::prepare;
 pub use crate::refine::refine;

@@ -9,8 +9,8 @@ mod quartic;
 mod relax;
 mod sector;
 
-pub use measure::{Bent, LargestMotion, NotMeasured, measure, measuring_bytes};
-pub(crate) use measure::{PHASE, expected_bytes, relaxing_seconds};
+pub use measure::{LargestMotion, MeasuredMotion, NotMeasured, measure, measuring_bytes};
+pub(crate) use measure::{Neglected, PHASE, expected_bytes, relaxing_seconds};
 
 #[cfg(test)]
 mod tests;
