@@ -96,7 +96,7 @@ impl ShownVerdict {
         };
         if speed.limits.is_empty() {
             let motion = |tip: f64| format!("tip motion {} {}", number(tip), self.units.length);
-            let value = speed.tip.map_or_else(String::new, |tip| motion(tip.half_peak_to_peak));
+            let value = speed.tip.map_or_else(String::new, |tip| motion(tip.peak_motion()));
             return vec![[rpm, place, value, "no limit".to_owned()]];
         }
         let line = |(nth, judged): (usize, &JudgedValue)| {

@@ -13,6 +13,8 @@ pub struct Array {
     pub shape: Vec<usize>,
     /// Elements, as many as the shape says.
     pub values: Values,
+    /// Whether the request gave the name, whose end then says no unit.
+    pub named_by_request: bool,
 }
 
 /// Elements of an array.
@@ -106,6 +108,12 @@ impl Array {
         Self { shape: vec![rows.len(), width], ..Self::reals(name, padded) }
     }
 
+    /// Array under a name that the request gave: its values are converted into no other unit.
+    #[must_use]
+    pub fn under_given_name(self) -> Self {
+        Self { named_by_request: true, ..self }
+    }
+
     /// Divides the first dimension into `parts` equal ones.
     #[must_use]
     pub fn in_parts(mut self, parts: usize) -> Self {
@@ -121,7 +129,7 @@ impl Array {
     }
 
     fn list(name: impl Into<String>, values: Values) -> Self {
-        Self { name: name.into(), shape: vec![values.len()], values }
+        Self { name: name.into(), shape: vec![values.len()], values, named_by_request: false }
     }
 }
 

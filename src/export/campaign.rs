@@ -11,10 +11,8 @@ impl Export for Campaign {
         let parameters = self.settings.parameters.iter().enumerate();
         let mut columns = vec![Array::whole("design", designs().map(|design| design.index))];
         columns.extend(parameters.map(|(place, parameter)| {
-            Array::some_reals(
-                parameter.name.clone(),
-                designs().map(|design| design.values.get(place).copied()),
-            )
+            let values = designs().map(|design| design.values.get(place).copied());
+            Array::some_reals(parameter.name.clone(), values).under_given_name()
         }));
         let severity = severity_column(self.settings.severity, &self.units);
         let own: Vec<&DesignOutcome> = designs().map(|design| &design.outcome).collect();

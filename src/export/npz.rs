@@ -17,7 +17,7 @@ pub fn write(arrays: &[Array], out: &mut dyn Write) -> io::Result<()> {
 
 /// Adds arrays to a file.
 pub(super) fn add<W: Write + Seek>(arrays: &[Array], npz: &mut NpzWriter<W>) -> io::Result<()> {
-    for Array { name, shape, values } in arrays {
+    for Array { name, shape, values, .. } in arrays {
         match values {
             Values::Real(values) => npz.reals(name, shape, values.iter().copied())?,
             Values::Whole(values) => match values.iter().copied().collect::<Option<Vec<u32>>>() {

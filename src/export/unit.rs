@@ -33,7 +33,7 @@ pub(super) fn as_read(name: &str, unit: SpeedUnit) -> Option<(String, f64)> {
 
 /// Puts a table into the units in which engineers read it: speeds in `unit`, rpm without one, and motions in micrometres.
 pub fn for_reading(mut table: Vec<Array>, unit: Option<SpeedUnit>) -> Vec<Array> {
-    for column in &mut table {
+    for column in table.iter_mut().filter(|column| !column.named_by_request) {
         if let Values::Real(values) = &mut column.values
             && let Some((name, factor)) = as_read(&column.name, unit.unwrap_or(SpeedUnit::Rpm))
         {
@@ -60,9 +60,9 @@ pub fn add_to_arrays(arrays: Vec<Array>, unit: Option<SpeedUnit>) -> Vec<Array> 
     let mut all = Vec::with_capacity(arrays.len() + 1);
     for array in arrays {
         let added = match (&array.values, converted(&array.name, unit)) {
-            (Values::Real(values), Some((name, factor))) => {
-                let values = values.iter().map(|value| factor * value).collect();
-                Some(Array { name, shape: array.shape.clone(), values: Values::Real(values) })
+            (Values::Real(values), Some((name, factor))) if !array.named_by_request => {
+                let values = Values::Real(values.iter().map(|value| factor * value).collect());
+                Some(Array { name, values, ..array.clone() })
             }
             _ => None,
         };
@@ -125,6 +125,17 @@ mod tests {
         let names: Vec<&str> = arrays.iter().map(|array| array.name.as_str()).collect();
         assert_eq!(names, ["speeds_rad_s", "speeds_hz", "rms_mm"]);
         assert_eq!(arrays[1].values, Values::Real(vec![1.0]));
+    }
+
+    /// Parameters of a campaign: their names are the user's, and so are their units.
+    #[test]
+    fn names_that_the_request_gave_say_no_unit() {
+        let given = vec![
+            Array::reals("gap_mm", [0.25]).under_given_name(),
+            Array::reals("whirl_rad_s", [3.0]).under_given_name(),
+        ];
+        assert_eq!(for_reading(given.clone(), None), given);
+        assert_eq!(add_to_arrays(given.clone(), Some(SpeedUnit::Rpm)), given);
     }
 
     #[test]

@@ -16,7 +16,7 @@ use super::stream;
 use super::verdict::Judged;
 use crate::analysis::kinds::document::Document;
 use crate::analysis::kinds::modal_analysis::{CAMPBELL, MODAL_ANALYSIS};
-use crate::analysis::kinds::sweep::{CRITICAL_SPEEDS, ERRORS, HISTORIES};
+use crate::analysis::kinds::sweep::{CRITICAL_SPEEDS, ERRORS, HISTORIES, SWEEP};
 use crate::analysis::resolved::ResolvedSweep;
 use crate::analysis::result::{Campbell, CriticalSpeeds, InteractionMap, SpeedHistories, SpeedSpectra};
 use crate::analysis::run::{self, ModelFacts, VERSION};
@@ -41,12 +41,13 @@ const MAP_MEMORY: u64 = 3;
 ///
 /// The page begins with a summary sheet of one side of A4: verdict, level of the wheel over speed, worst speeds, scene, credentials. Then come the request, warnings, credentials, the interaction map at one sensor, critical speeds at all of them, the largest
 /// responses, contact forces, recorded histories of up to three speeds, pictures of up to two whose state was recorded, settings
-/// and version; natural frequencies where a modal analysis of the same model was successful, of several the latest.
+/// and version; natural frequencies where a modal analysis of the same model was successful, of several the latest. A sweep that failed or was
+/// dismissed has a page of its finished speeds, which says so in its title.
 #[utoipa::path(get, path = "/v1/jobs/{id}/report", operation_id = "get_report", tag = "results",
     params(("id" = String, Path, description = "Id of a sweep or of a modal analysis."), SensorQuery),
     responses(
         (status = 200, description = "The page.", body = String, content_type = "text/html"),
-        (status = 409, description = "The job is neither a sweep nor a modal analysis, or it is not successful.",
+        (status = 409, description = "The job is neither a sweep nor a modal analysis, or it is not successful and has no page of finished speeds.",
             body = Problem, content_type = "application/problem+json"),
     ))]
 pub(super) async fn get_report(
@@ -56,7 +57,9 @@ pub(super) async fn get_report(
     Parameters(query): Parameters<SensorQuery>,
 ) -> Result<Response, Problem> {
     let job = find(&state, &whose, id).await?;
-    expect_successful(&job, "the interaction map has the speeds that are done")?;
+    if !is_partial(&job) {
+        expect_successful(&job, "the interaction map has the speeds that are done")?;
+    }
     let (store, runtime) = (state.store.clone(), Handle::current());
     let (bytes, campbell) = match (job.request.get::<ResolvedSweep>(), &job.facts) {
         (Some(request), Some(_)) => {
@@ -104,6 +107,12 @@ pub(super) async fn get_report(
     let (page, leave) = page.await??;
     let page = stream::whole(leave, "text/html; charset=utf-8", page);
     Ok(([(CONTENT_SECURITY_POLICY, POLICY)], page).into_response())
+}
+
+/// Whether the job is a sweep that was cancelled or failed after some of its speeds were finished.
+fn is_partial(job: &Job) -> bool {
+    let was_stopped = matches!(job.status, JobStatus::Failed | JobStatus::Dismissed);
+    was_stopped && job.kind == JobKind(&SWEEP) && job.speeds.finished > 0
 }
 
 /// Latest successful modal analysis of the job's model that the job's owner has.
@@ -239,6 +248,13 @@ fn head(job: &Job, campbell: Option<JobId>) -> Head {
     let program =
         format!("rubmap {VERSION}, commit {}; computed on vectors of kind {vectors}", version::COMMIT);
     rows.push(("program", program));
-    let title = job.labels.name.clone().unwrap_or_else(|| format!("{kind}: {model}"));
+    let mut title = job.labels.name.clone().unwrap_or_else(|| format!("{kind}: {model}"));
+    if is_partial(job) {
+        let how = if job.status == JobStatus::Failed { "failed" } else { "cancelled" };
+        title = format!(
+            "Unfinished ({how} after {} of {} speeds): {title}",
+            job.speeds.finished, job.speeds.total
+        );
+    }
     Head { title, facts: rows, notes: job.labels.notes.clone() }
 }

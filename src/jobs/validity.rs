@@ -11,7 +11,7 @@ use super::progress::PhaseMonitor;
 use crate::analysis::error::AnalysisError;
 use crate::analysis::resolved::ResolvedSweep;
 use crate::analysis::result::Point;
-use crate::analysis::run::{self, Bent, NotMeasured, ReducedSector};
+use crate::analysis::run::{self, MeasuredMotion, NotMeasured, ReducedSector};
 use crate::dynamics::nodes::SectorNode;
 use crate::package::{self, Limits};
 use crate::solid::mesh::SectorMesh;
@@ -34,7 +34,7 @@ pub(super) async fn measured(
     let Some(sector) = engine.computing.run(&job.watch, read).await?? else { return Ok(points) };
     let monitor = PhaseMonitor::uncounted(job.watch.clone());
     let beside = engine.reductions.of_sweep(request, monitor).await?;
-    let measured = bent(engine, job, request, &beside, (sector, &speeds)).await?;
+    let measured = measured_motions(engine, job, request, &beside, (sector, &speeds)).await?;
     if let Err(error) = &measured {
         tracing::warn!(job.id = %job.id, %error, "the validity of linear theory cannot be measured");
     }
@@ -45,13 +45,13 @@ pub(super) async fn measured(
 }
 
 /// Measures the largest motion of each of `speeds`; the inner error says why none could be measured.
-async fn bent(
+async fn measured_motions(
     engine: &Engine,
     job: &Live,
     request: &ResolvedSweep,
     reduced: &Arc<ReducedSector>,
     ((mesh, nodes), speeds): ((SectorMesh, Vec<SectorNode>), &[u32]),
-) -> Result<Result<Vec<Bent>, NotMeasured>, Interruption> {
+) -> Result<Result<Vec<MeasuredMotion>, NotMeasured>, Interruption> {
     let mut motions = Vec::with_capacity(speeds.len());
     for &index in speeds {
         let bytes = job.speed_bytes.load(Ordering::Relaxed);

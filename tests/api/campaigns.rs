@@ -59,7 +59,8 @@ async fn designs_are_what_their_sweeps_are() {
     let app = TestApp::start().await;
     let api = &app.api;
     let model = api.model(model::package(1.0)).await;
-    let request = campaign_of(&model);
+    let mut request = campaign_of(&model);
+    request["parameters"][0]["name"] = json!("clearance_mm");
     let plan = api.post("/v1/campaigns/plan", &request).await;
     assert_eq!(plan.status, 200, "{}", plan.body);
     assert_eq!((&plan.body["reduction"], &plan.body["estimate"]), (&json!("to be computed"), &Value::Null));
@@ -101,8 +102,10 @@ async fn designs_are_what_their_sweeps_are() {
     let csv = get(api, &format!("/v1/jobs/{id}/campaign?format=csv"), &[]).await.good();
     let lines = table(csv.text());
     assert_eq!(lines.len(), 5);
-    let columns = ["design", "clearance", "damping", "amplitude_um", "worst_speed_rpm", "meets_limit"];
+    // Parameters stay as the user gave them, whatever their names end in; what the service computed is converted.
+    let columns = ["design", "clearance_mm", "damping", "amplitude_um", "worst_speed_rpm", "meets_limit"];
     assert!(lines[0].starts_with(&columns), "{:?}", lines[0]);
+    assert_eq!(lines[1][1], "-0.05");
     get(api, &format!("/v1/jobs/{id}/campaign?format=npz"), &[]).await.good();
     let svg = get(api, &format!("/v1/jobs/{id}/campaign?format=svg&parameter=damping"), &[]).await.good();
     assert!(svg.text().contains("over speed and damping"));

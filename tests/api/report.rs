@@ -61,10 +61,32 @@ async fn a_report_has_what_was_asked_and_found() {
         api.finish(other).await;
         api.get(&format!("/v1/jobs/{other}/report")).await.problem(409, "wrong-job-kind");
     }
-    let long = api.sweep(&long_sweep_of(&model, 100)).await;
+    // Cancelled before a speed is finished.
+    let mut long = long_sweep_of(&model, 100);
+    long["integration"]["revolutions"] = json!(5_000);
+    let long = api.sweep(&long).await;
     api.get(&format!("/v1/jobs/{long}/report")).await.problem(409, "result-not-ready");
     api.delete(&format!("/v1/jobs/{long}")).await;
     api.get(&format!("/v1/jobs/{long}/report")).await.problem(409, "result-unavailable");
+    app.stop().await;
+}
+
+/// Verdict and report are those of the finished speeds alike.
+#[tokio::test]
+async fn a_cancelled_sweep_has_the_report_of_its_finished_speeds() {
+    let app = TestApp::start().await;
+    let api = &app.api;
+    let model = api.model(model::package(1.0)).await;
+    let id = api.sweep(&long_sweep_of(&model, 100)).await;
+    api.follow(&id, |job| job["speeds"]["finished"].as_u64() > Some(0)).await;
+    api.delete(&format!("/v1/jobs/{id}")).await;
+    let job = api.get(&format!("/v1/jobs/{id}")).await.body;
+    let finished = job["speeds"]["finished"].as_u64().unwrap();
+    let page = page(api, &format!("/v1/jobs/{id}/report")).await;
+    assert!(page.contains(&format!("<h1>Unfinished (cancelled after {finished} of 100 speeds): ")));
+    let sentence = api.get(&format!("/v1/jobs/{id}/verdict")).await.text("/sentence");
+    let (word, reasons) = sentence.split_once(": ").unwrap();
+    assert!(word == "Undecided" && page.contains(reasons), "{sentence}");
     app.stop().await;
 }
 

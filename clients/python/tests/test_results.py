@@ -70,6 +70,16 @@ def test_tables_are_those_of_the_json(swept: rubmap.Sweep) -> None:
     assert plot.level(points).get_ylabel() == "level, mm rms"
     with pytest.raises(ValueError, match="half_peak_to_peak"):
         plot.level(points, quantity="peak")
+    # The level of the wheel by itself, in the unit of its columns.
+    wheel = swept.level()
+    for quantity, label in (("tip_motion", "tip motion, mm"), ("clearance_consumption", "clearance consumption")):
+        axes = plot.level(wheel, quantity=quantity)
+        column = next(column for column in wheel.columns if column.startswith(f"{quantity}_value"))
+        np.testing.assert_array_equal(np.asarray(axes.lines[0].get_ydata()), wheel[column])
+        assert axes.get_ylabel() == label
+    assert plot.level(wheel).get_ylabel() == "tip motion, mm"
+    with pytest.raises(ValueError, match="tip_motion"):
+        plot.level(wheel, quantity="rms")
     # The orders of a map are most of what moves, and no more.
     of_map = np.asarray(plot.level(swept.interaction_map()).lines[0].get_ydata())
     assert np.all(of_map <= points["response.rms"] * (1 + 1e-9)) and np.all(of_map > 0.9 * points["response.rms"])

@@ -5,7 +5,9 @@ use std::borrow::Cow;
 use crate::error::AnalysisError;
 use crate::model::{ModelFacts, ReducedSector};
 use crate::monitor::Monitor;
-use crate::nonlinear::{Bent, LargestMotion, NotMeasured, PHASE, expected_bytes, relaxing_seconds};
+use crate::nonlinear::{
+    LargestMotion, MeasuredMotion, Neglected, NotMeasured, PHASE, expected_bytes, relaxing_seconds,
+};
 use crate::resolved::ResolvedSweep;
 use crate::result::{CostRange, Estimate, Point, Validity, ValidityMeasure};
 use crate::speed::state_before;
@@ -116,11 +118,11 @@ pub fn largest_motion(
 
 /// Puts measures in the place of guesses by geometry. Where geometry leaves a speed open that was not measured, measures of larger
 /// motions are scaled down, and the worst of them counts: the excess energy in proportion to the motion, in which it is of first order for a
-/// blade that is curved, the second-order motion by its square.
+/// blade that is curved, the second-order motion by its square. A speed without a measure is told why.
 pub fn judge_by_measures(
     points: &mut [Point],
     (reduced, request): (&ReducedSector, &ResolvedSweep),
-    measured: &Result<Vec<Bent>, NotMeasured>,
+    measured: &Result<Vec<MeasuredMotion>, NotMeasured>,
 ) {
     for point in points {
         let Some(validity) = &point.validity else { continue };
@@ -131,21 +133,26 @@ pub fn judge_by_measures(
         match measured {
             Err(error) => point.validity = Some(unmeasured(validity, &error.to_string())),
             Ok(measured) => {
-                let own = measured.iter().find(|bent| bent.index == point.index);
-                let larger = measured.iter().filter(|bent| bent.displacement >= displacement);
-                let candidates: Vec<&Bent> = own.map_or_else(|| larger.collect(), |own| vec![own]);
-                let scale = |bent: &Bent| displacement / bent.displacement;
-                let worst = |of: &dyn Fn(&Bent) -> Option<f64>| {
-                    let values = candidates.iter().filter_map(|bent| Some((of(bent)?.abs(), bent.index)));
-                    values.max_by(|a, b| a.0.total_cmp(&b.0))
+                let own = measured.iter().find(|motion| motion.index == point.index);
+                let larger = measured.iter().filter(|motion| motion.displacement >= displacement);
+                let candidates: Vec<&MeasuredMotion> = own.map_or_else(|| larger.collect(), |own| vec![own]);
+                let worst = |of: &dyn Fn(&Neglected, f64) -> Option<f64>| {
+                    let value = |motion: &&MeasuredMotion| {
+                        let neglected = motion.neglected.as_ref().ok()?;
+                        Some((of(neglected, displacement / motion.displacement)?.abs(), motion.index))
+                    };
+                    candidates.iter().filter_map(value).max_by(|a, b| a.0.total_cmp(&b.0))
                 };
-                if let Some(excess) = worst(&|bent| Some(bent.excess * scale(bent))) {
+                let failure = || candidates.iter().find_map(|motion| motion.neglected.err());
+                if let Some(excess) = worst(&|neglected, scale| Some(neglected.excess * scale)) {
                     let from = |(value, index): (f64, u32)| (value, (index != point.index).then_some(index));
                     point.validity = Some(beside(
                         validity,
                         from(excess),
-                        worst(&|bent| Some(bent.gap? * scale(bent).powi(2))).map(from),
+                        worst(&|neglected, scale| Some(neglected.gap? * scale.powi(2))).map(from),
                     ));
+                } else if let Some(reason) = failure() {
+                    point.validity = Some(unmeasured(validity, &reason.to_string()));
                 }
             }
         }

@@ -26,6 +26,7 @@ use crate::result::{
 use crate::speed_scene::SpeedScene;
 use crate::steady::{self, revolutions_taken};
 use crate::stepping::Stepping;
+use crate::verdict::coverage_warnings;
 use rubmap_numerics::sector_fourier::harmonic_count;
 use rubmap_wheel::dynamics::casing::{Casing, RestrictionTable};
 use rubmap_wheel::dynamics::families::{FamilyWalk, grid};
@@ -80,7 +81,7 @@ pub(crate) fn plan_sweep(
         }),
         points,
         choice: None,
-        warnings: warnings(&request.scene, facts, reduced),
+        warnings: [warnings(&request.scene, facts, reduced), coverage_warnings(request)].concat(),
         pilot_speeds_rad_s: request.is_sought().then(|| pilot_speeds(request)),
         settings: request.clone().into(),
         version: VERSION.to_owned(),

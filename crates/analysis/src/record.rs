@@ -74,7 +74,7 @@ pub(super) fn record_run(
             let contact = contact(run, scene, clearance.as_deref());
             let (summary, forces) = contact.unzip();
             point.contact = summary;
-            point.tip = largest_tip(history, clearance.as_deref(), &sector.wheel.contact);
+            point.tip = largest_tip(&history.tips, clearance.as_deref(), &sector.wheel.contact);
             Some(Recorded { spectra, contact: forces })
         }
         outcome => {

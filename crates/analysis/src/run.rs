@@ -22,7 +22,8 @@ pub use crate::kinds::study::work_precision::work_precision;
 pub use crate::measured::{judge_by_measures, largest_motion, speeds_to_measure};
 pub use crate::model::{MeshFacts, ModelFacts, ReducedSector};
 pub use crate::nonlinear::{
-    BasisProjection, Bent, LargestMotion, NotMeasured, bending_bytes, blade_bending, measure, measuring_bytes,
+    BasisProjection, LargestMotion, MeasuredMotion, NotMeasured, bending_bytes, blade_bending, measure,
+    measuring_bytes,
 };
 pub use crate::plan::{histories_memory, most_basis_bytes, trial_memory};
 pub use crate::prepare::prepare;

@@ -9,24 +9,28 @@ use crate::result::{
 use crate::span::Span;
 use rubmap_wheel::dynamics::casing::arc_lengths;
 use rubmap_wheel::dynamics::direction::COMPONENTS;
-use rubmap_wheel::dynamics::integrate::History;
+use rubmap_wheel::dynamics::integrate::TipMotion;
 use rubmap_wheel::dynamics::sector::ContactNode;
 use rubmap_wheel::response::critical_speed::{Peak, Resolution, peaks};
 
 /// Components in the order of the wheel's motions.
 const IN_ORDER: [Component; COMPONENTS] = [Component::Radial, Component::Tangential, Component::Axial];
 
-/// Tip with the largest root mean square, the first of equal ones.
+/// Relative difference up to which peaks count as one: blades that move alike differ by round-off.
+const SAME_PEAK: f64 = 1e-9;
+
+/// Tip with the largest root mean square, the first of equal ones, from the motions `[sector][contact node][component]`.
 pub(super) fn largest_tip(
-    history: &History,
+    motions: &[TipMotion],
     clearance: Option<&[f64]>,
     contact_nodes: &[ContactNode],
 ) -> Option<TipResponse> {
     let later_if_larger = |best: usize, now: usize| {
-        if history.tips[now].rms > history.tips[best].rms { now } else { best }
+        if motions[now].rms > motions[best].rms { now } else { best }
     };
-    let place = (0..history.tips.len()).reduce(later_if_larger)?;
-    let motion = history.tips[place];
+    let place = (0..motions.len()).reduce(later_if_larger)?;
+    let motion = motions[place];
+    let largest = motions.iter().map(|motion| motion.half_peak_to_peak).fold(0.0, f64::max);
     let (pair, component) = (place / COMPONENTS, place % COMPONENTS);
     let (sector, node) = (pair / contact_nodes.len(), pair % contact_nodes.len());
     let positions: Vec<_> = contact_nodes.iter().map(|node| node.position).collect();
@@ -34,6 +38,8 @@ pub(super) fn largest_tip(
     Some(TipResponse {
         rms: motion.rms,
         half_peak_to_peak: motion.half_peak_to_peak,
+        largest_half_peak_to_peak: (largest > (1.0 + SAME_PEAK) * motion.half_peak_to_peak)
+            .then_some(largest),
         contact_node: node as u32,
         sector: sector as u32,
         component: IN_ORDER[component],
@@ -132,4 +138,29 @@ pub(super) fn wheel_peaks(
         prominent(request, &curve, &level).into_iter().filter_map(critical).collect();
     critical_speeds.sort_by(|a, b| b.severity.total_cmp(&a.severity));
     critical_speeds
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// One blade swings steadily, another is still but for a knock that takes it farther.
+    #[test]
+    fn the_largest_peak_may_be_that_of_a_tip_that_moves_less() {
+        let node = ContactNode { id: 1, position: [9.0, 0.0, 0.0], normal: [1.0, 0.0, 0.0], dofs: [0, 1, 2] };
+        let still = TipMotion { rms: 0.0, half_peak_to_peak: 0.0 };
+        let steady = TipMotion { rms: 0.7, half_peak_to_peak: 1.0 };
+        let knocked = TipMotion { rms: 0.2, half_peak_to_peak: 1.5 };
+        let tip = |motions: [TipMotion; 6]| {
+            largest_tip(&motions, Some(&[2.0]), std::slice::from_ref(&node)).unwrap()
+        };
+        let both = tip([still, steady, still, knocked, still, still]);
+        assert_eq!((both.sector, both.component, both.rms), (0, Component::Tangential, 0.7));
+        assert_eq!((both.half_peak_to_peak, both.over_clearance), (1.0, Some(0.5)));
+        assert_eq!((both.largest_half_peak_to_peak, both.peak_motion()), (Some(1.5), 1.5));
+        // The same motion of another blade, but for round-off.
+        let alike = TipMotion { half_peak_to_peak: 1.0 + 1e-15, ..steady };
+        let alone = tip([still, steady, still, still, alike, still]);
+        assert_eq!((alone.largest_half_peak_to_peak, alone.peak_motion()), (None, 1.0));
+    }
 }

@@ -134,7 +134,9 @@ fn job_line(job: &Job) -> String {
     let name = job.name.as_deref().unwrap_or_default();
     let verdict = job.verdict.map_or("", VerdictWord::as_str);
     let (progress, created) = (job.progress, minute(&job.created_at));
-    format!("{}  {kind:<16} {status:<10} {progress:>3} %  {verdict:<9}  {created}  {name}", job.id)
+    // A job that waits for room on the disk says so in its phase.
+    let phase = &job.phase;
+    format!("{}  {kind:<16} {status:<10} {progress:>3} %  {verdict:<9}  {created}  {name}  {phase}", job.id)
 }
 
 fn model_line(model: &Model) -> String {

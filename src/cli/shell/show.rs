@@ -82,11 +82,13 @@ impl Verb for ShowArgs {
 fn head(job: &Job) -> String {
     let kind = job.kind.replace('_', " ");
     let name = job.name.as_deref().map_or_else(String::new, |name| format!(" {name:?}"));
-    let speeds = match job.speeds.total {
+    // The phase is empty unless the job runs; a job that waits for room on the disk says so in it.
+    let state = match job.speeds.total {
+        _ if !job.phase.is_empty() => format!(", {}", job.phase),
         0 => String::new(),
         total => format!(", {} of {total} speeds", job.speeds.finished),
     };
-    format!("{kind}{name}, {}\n{} at {} %{speeds}", job.id, job.status.as_str(), job.progress)
+    format!("{kind}{name}, {}\n{} at {} %{state}", job.id, job.status.as_str(), job.progress)
 }
 
 /// Table of the critical speeds, the most severe first.

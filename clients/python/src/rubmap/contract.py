@@ -955,6 +955,7 @@ class TipResponse(TypedDict):
     component: Component
     contact_node: int
     half_peak_to_peak: float
+    largest_half_peak_to_peak: NotRequired[float]
     over_chord: NotRequired[float]
     over_clearance: NotRequired[float]
     rms: float

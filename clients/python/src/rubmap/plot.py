@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -66,20 +67,44 @@ def interaction_map(
     return ax
 
 
-def level(found: pd.DataFrame | xr.Dataset, ax: Axes | None = None, quantity: str = "rms") -> Axes:
-    """Level over speed: ``rms``, ``half_peak_to_peak`` or another part of the sensor's response, of :meth:`Sweep.points`; of
-    :meth:`Sweep.interaction_map` the ``rms`` of the engine orders that it has, without the mean."""
+def level(found: pd.DataFrame | xr.Dataset, ax: Axes | None = None, quantity: str | None = None) -> Axes:
+    """Level over speed: of :meth:`Sweep.level` the ``tip_motion`` of the whole wheel or another of its quantities, with its error; of
+    :meth:`Sweep.points` the ``rms``, ``half_peak_to_peak`` or another part of the sensor's response; of :meth:`Sweep.interaction_map` the
+    ``rms`` of the engine orders that it has, without the mean."""
     ax = _axes(ax)
-    points = _level_of_map(found, quantity) if isinstance(found, xr.Dataset) else found
-    there = [column.removeprefix("response.") for column in points.columns if column.startswith("response.")]
-    if there and quantity not in there:
-        raise ValueError(f"a response has no {quantity}; it has {', '.join(there)}")
-    if there:
-        ax.plot(points["speed_rpm"], points[f"response.{quantity}"], marker=".", color=_COLOURS[0])
+    of_wheel = {} if isinstance(found, xr.Dataset) else _wheel_quantities(found)
+    if of_wheel:
+        quantity = quantity or ("tip_motion" if "tip_motion" in of_wheel else next(iter(of_wheel)))
+        _one_of(quantity, of_wheel, "the level of the wheel")
+        unit = of_wheel[quantity]
+        speed, value = found["speed_rpm"], found[f"{quantity}_value{unit}"]
+        error = found[f"{quantity}_error{unit}"]
+        ax.plot(speed, value, marker=".", color=_COLOURS[0])
+        ax.fill_between(speed, value - error, value + error, color=_COLOURS[0], alpha=0.2, linewidth=0.0)
+        ax.set_ylabel(", ".join(filter(None, (quantity.replace("_", " "), unit.removeprefix("_")))))
+    else:
+        quantity = quantity or "rms"
+        points = _level_of_map(found, quantity) if isinstance(found, xr.Dataset) else found
+        there = [column.removeprefix("response.") for column in points.columns if column.startswith("response.")]
+        if there:
+            _one_of(quantity, there, "a response")
+            ax.plot(points["speed_rpm"], points[f"response.{quantity}"], marker=".", color=_COLOURS[0])
+        ax.set_ylabel(f"level, {points.attrs['unit']} {quantity.replace('_', ' ')}")
     ax.set_xlabel("speed of rotation, rpm")
-    ax.set_ylabel(f"level, {points.attrs['unit']} {quantity.replace('_', ' ')}")
     ax.set_ylim(bottom=0.0)
     return ax
+
+
+def _wheel_quantities(level: pd.DataFrame) -> dict[str, str]:
+    """Quantities of the level of the wheel, each with the end of its columns' names: the unit behind an underscore, or nothing."""
+    parts = [column.partition("_value") for column in level.columns]
+    return {quantity: unit for quantity, value, unit in parts if value and f"{quantity}_error{unit}" in level}
+
+
+def _one_of(quantity: str, there: Iterable[str], what: str) -> None:
+    """Raises unless a quantity is among those that are there."""
+    if quantity not in there:
+        raise ValueError(f"{what} has no {quantity}; it has {', '.join(there)}")
 
 
 def _of_family(family: int, count: int) -> Any:

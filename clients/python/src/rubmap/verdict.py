@@ -86,5 +86,6 @@ class Verdict:
             rpm, place = "", ""
         if not speed["limits"]:
             tip = speed.get("tip")
-            value = f"tip motion {tip['half_peak_to_peak']:.3g} {self.units['length']}" if tip else ""
+            motion = tip.get("largest_half_peak_to_peak", tip["half_peak_to_peak"]) if tip else None
+            value = "" if motion is None else f"tip motion {motion:.3g} {self.units['length']}"
             yield rpm, place, value, "no limit"

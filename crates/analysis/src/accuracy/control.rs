@@ -114,11 +114,20 @@ pub fn error_estimate(
              beside them show is not known to be right"
         ),
     };
+    let unrepeated = match controls.iter().filter(|control| !repeats(control)).count() {
+        0 => String::new(),
+        unrepeated => format!(
+            "; the motion does not repeat at {unrepeated} of them, whose error tells nothing about other speeds: none is estimated at the \
+             speeds beside them"
+        ),
+    };
     let message = match largest {
-        None => format!("the error of the amplitudes is not known: no control run gave an estimate{ended}"),
+        None => format!(
+            "the error of the amplitudes is not known: no control run gave an estimate{ended}{unrepeated}"
+        ),
         Some(_) => format!(
             "relative error of the steady response{}: {SAFETY} times its difference from finer runs at {estimated} of the speeds, whose \
-             settings are in `controls`; at the others the larger estimate of the nearest on either side{}{ended}",
+             settings are in `controls`; at the others the larger estimate of the nearest on either side{}{ended}{unrepeated}",
             if with_modes { "" } else { " from the steps alone, since no finer reduction could be made" },
             if largest_of_stress.is_some() { "; of the largest stress likewise" } else { "" }
         ),
@@ -126,15 +135,22 @@ pub fn error_estimate(
     ErrorEstimate { controls, points, largest, largest_of_stress, target_met, message }
 }
 
-/// Raises errors of stress below the median of all control runs to it: two runs whose largest stresses agree better than their neighbours'
-/// do so by chance.
+/// Raises errors of stress below their median to it: two runs whose largest stresses agree better than their neighbours' do so by chance. Runs
+/// that repeat and runs that do not have a median each.
 fn raise_stress_errors(controls: &mut [Control]) {
-    let mut known: Vec<f64> = controls.iter().filter_map(|control| control.estimated_stress_error).collect();
-    known.sort_unstable_by(f64::total_cmp);
-    let Some(&median) = known.get(known.len() / 2) else { return };
-    for error in controls.iter_mut().filter_map(|control| control.estimated_stress_error.as_mut()) {
-        *error = error.max(median);
+    for alike in [true, false] {
+        let mut errors: Vec<&mut f64> = (controls.iter_mut().filter(|control| repeats(control) == alike))
+            .filter_map(|control| control.estimated_stress_error.as_mut())
+            .collect();
+        errors.sort_unstable_by(|a, b| a.total_cmp(b));
+        let Some(median) = errors.get(errors.len() / 2).map(|median| **median) else { continue };
+        errors.into_iter().for_each(|error| *error = error.max(median));
     }
+}
+
+/// Whether both runs of a control speed repeat, as far as they were completed.
+fn repeats(control: &Control) -> bool {
+    control.differences.is_none_or(|differences| differences.amplitude_spread.is_none())
 }
 
 fn point_errors(points: &[Point], controls: &[Control]) -> Vec<PointError> {
@@ -150,7 +166,8 @@ fn point_errors(points: &[Point], controls: &[Control]) -> Vec<PointError> {
     points.iter().filter(|point| point.status == PointStatus::Completed).filter_map(of).collect()
 }
 
-/// Error of a point: that of its own control run, otherwise the larger of the nearest on either side; none where one of them is unknown.
+/// Error of a point: that of its own control run, otherwise the larger of the nearest on either side; none where one of them is unknown, or is that
+/// of a motion that does not repeat: chance makes it, not a setting that the neighbours share.
 fn around(point: &Point, controls: &[Control], error: fn(&Control) -> Option<f64>) -> Option<f64> {
     if let Some(control) = controls.iter().find(|control| control.index == point.index) {
         return error(control);
@@ -160,9 +177,9 @@ fn around(point: &Point, controls: &[Control], error: fn(&Control) -> Option<f64
         let here = controls.iter().filter(|control| side(control.speed_rad_s - point.speed_rad_s));
         here.min_by(|a, b| distance(a).total_cmp(&distance(b)))
     };
-    // One that told nothing leaves its neighbourhood unknown.
     let beside = [nearest(|d| d <= 0.0), nearest(|d| d >= 0.0)].into_iter().flatten();
-    beside.map(error).reduce(|a, b| Some(a?.max(b?)))?
+    let passed_on = |control: &Control| error(control).filter(|_| repeats(control));
+    beside.map(passed_on).reduce(|a, b| Some(a?.max(b?)))?
 }
 
 #[cfg(test)]
@@ -170,6 +187,7 @@ mod tests {
     use serde_json::json;
 
     use super::*;
+    use crate::result::Errors;
 
     fn points(count: u32) -> Vec<Point> {
         let point = |index: u32| {
@@ -211,5 +229,27 @@ mod tests {
         let expected = [(0, 0.1, false), (1, 0.1, true), (2, 0.3, false), (3, 0.3, false), (4, 0.3, true)];
         assert_eq!(found, expected, "5 to 8 lie beside a control run that ended early");
         assert!(point_errors(&points(3), &[]).is_empty());
+    }
+
+    #[test]
+    fn runs_that_do_not_repeat_leave_the_median_of_the_others() {
+        let stress =
+            [(0.1, true), (0.2, true), (0.3, true), (4.0, false), (5.0, false), (6.0, false), (7.0, false)];
+        let of = |(index, (error, repeats)): (u32, (f64, bool))| Control {
+            estimated_stress_error: Some(error),
+            differences: Some(Errors {
+                history: None,
+                amplitude: 0.0,
+                amplitude_spread: (!repeats).then_some(0.0),
+                engine_orders: None,
+                impulse: None,
+                stress: Some(error),
+            }),
+            ..control(index, Some(0.1))
+        };
+        let mut controls: Vec<Control> = (0..).zip(stress).map(of).collect();
+        raise_stress_errors(&mut controls);
+        let raised: Vec<f64> = controls.iter().filter_map(|control| control.estimated_stress_error).collect();
+        assert_eq!(raised, [0.2, 0.2, 0.3, 6.0, 6.0, 6.0, 7.0]);
     }
 }

@@ -34,13 +34,20 @@ pub struct LargestMotion {
     pub(super) clearance: Option<Vec<f64>>,
 }
 
-/// Measured share of what linear theory neglects in the largest motion of a speed.
+/// Largest motion of a speed with what linear theory neglects in it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Bent {
+pub struct MeasuredMotion {
     /// Index of the speed in the request.
     pub(crate) index: u32,
     /// Displacement of the contact node that moves most.
     pub(crate) displacement: f64,
+    /// Neglected shares, or the reason why the field could not be relaxed.
+    pub(crate) neglected: Result<Neglected, NotRelaxed>,
+}
+
+/// Shares of a motion that linear theory neglects.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Neglected {
     /// Excess κ of the relaxed energy over the linear one, as a share of it.
     pub(crate) excess: f64,
     /// Largest second-order change of a contact node's distance to the casing, as a share of its clearance.
@@ -62,7 +69,7 @@ pub enum NotMeasured {
         /// Bytes that are needed.
         bytes: u64,
     },
-    /// Field that cannot be relaxed, with the reason.
+    /// Sector whose fields cannot be relaxed, with the reason.
     #[error("{0}")]
     Relaxed(String),
 }
@@ -112,17 +119,18 @@ impl LargestMotion {
     }
 }
 
-/// Measures motions of the wheel that `mesh` and `nodes`, in the same order, are a sector of. The factor is made once for all of them.
+/// Measures motions of the wheel that `mesh` and `nodes`, in the same order, are a sector of. The factor is made once for all of them. A motion
+/// whose field cannot be relaxed leaves the others theirs.
 ///
 /// # Errors
-/// A basis that cannot be read; a sector or a field that cannot be relaxed; cancellation.
+/// A basis that cannot be read; a sector whose fields cannot be relaxed; cancellation.
 pub fn measure(
     (mesh, nodes): (&SectorMesh, &[SectorNode]),
     reduced: &ReducedWheel,
     motions: &[LargestMotion],
     basis: BasisProduct<'_>,
     monitor: &dyn Monitor,
-) -> Result<Vec<Bent>, NotMeasured> {
+) -> Result<Vec<MeasuredMotion>, NotMeasured> {
     monitor.progress(0.0, PHASE);
     let fields = fields((mesh, nodes), reduced, motions, basis)?;
     let sector = HeldSector::new(mesh, nodes).ok_or(NotRelaxed::CanMove)?;
@@ -132,13 +140,12 @@ pub fn measure(
             return Err(NotMeasured::Cancelled);
         }
         monitor.progress(place as f64 / motions.len() as f64, PHASE);
-        let relaxed = relaxation.relax(field)?;
-        Ok(Bent {
-            index: motion.index,
-            displacement: motion.displacement,
+        let clearance = motion.clearance.as_deref();
+        let neglected = relaxation.relax(field).map(|relaxed| Neglected {
             excess: relaxed.relaxed / relaxed.linear - 1.0,
-            gap: motion.clearance.as_deref().and_then(|clearance| gap(&relaxed, clearance, &reduced.contact)),
-        })
+            gap: clearance.and_then(|clearance| gap(&relaxed, clearance, &reduced.contact)),
+        });
+        Ok(MeasuredMotion { index: motion.index, displacement: motion.displacement, neglected })
     };
     motions.iter().zip(&fields).enumerate().map(of).collect()
 }

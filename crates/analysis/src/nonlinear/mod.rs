@@ -13,8 +13,8 @@ mod sector;
 
 pub(crate) use bending::with_bending_cost;
 pub use bending::{BasisProjection, bending_bytes, blade_bending};
-pub use measure::{Bent, LargestMotion, NotMeasured, measure, measuring_bytes};
-pub(crate) use measure::{PHASE, expected_bytes, relaxing_seconds};
+pub use measure::{LargestMotion, MeasuredMotion, NotMeasured, measure, measuring_bytes};
+pub(crate) use measure::{Neglected, PHASE, expected_bytes, relaxing_seconds};
 
 #[cfg(test)]
 mod tests;

@@ -16,8 +16,10 @@ use rubmap_wheel::dynamics::reduction::{BasisRows, Checkpoints};
 use rubmap_wheel::dynamics::sector::SectorModel;
 
 use super::bending::{BasisProjection, blade_bending};
-use super::measure::{Bent, LargestMotion, NotMeasured, fields, measure, measuring_bytes, phase};
-use super::relax::Relaxation;
+use super::measure::{
+    LargestMotion, MeasuredMotion, Neglected, NotMeasured, fields, measure, measuring_bytes, phase,
+};
+use super::relax::{NotRelaxed, Relaxation};
 use super::sector::HeldSector;
 use crate::end_state::EndState;
 use crate::fields::BasisProduct;
@@ -143,9 +145,14 @@ fn the_field_of_a_sector_is_that_of_its_tips_and_meets_the_next_sector() {
         let off = local(&found[0], high) - local(&found[1], low);
         assert!(off.norm() < 1e-9 * largest, "{off}");
     }
-    let measured = measure(sector, reduced, std::slice::from_ref(&worst), &mut basis, &Unwatched).unwrap();
-    assert_eq!((measured.len(), measured[0].displacement), (1, worst.displacement));
-    assert!(measured[0].excess.is_finite() && measured[0].gap.unwrap() > 0.0);
+    // A field that cannot be relaxed, here one without a motion, leaves the other its measure.
+    let still = worst.coordinates.iter().map(|(of, column)| (*of, vec![c64::ZERO; column.len()]));
+    let still = LargestMotion { coordinates: still.collect(), ..worst.clone() };
+    let measured = measure(sector, reduced, &[still, worst.clone()], &mut basis, &Unwatched).unwrap();
+    assert_eq!((measured.len(), measured[1].displacement), (2, worst.displacement));
+    assert_eq!(measured[0].neglected, Err(NotRelaxed::Still));
+    let neglected = measured[1].neglected.unwrap();
+    assert!(neglected.excess.is_finite() && neglected.gap.unwrap() > 0.0);
 }
 
 /// Measures count where they were taken, are scaled to smaller motions, and leave what geometry does not doubt.
@@ -169,9 +176,15 @@ fn measures_are_scaled_to_smaller_motions_only() {
     let sizes = [0.08, 0.16, 0.1, 0.02, 0.2].map(|share| share * chord);
     let mut points: Vec<Point> = (0..).zip(sizes).map(|(index, size)| point(index, size)).collect();
     assert_eq!(speeds_to_measure(&request, reduced, &points), [4]);
-    let bent =
-        |index: usize, excess, gap| Bent { index: index as u32, displacement: sizes[index], excess, gap };
-    let measured = Ok(vec![bent(1, -0.3, Some(0.01)), bent(2, 0.01, None)]);
+    let measure = |index: usize, neglected| MeasuredMotion {
+        index: index as u32,
+        displacement: sizes[index],
+        neglected,
+    };
+    let curved = measure(1, Ok(Neglected { excess: -0.3, gap: Some(0.01) }));
+    let slight = measure(2, Ok(Neglected { excess: 0.01, gap: None }));
+    let guessed = points.clone();
+    let measured = Ok(vec![curved, slight]);
     judge_by_measures(&mut points, (reduced, &request), &measured);
     let told = |index: usize| {
         let validity = points[index].validity.as_ref().unwrap();
@@ -188,6 +201,15 @@ fn measures_are_scaled_to_smaller_motions_only() {
     assert!((checks[0].1 - 0.15).abs() < 1e-12 && (checks[1].1 - 0.0025).abs() < 1e-12, "{checks:?}");
     // Geometry: without a doubt, and beyond all that was measured.
     assert_eq!((told(3).0, told(4).0), (ValidityVerdict::Linear, ValidityVerdict::Doubtful));
+    // A relaxation that fails is told at its own speed and takes nothing from the others: speed 0 has the measure of speed 2, of a larger motion.
+    let mut points_beside = guessed;
+    let failed = measure(1, Err(NotRelaxed::Steps));
+    judge_by_measures(&mut points_beside, (reduced, &request), &Ok(vec![failed, slight]));
+    let verdicts = points_beside.iter().map(|point| point.validity_verdict().unwrap());
+    let (linear, doubtful) = (ValidityVerdict::Linear, ValidityVerdict::Doubtful);
+    assert_eq!(verdicts.collect::<Vec<_>>(), [linear, doubtful, linear, linear, doubtful]);
+    let lacking = &points_beside[1].validity.as_ref().unwrap().lacking;
+    assert!(lacking.iter().any(|lack| lack.reason.contains("no minimum")), "{lacking:?}");
     judge_by_measures(&mut points, (reduced, &request), &Err(NotMeasured::Relaxed("no minimum".to_owned())));
     assert_eq!(points[4].validity_lacking(), [ValidityMeasure::ExcessEnergy]);
 }
@@ -209,8 +231,9 @@ fn a_speed_is_measured_for_want_of_a_thickness() {
     let mut points = [judged(seen, &request)];
     assert_eq!(points[0].validity_verdict(), Some(ValidityVerdict::NotChecked));
     assert_eq!(speeds_to_measure(&request, &reduced, &points), [0]);
-    let bent = Bent { index: 0, displacement: seen, excess: 0.001, gap: None };
-    judge_by_measures(&mut points, (&reduced, &request), &Ok(vec![bent]));
+    let slight_excess = Ok(Neglected { excess: 0.001, gap: None });
+    let measure = MeasuredMotion { index: 0, displacement: seen, neglected: slight_excess };
+    judge_by_measures(&mut points, (&reduced, &request), &Ok(vec![measure]));
     assert_eq!(points[0].validity_verdict(), Some(ValidityVerdict::Linear));
     let verdict = |displacement, request: &ResolvedSweep| judged(displacement, request).validity_verdict();
     assert_eq!(verdict(slight, &request), Some(ValidityVerdict::Linear));

@@ -44,7 +44,7 @@ pub struct Limits {
     /// reaches the round casing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub clearance_consumption: Option<f64>,
-    /// Half the peak-to-peak displacement that the tip that moves most may have, in the model's unit of length.
+    /// Half the peak-to-peak displacement that any tip may have, in the model's unit of length.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tip_motion: Option<f64>,
     /// Utilisation of the material, of which nothing is left at 1; asks for `record.stress`, and needs strengths in the model.

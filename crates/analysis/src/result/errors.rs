@@ -92,7 +92,8 @@ impl Quantity {
 pub struct ErrorEstimate {
     /// Speeds that were simulated again: half of them at the most prominent peaks of the response, the others evenly spread.
     pub controls: Vec<Control>,
-    /// Estimated errors, one per completed speed, in the order of the request, unless a control run at or beside the speed ended early.
+    /// Estimated errors, one per completed speed, in the order of the request, unless a control run at or beside the speed ended early, or one beside it does not
+    /// repeat.
     pub points: Vec<PointError>,
     /// Largest estimated error of `points`; absent where there are none.
     #[serde(default, skip_serializing_if = "Option::is_none")]

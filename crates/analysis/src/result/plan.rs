@@ -67,7 +67,7 @@ pub struct SweepPlan {
     /// budget is for the whole job.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pilot_speeds_rad_s: Option<Vec<f64>>,
-    /// Warnings about numbers that cannot be relied on: a K(Ω) that cannot be trusted between the speeds at which the stiffness is given.
+    /// Warnings: a K(Ω) that cannot be trusted between the speeds at which the stiffness is given, operating ranges that the speeds do not cover.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub warnings: Vec<String>,
     /// The whole request as resolved, with the setting chosen in place of what was asked for.

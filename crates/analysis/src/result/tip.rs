@@ -12,6 +12,9 @@ pub struct TipResponse {
     pub rms: f64,
     /// Half the peak-to-peak displacement of the component with the largest root mean square, from the instants of `rms`.
     pub half_peak_to_peak: f64,
+    /// Largest half peak-to-peak displacement of all components of all tips; absent where it is `half_peak_to_peak`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub largest_half_peak_to_peak: Option<f64>,
     /// Contact node of the tip.
     pub contact_node: u32,
     /// Blade of the tip; in a scene that repeats around the wheel, one of those that move alike.
@@ -24,4 +27,11 @@ pub struct TipResponse {
     /// Half the peak-to-peak displacement over the length of the contact line; absent for a single node.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub over_chord: Option<f64>,
+}
+
+impl TipResponse {
+    /// Largest half peak-to-peak displacement of all components of all tips, which limits are held against.
+    pub fn peak_motion(&self) -> f64 {
+        self.largest_half_peak_to_peak.unwrap_or(self.half_peak_to_peak)
+    }
 }

@@ -171,7 +171,7 @@ pub enum Standing {
 pub enum LimitKind {
     /// Largest outward displacement of a tip over its running clearance.
     ClearanceConsumption,
-    /// Half the peak-to-peak displacement of the tip that moves most.
+    /// Largest half peak-to-peak displacement of all tips.
     TipMotion,
     /// Utilisation of the material.
     Utilisation,

@@ -84,7 +84,7 @@ impl Asked {
     fn value(&self, point: &Point, limit: LimitKind) -> Option<f64> {
         match limit {
             LimitKind::ClearanceConsumption => Some(point.contact.as_ref()?.clearance_consumption),
-            LimitKind::TipMotion => Some(point.tip?.half_peak_to_peak),
+            LimitKind::TipMotion => Some(point.tip?.peak_motion()),
             LimitKind::Utilisation => point.utilisation(),
             // Nothing touches in a scene without contact.
             LimitKind::NodeForce if !self.has_contact => Some(0.0),

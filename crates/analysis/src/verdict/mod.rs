@@ -1,6 +1,7 @@
 //! Verdict on a sweep by the operating ranges and limits of its request: pure functions over what is stored. The rule is in `rule`, and in
 //! docs/reading-results.md.
 
+mod coverage;
 mod evidence;
 mod hidden;
 mod judge;
@@ -13,6 +14,7 @@ pub(crate) mod sentence;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use coverage::coverage_warnings;
 pub use evidence::Evidence;
 pub(crate) use hidden::wanted;
 pub use judge::judge;

@@ -1,5 +1,6 @@
 //! Questions that are open in a range: what could hide a limit that is passed.
 
+use super::coverage::NotCovered;
 use super::evidence::Seen;
 use super::hidden::{Maximum, wide_steps, widest_step};
 use super::points::indices;
@@ -12,15 +13,11 @@ use crate::result::{
 };
 use crate::span::Span;
 
-/// Largest step between neighbouring speeds, as a share of the higher one, by which a range counts as covered: a mode's critical speeds at engine
-/// orders 20 and 21 are as far apart, so a wider step passes over whole critical speeds.
-const WIDEST_STEP: f64 = 0.05;
-
 /// Remedy where results are still to come.
 const WAIT: &str = "wait until the job has ended; if it was cancelled or failed, post its request again";
 
 /// Range with everything by which its open questions are found.
-pub(super) struct Ground<'a> {
+pub(super) struct RangeEvidence<'a> {
     pub(super) request: &'a ResolvedSweep,
     pub(super) span: &'a Span,
     pub(super) range: &'a RangeVerdict,
@@ -30,21 +27,21 @@ pub(super) struct Ground<'a> {
 }
 
 /// Questions that are open in a range.
-pub(super) fn questions(ground: &Ground) -> Vec<OpenQuestion> {
+pub(super) fn questions(evidence: &RangeEvidence) -> Vec<OpenQuestion> {
     let mut found = Vec::new();
-    found.extend(ground.not_covered());
-    found.extend(ground.beside_critical());
-    found.extend(ground.still());
-    found.extend(ground.without_result());
-    found.extend(ground.not_trusted());
-    found.extend(ground.of_peaks());
-    for &(kind, allowed) in &ground.seen.asked.limits {
-        found.extend(ground.of_limit(kind, allowed));
+    found.extend(evidence.not_covered());
+    found.extend(evidence.beside_critical());
+    found.extend(evidence.still());
+    found.extend(evidence.without_result());
+    found.extend(evidence.not_trusted());
+    found.extend(evidence.of_peaks());
+    for &(kind, allowed) in &evidence.seen.asked.limits {
+        found.extend(evidence.of_limit(kind, allowed));
     }
     found
 }
 
-impl Ground<'_> {
+impl RangeEvidence<'_> {
     fn question(&self, what: OpenKind, speeds: Vec<u32>, finding: String, remedy: &str) -> OpenQuestion {
         OpenQuestion { what, range: self.span.name.clone(), speeds, finding, remedy: remedy.to_owned() }
     }
@@ -68,32 +65,7 @@ impl Ground<'_> {
 
     /// Question about stretches of the range, or of a sweep without ranges, that no speed of the sweep covers.
     fn not_covered(&self) -> Option<OpenQuestion> {
-        let ascending = self.request.speeds.ascending();
-        let (lowest, highest) = (self.span.lowest(), self.span.highest());
-        let (first, last) = (ascending.first().copied()?, ascending.last().copied()?);
-        if self.span.name.is_none() && is_same(first, last) {
-            let finding = format!("one speed, {}, shows no critical speed", rpm(first));
-            let remedy = "ask for a range of `speeds`, in steps of at most 5 %";
-            return Some(self.question(OpenKind::RangeNotCovered, Vec::new(), finding, remedy));
-        }
-        let mut bare: Vec<(f64, f64)> = Vec::new();
-        bare.push((lowest, first.min(highest)));
-        let wide = |pair: &&[f64]| pair[1] - pair[0] > WIDEST_STEP * pair[1];
-        let within = |pair: &[f64]| (pair[0].max(lowest), pair[1].min(highest));
-        bare.extend(ascending.windows(2).filter(wide).map(within));
-        bare.push((last.max(lowest), highest));
-        bare.retain(|&(from, to)| from < to && !is_same(from, to));
-        if bare.is_empty() && !ascending.iter().any(|&speed| self.span.contains(speed)) {
-            bare.push((self.span.from, self.span.to));
-        }
-        let &(from, to) = bare.first()?;
-        let more = match bare.len() {
-            1 => String::new(),
-            2 => ", and one more stretch".to_owned(),
-            several => format!(", and {} more stretches", several - 1),
-        };
-        let finding = format!("no speeds were asked for from {} to {}{more}", rpm(from), rpm(to));
-        let remedy = "ask for `speeds` over the whole range and its separation, in steps of at most 5 %";
+        let NotCovered { finding, remedy } = NotCovered::of(self.request, self.span)?;
         Some(self.question(OpenKind::RangeNotCovered, Vec::new(), finding, remedy))
     }
 
@@ -269,11 +241,6 @@ impl Ground<'_> {
             "control runs: `control_speeds`"
         }
     }
-}
-
-/// Whether two speeds are one, up to the conversion of units and the tolerance of a range's ends.
-fn is_same(speed: f64, other: f64) -> bool {
-    (speed - other).abs() <= 1e-8 * other.abs()
 }
 
 fn remedy_of_unknown(kind: LimitKind) -> &'static str {

@@ -2,7 +2,7 @@
 
 use super::evidence::Seen;
 use super::limit::Asked;
-use super::open::{Ground, questions};
+use super::open::{RangeEvidence, questions};
 use super::points::{indices, is_completed};
 use crate::resolved::ResolvedSweep;
 use crate::result::{
@@ -50,8 +50,8 @@ pub(super) fn judge(request: &ResolvedSweep, span: &Span, seen: &Seen<'_>) -> Ju
         critical_inside: at(Position::Inside),
         critical_within_separation: at(Position::WithinSeparation),
     };
-    let ground = Ground { request, span, range: &range, completed: &completed, seen };
-    let open = questions(&ground);
+    let evidence = RangeEvidence { request, span, range: &range, completed: &completed, seen };
+    let open = questions(&evidence);
     range.verdict = word(&range, &completed, asked, !open.is_empty());
     Judged { range, open }
 }

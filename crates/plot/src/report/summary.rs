@@ -53,7 +53,7 @@ fn worst(level: &SweepLevel) -> Markup {
                         @match values.first() {
                             Some(first) => (cells(first, level)),
                             None => {
-                                td { (speed.tip.map_or_else(String::new, |tip| format!("tip motion {} {unit}", significant(tip.half_peak_to_peak)))) }
+                                td { (speed.tip.map_or_else(String::new, |tip| format!("tip motion {} {unit}", significant(tip.peak_motion())))) }
                                 td { "none" } td { "–" }
                             }
                         }

@@ -2,10 +2,11 @@
 
 use serde_json::{Value, json};
 
-use crate::request::SweepRequest;
+use crate::request::{AutoOr, SchemeChoice, Setting, SweepRequest};
 use crate::resolved::ResolvedSweep;
-use crate::result::{ErrorEstimate, OpenKind, Point, SweepVerdict, VerdictWord};
-use crate::verdict::{Evidence, judge};
+use crate::result::{ErrorEstimate, OpenKind, Point, SpeedSpectra, SweepVerdict, Trial, VerdictWord};
+use crate::run::{FinerRun, error_estimate};
+use crate::verdict::{Evidence, coverage_warnings, judge};
 use rubmap_wheel::dynamics::sector::Units;
 use rubmap_wheel::response::campbell::DrivenCrossing;
 
@@ -19,6 +20,8 @@ pub(super) struct Scene {
     pub(super) limits: Value,
     /// Relative errors, of the response and of stress, at all speeds.
     pub(super) errors: Option<(f64, Option<f64>)>,
+    /// Control runs in place of `errors`: index of the speed, level of the finer run, and whether that repeats.
+    pub(super) controls: Vec<(usize, f64, bool)>,
     /// Fields of the request in place of the usual ones.
     pub(super) request: Vec<(&'static str, Value)>,
     /// Linear critical speeds; none before the sweep has ended.
@@ -49,6 +52,7 @@ impl Scene {
             ranges: json!([range("run", 105.0, 115.0, 0.0)]),
             limits: json!({"tip_motion": 1.0}),
             errors: Some((0.01, None)),
+            controls: Vec::new(),
             request: Vec::new(),
             driven: Some(Vec::new()),
         }
@@ -84,6 +88,15 @@ impl Scene {
         self
     }
 
+    /// Scene whose errors are estimated from control runs.
+    pub(super) fn controlled(mut self, controls: &[(usize, f64, bool)]) -> Self {
+        for point in &mut self.points {
+            point["responses"] = responses(point["tip"]["rms"].as_f64().unwrap());
+        }
+        self.controls = controls.to_vec();
+        self
+    }
+
     pub(super) fn without_errors(mut self) -> Self {
         self.errors = None;
         self
@@ -115,7 +128,8 @@ impl Scene {
         self
     }
 
-    pub(super) fn verdict(&self) -> SweepVerdict {
+    /// Request of the scene, resolved.
+    fn request(&self) -> ResolvedSweep {
         let mut request = json!({
             "model": "m", "speeds": {"values": self.speeds, "unit": "rad_s"}, "scene": {"contact": {}},
             "sensors": [],
@@ -130,7 +144,16 @@ impl Scene {
             request[*field] = value.clone();
         }
         let request: SweepRequest = serde_json::from_value(request).unwrap();
-        let request = ResolvedSweep::stored(request, 0).unwrap();
+        ResolvedSweep::stored(request, 0).unwrap()
+    }
+
+    /// Warnings of the plan about ranges without speeds.
+    pub(super) fn warnings(&self) -> Vec<String> {
+        coverage_warnings(&self.request())
+    }
+
+    pub(super) fn verdict(&self) -> SweepVerdict {
+        let request = self.request();
         let finished = self.points.iter().filter(|point| !point.is_null());
         let points: Vec<Point> =
             finished.map(|point| serde_json::from_value(point.clone()).unwrap()).collect();
@@ -141,6 +164,8 @@ impl Scene {
             let all: Vec<Value> = points.iter().map(of_point).collect();
             serde_json::from_value::<ErrorEstimate>(json!({"controls": [], "points": all, "message": ""})).unwrap()
         });
+        let estimated = (!self.controls.is_empty()).then(|| self.estimated(&request, &points));
+        let errors = estimated.or(errors);
         let units = |text: &str| text.to_owned();
         let units = Units { length: units("mm"), force: units("N"), time: units("s"), mass: units("t") };
         judge(
@@ -148,6 +173,35 @@ impl Scene {
             &units,
             Evidence { points: &points, errors: errors.as_ref(), driven: self.driven.as_deref() },
         )
+    }
+
+    /// Errors from the control runs.
+    fn estimated(&self, request: &ResolvedSweep, points: &[Point]) -> ErrorEstimate {
+        let trial = |&(index, level, repeats): &(usize, f64, bool)| {
+            let mut point = self.points[index].clone();
+            point["responses"] = responses(level);
+            point["settling"] = json!({"verdict": if repeats { "periodic" } else { "aperiodic" }});
+            let trial = json!({
+                "point": point, "unknowns": 1, "lines": [[0.0]], "levels": [], "history": [], "samples_per_revolution": 1,
+                "cost": {"set_up_s": 0.0, "per_revolution_s": 0.0, "repetitions": 1},
+            });
+            serde_json::from_value::<Trial>(trial).unwrap()
+        };
+        let trials: Vec<Trial> = self.controls.iter().map(trial).collect();
+        let setting = Setting {
+            modes_per_speed: 80,
+            scheme: SchemeChoice::ExactModal,
+            kept_modes: AutoOr::Auto,
+            steps_per_revolution: 1000,
+        };
+        let spectra = SpeedSpectra { engine_orders: Vec::new(), sensors: Vec::new() };
+        let finer = trials.iter().map(|trial| FinerRun {
+            index: trial.point.index,
+            setting,
+            spectra: &spectra,
+            trial,
+        });
+        error_estimate(request, None, points, &finer.collect::<Vec<_>>())
     }
 
     pub(super) fn word(&self) -> VerdictWord {
@@ -161,6 +215,11 @@ impl Scene {
         kinds.dedup();
         kinds
     }
+}
+
+/// Response of one sensor at a level.
+fn responses(level: f64) -> Value {
+    json!([{"sensor": {"contact_node": 0, "component": "radial"}, "mean": 0.0, "rms": level, "half_peak_to_peak": level}])
 }
 
 /// Range of a request, in rad/s.
