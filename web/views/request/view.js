@@ -13,6 +13,7 @@ import { planAside } from './plan.js';
 import { prices } from './prices.js';
 import { RARE, sectionsOf } from './sections.js';
 import { beginning } from './sensible.js';
+import { settingsOf, withAccuracy, withSettings } from './settings.js';
 import { askedSpeeds, speedsOver } from './speeds.js';
 import { wheelInCasing } from './wheel.js';
 
@@ -87,12 +88,11 @@ export async function requestForm(place, { model, kind, value, words }, signal) 
     dial?.refresh(fields.value());
   }
   // The settings in whose place an accuracy was put.
-  let knobs = {};
+  let settings = {};
   function chooseAccuracy(target) {
-    const { accuracy, ...rest } = fields.value();
-    if (!accuracy) knobs = knobsOf(rest);
-    const next = target === null ? withKnobs(rest, knobs) : { ...withoutKnobs(rest), accuracy: { ...accuracy, target } };
-    fields.set(next);
+    const now = fields.value();
+    if (!now.accuracy) settings = settingsOf(now);
+    fields.set(target === null ? withSettings(now, settings) : withAccuracy(now, target));
     changed();
   }
   async function start(event) {
@@ -134,29 +134,6 @@ function withSets(schemas, model) {
 
 function strengthsOf({ yield_strength, ultimate_strength, fatigue_strength }) {
   return { yield_strength, ultimate_strength, fatigue_strength };
-}
-
-/** What an accuracy stands in the place of: the settings of a request and of its integration. */
-const KNOBS = ['budget', 'modes_per_speed'];
-const INTEGRATION_KNOBS = ['scheme', 'kept_modes', 'steps_per_revolution'];
-
-const only = (value, names) => Object.fromEntries(Object.entries(value).filter(([name]) => names.includes(name)));
-const without = (value, names) => Object.fromEntries(Object.entries(value).filter(([name]) => !names.includes(name)));
-
-function knobsOf(request) {
-  return { ...only(request, KNOBS), integration: only(request.integration ?? {}, INTEGRATION_KNOBS) };
-}
-
-function withoutKnobs(request) {
-  const { integration = {}, ...rest } = without(request, KNOBS);
-  const kept = without(integration, INTEGRATION_KNOBS);
-  return { ...rest, modes_per_speed: 'auto', ...(Object.keys(kept).length > 0 && { integration: kept }) };
-}
-
-/** A request with knobs as they were. */
-function withKnobs(request, { integration: own = {}, ...knobs }) {
-  const integration = { ...request.integration, ...own };
-  return { ...without(request, [...KNOBS, 'integration']), ...knobs, ...(Object.keys(integration).length > 0 && { integration }) };
 }
 
 /** A choice of the model, where none is given. */
