@@ -202,6 +202,74 @@ def test_a_click_on_the_map_opens_that_speed(service, swept, new_page):
     page.get_by_role("heading", name=re.compile("22,66[67] rpm")).wait_for()
 
 
+def ends_of(page, group):
+    """What the fields of speeds or of a range say."""
+    fields = page.get_by_role("group", name=group, exact=True)
+    return [fields.get_by_label(name, exact=True).input_value() for name in ("From", "To")]
+
+
+def type_ends(page, group, *ends):
+    for name, end in zip(("From", "To"), ends, strict=True):
+        page.get_by_role("group", name=group, exact=True).get_by_label(name, exact=True).fill(end)
+
+
+def test_lobes_follow_the_clearance_until_they_are_written(service, model, new_page):
+    page = new_page(f"{service.url}/#/sweep?model={model}", expected=["422"])
+    height = page.get_by_label("Height")
+    page.get_by_label("At the leading edge").fill("0.4")
+    page.get_by_label("At the trailing edge").fill("0.5")
+    # 5 % above the smaller clearance, as the drawing says.
+    assert height.input_value() == "0.42"
+    page.get_by_text("The casing reaches 0.02 mm past the clearance (5 % of it)").wait_for()
+    # A clearance that is being written is none.
+    page.get_by_label("At the trailing edge").fill("")
+    page.get_by_label("At the trailing edge").fill("0.2")
+    assert height.input_value() == "0.21"
+    height.fill("0.25")
+    page.get_by_label("At the leading edge").fill("0.3")
+    assert height.input_value() == "0.25"
+
+
+def test_speeds_and_operating_ranges_fit_each_other(service, model, new_page):
+    note = "The verdict would stay undecided"
+    # Speeds first: they are the range, and reach past its separation then.
+    page = new_page(f"{service.url}/#/sweep?model={model}", expected=["422"])
+    type_ends(page, "Speeds", "18000", "24000")
+    page.get_by_role("checkbox", name="Operating ranges").check()
+    assert ends_of(page, "Range 1") == ["18000", "24000"] and ends_of(page, "Speeds") == ["17100", "25200"]
+    # Speeds that somebody typed are never given up.
+    type_ends(page, "Range 1", "20000", "22000")
+    assert ends_of(page, "Speeds") == ["18000", "24000"]
+    page.get_by_role("button", name="Limit the clearance consumption to 90 %").click()
+    expect(page.get_by_text(note)).to_have_count(0)
+    assert page.get_by_label("Clearance used, outward motion").input_value() == "0.9"
+
+    # The range first: speeds follow it.
+    page = new_page(f"{service.url}/#/sweep?model={model}", expected=["422"])
+    page.get_by_role("checkbox", name="Limits").check()
+    page.get_by_role("checkbox", name="Operating ranges").check()
+    expect(page.get_by_text(note)).to_have_count(0)
+    type_ends(page, "Range 1", "18000", "24000")
+    assert ends_of(page, "Speeds") == ["17100", "25200"]
+    expect(page.get_by_text(note)).to_have_count(0)
+    # Speeds that fall short are told, and mended.
+    type_ends(page, "Speeds", "18000", "24000")
+    page.get_by_text("do not reach the ends of Operation with their separation").wait_for()
+    page.get_by_role("button", name="Ask for 17,100 to 25,200 rpm").click()
+    assert ends_of(page, "Speeds") == ["17100", "25200"]
+    # Steps over 5 % may pass over a critical speed.
+    page.get_by_label("Number of speeds").fill("8")
+    page.get_by_text("a step of 6.3 %").wait_for()
+    page.get_by_role("button", name=re.compile(r"Ask for \d+ speeds")).click()
+    page.get_by_role("button", name="Add speeds around peaks").click()
+    expect(page.get_by_text(note)).to_have_count(0)
+    steps = int(page.get_by_label("Number of speeds").input_value()) - 1
+    assert (25200 - 17100) / steps <= 0.05 * (17100 + (25200 - 17100) / steps)
+    # The stiffness is not known beyond the highest speed of the model.
+    type_ends(page, "Range 1", "18000", "60000")
+    page.get_by_text("the stiffness of the model ends at").wait_for()
+
+
 def test_a_range_that_the_speeds_do_not_reach_is_told_before_the_start(service, model, new_page):
     page = new_page(f"{service.url}/#/sweep?model={model}")
     page.get_by_text("The request as JSON").click()

@@ -14,7 +14,7 @@ import { sceneOf, speedsOf } from './request/sensible.js';
 /** Kinds of jobs that are asked for by a form. */
 export const REQUESTS = {
   sweep: {
-    words: 'Sweep: contact over a range of speeds', schema: 'SweepRequest', path: '/v1/sweeps', plan: '/v1/sweeps/plan', priced: true,
+    words: 'Sweep: contact over a range of speeds', schema: 'SweepRequest', path: '/v1/sweeps', plan: '/v1/sweeps/plan', priced: true, judged: true,
     // Stress where there are elements to compute it in: whether a wheel bears its motion is asked of every one.
     begin: (model) => ({ model: model.id, speeds: speedsOf(model), scene: sceneOf(model), ...(model.mesh && { record: { stress: {} } }) }),
   },

@@ -12,15 +12,17 @@ import { editor } from './editor.js';
 import { planAside } from './plan.js';
 import { prices } from './prices.js';
 import { RARE, sectionsOf } from './sections.js';
+import { following } from './following.js';
 import { beginning } from './sensible.js';
 import { settingsOf, withAccuracy, withSettings } from './settings.js';
-import { askedSpeeds, speedsOver } from './speeds.js';
+import { speedsOver } from './speeds.js';
+import { undecided } from './undecided.js';
 import { wheelInCasing } from './wheel.js';
 
 /**
  * A form for requests of one kind.
  * @param {HTMLElement} place
- * @param {{model: any, kind: {schema: string, path: string, plan: string | null, priced: boolean}, value: any, words: string}} what
+ * @param {{model: any, kind: {schema: string, path: string, plan: string | null, priced: boolean, judged?: boolean}, value: any, words: string}} what
  * @param {AbortSignal} signal
  */
 export async function requestForm(place, { model, kind, value, words }, signal) {
@@ -32,27 +34,24 @@ export async function requestForm(place, { model, kind, value, words }, signal) 
   const wheel = wheelInCasing(model, section);
   const campbell = speedsOver(model, signal);
   const plan = kind.plan ? planAside(kind.plan, planned, signal) : null;
-  const initial = (pointer) => beginning(pointer, model, askedSpeeds(fields.value()));
+  const follower = following(model, kind.begin(model));
+  const initial = (pointer) => ({ '/operation': { ranges: [follower.range()] }, '/operation/ranges/-': { ...follower.range(), name: 'Another' } }[pointer] ?? beginning(pointer, model, fields.value()));
   const cost = kind.priced ? prices(kind.plan, model, signal) : null;
   const dial = kind.priced ? accuracyDial(kind.plan, chooseAccuracy, signal) : null;
   const table = casingTable((measured) => {
     const now = structuredClone(fields.value());
     now.scene.casing.measured = measured;
-    fields.set(now);
-    changed();
+    put(now);
   }, signal);
   const alloys = materialChoice(() => model.units, (material) => {
     const now = structuredClone(fields.value());
     now.record.stress.strengths = Object.fromEntries(setsOf(model).map((set) => [set, strengthsOf(material)]));
-    fields.set(now);
-    changed();
+    put(now);
   });
+  const open = kind.judged ? undecided(model, put) : null;
   const told = h('div');
   const unsent = h('div');
-  const json = editor((now) => {
-    fields.set(now);
-    changed(json);
-  });
+  const json = editor((now) => put(now, json));
   const fields = form({
     schema: { $ref: `#/components/schemas/${kind.schema}` },
     definitions, value: begun, initial,
@@ -60,13 +59,23 @@ export async function requestForm(place, { model, kind, value, words }, signal) 
     units: model.units, rare: RARE,
     beside: (pointer) => (pointer === '/record/stress/strengths' ? alloys : cost?.beside(pointer) ?? table.beside(pointer)),
     sections: sectionsOf({ value: begun, begun: kind.begin(model), units: model.units, wheel: wheel.element, campbell: campbell.element, dial: dial?.element }),
-    onChange: () => changed(),
+    onChange: (pointer) => {
+      for (const [at, following] of follower.after(pointer, fields.value())) fields.write(at, following);
+      changed();
+    },
   });
   const button = h('button', { type: 'submit', class: 'main' }, 'Start');
-  const element = h('form', { novalidate: true, on: { submit: start } }, fields.element, json.element, told, unsent, h('div', { class: 'row' }, button));
+  const element = h('form', { novalidate: true, on: { submit: start } }, fields.element, json.element, open?.element, told, unsent, h('div', { class: 'row' }, button));
   replace(place, draft.kept() ? draftNote(draft) : null, words ? h('p', {}, words) : null, h('div', { class: 'columns' }, element, plan?.element));
+  follower.begin(begun);
   tell();
 
+  /** Shows another request. */
+  function put(now, by = null) {
+    fields.set(now);
+    follower.begin(now);
+    changed(by);
+  }
   function changed(by = null) {
     draft.keep(fields.value());
     tell(by);
@@ -77,6 +86,7 @@ export async function requestForm(place, { model, kind, value, words }, signal) 
     if (by !== json) json.show(now);
     wheel.show(now);
     campbell.show(now);
+    open?.show(now);
     dial?.show(now);
     plan?.refresh(now);
   }
@@ -92,8 +102,7 @@ export async function requestForm(place, { model, kind, value, words }, signal) 
   function chooseAccuracy(target) {
     const now = fields.value();
     if (!now.accuracy) settings = settingsOf(now);
-    fields.set(target === null ? withSettings(now, settings) : withAccuracy(now, target));
-    changed();
+    put(target === null ? withSettings(now, settings) : withAccuracy(now, target));
   }
   async function start(event) {
     event.preventDefault();
