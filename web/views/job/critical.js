@@ -11,7 +11,7 @@ import { table } from '../../lib/table.js';
 import { unitOf } from '../../lib/units.js';
 import { select, sensors } from './choices.js';
 import { fromHere } from './from-here.js';
-import { LINEAR, SETTLED, SETTLING, VALIDITY } from './verdicts.js';
+import { LINEAR, SETTLED, SETTLING, VALIDITY } from './sweep-credentials.js';
 
 export async function show(place, context, signal) {
   const { job, query } = context;

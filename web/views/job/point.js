@@ -9,7 +9,7 @@ import { select, sensors } from './choices.js';
 import { fromHere } from './from-here.js';
 import { QUANTITIES, recorder } from './histories.js';
 import { recordedSpeeds } from './recorded.js';
-import { points, SETTLING, steadyWords, validityWords } from './verdicts.js';
+import { points, SETTLING, steadyWords, validityWords } from './sweep-credentials.js';
 
 export async function show(place, context, signal) {
   const { job, query } = context;

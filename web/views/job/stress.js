@@ -10,7 +10,7 @@ import { problem } from '../../lib/problem.js';
 import { table } from '../../lib/table.js';
 import { select } from './choices.js';
 import { has } from './recorded.js';
-import { LINEAR, VALIDITY } from './verdicts.js';
+import { LINEAR, VALIDITY } from './sweep-credentials.js';
 
 export async function show(place, context, signal) {
   const { job, query } = context;
