@@ -135,8 +135,19 @@ def test_a_sweep_is_planned_asked_for_and_followed(service, model, swept, new_pa
     # The verdict comes first; without a limit it is undecided, and no speed is missing any more.
     said = page.locator("[data-verdict=undecided]")
     page.wait_for_function("() => !document.querySelector('[data-verdict]').innerText.includes('without a result')")
-    assert said.inner_text() == service.call("GET", f"/v1/jobs/{job}/verdict")["sentence"].replace("`", "")
+    # Names of fields are those of the form.
+    assert "give `limits`: `clearance_consumption`" in service.call("GET", f"/v1/jobs/{job}/verdict")["sentence"]
+    assert "give “Limits”: clearance consumption, tip motion, utilisation or node force" in said.inner_text()
     assert said.bounding_box()["y"] < page.get_by_text("done", exact=True).bounding_box()["y"]
+    # What would decide opens the form with that filled in.
+    page.get_by_role("link", name=re.compile("^Open the form with .*“More speeds around peaks” switched on")).click()
+    page.get_by_text("Changed against that job: “More speeds around peaks”").wait_for()
+    assert page.get_by_label("More speeds around peaks").input_value() == "true"
+    assert page.get_by_label("Number of speeds").input_value() == "9"
+    page.go_back()
+    page.get_by_role("link", name=re.compile("^Open the form with give “Limits”")).click()
+    page.get_by_label("Clearance consumption").wait_for()
+    assert page.get_by_label("Clearance consumption").input_value() == "0.9"
 
 
 def test_a_sweep_opens_on_its_verdict_and_leads_on_from_the_worst_speeds(service, model, new_page):
@@ -242,7 +253,7 @@ def test_speeds_and_operating_ranges_fit_each_other(service, model, new_page):
     assert ends_of(page, "Speeds") == ["18000", "24000"]
     page.get_by_role("button", name="Limit the clearance consumption to 90 %").click()
     expect(page.get_by_text(note)).to_have_count(0)
-    assert page.get_by_label("Clearance used, outward motion").input_value() == "0.9"
+    assert page.get_by_label("Clearance consumption").input_value() == "0.9"
 
     # The range first: speeds follow it.
     page = new_page(f"{service.url}/#/sweep?model={model}", expected=["422"])
@@ -476,7 +487,7 @@ def test_ranges_and_limits_are_asked_for_over_the_frequencies_of_the_model(servi
     page.get_by_role("button", name="Another range").click()
     page.get_by_role("group", name="Range 2").get_by_label("Name").fill("Full speed")
     page.get_by_role("checkbox", name="Limits").check()
-    page.get_by_label("Motion of a tip").fill("0.5")
+    page.get_by_label("Tip motion").fill("0.5")
     assert page.locator("rect.range").count() == 2
     page.get_by_text("Idle: ").wait_for()
     page.get_by_text("The request as JSON").click()

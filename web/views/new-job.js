@@ -3,10 +3,12 @@
 import { api } from '../lib/api.js';
 import { h, replace } from '../lib/dom.js';
 import { KINDS, nameOf } from '../lib/format.js';
+import { inWords } from '../lib/form/named.js';
 import { placeWith } from '../lib/place.js';
 import { select } from './job/choices.js';
 import { campaignOfModel } from './request/campaign.js';
 import { fromSweep } from './request/from-sweep.js';
+import { mended } from './request/mend.js';
 import { runUpsOfModel } from './request/run-up.js';
 import { chooseModel, requestForm } from './request/view.js';
 import { sceneOf, speedsOf } from './request/sensible.js';
@@ -60,7 +62,10 @@ export async function show(main, { query }, signal, first = 'sweep') {
     if (job.posted_to !== kind.path) throw new Error('this job records a sweep, and has no request of its own: begin with that sweep');
     replace(main, h('h1', {}, `As ${nameOf(job)}, but …`), place);
     const model = await api.get(`/v1/models/${job.model}`, { signal });
-    await requestForm(place, { model, kind, value: job.posted, words: `Model: ${model.name}` }, signal);
+    const mend = query.get('mend');
+    const value = mend ? mended(job.posted, mend, model) : job.posted;
+    const words = `Model: ${model.name}${mend ? `. Changed against that job: ${inWords(`\`${mend}\``)}.` : ''}`;
+    await requestForm(place, { model, kind, value, words }, signal);
     return;
   }
   const name = query.get('kind') ?? first;

@@ -1,5 +1,8 @@
 // Settings in whose place a request may name an accuracy.
 
+/** Accuracies to choose from: errors as shares of the response. */
+export const TARGETS = [0.1, 0.03, 0.01, 0.003, 0.001];
+
 /** Settings of a request, and of its integration, that an accuracy stands in the place of. */
 const OWN = ['budget', 'modes_per_speed'];
 const OF_INTEGRATION = ['scheme', 'kept_modes', 'steps_per_revolution'];
