@@ -330,6 +330,15 @@ def test_the_content_is_framed_for_readers_with_a_keyboard_only(service, new_pag
     page.get_by_role("heading", name="Jobs").wait_for()
     outline = "getComputedStyle(document.querySelector('main')).outlineStyle"
     # By an address.
+    # A limit needs what it is about.
+    page.get_by_text("Effects", exact=True).click()
+    page.get_by_role("checkbox", name="Contact of tips and casing").uncheck()
+    page.get_by_role("button", name="Switch contact on").click()
+    assert page.get_by_role("checkbox", name="Contact of tips and casing").is_checked()
+    page.get_by_label("Utilisation").fill("1")
+    page.get_by_text("has no strengths").wait_for()
+    page.get_by_label("Utilisation").fill("")
+    expect(page.get_by_text(note)).to_have_count(0)
     page.evaluate("location.hash = '#/models'")
     page.get_by_role("heading", name="Models").wait_for()
     assert page.evaluate("document.activeElement.id") == "main" and page.evaluate(outline) == "none"

@@ -90,7 +90,7 @@ limits|Limits||What must not be passed; any one or several. Off: the verdict sta
 # limits
 clearance_consumption|Clearance consumption|of the clearance|0.9: the outward motion of a tip may take 90 % of its clearance.
 tip_motion|Tip motion|L|To either side of its middle.
-utilisation|Utilisation|of the strength|Of the material, by Goodman’s rule; 1: nothing is left. Needs the strengths of the material, and stress among what is recorded.
+utilisation|Utilisation|of the strength|Of the material, by Goodman’s rule; 1: nothing is left. Needs its strengths; stress is recorded then.
 node_force|Contact force on a node|F|
 #
 blade_thickness|Blade thickness at the tip|L|By which linear theory is checked where the model has no elements that show it.

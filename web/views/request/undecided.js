@@ -21,7 +21,7 @@ const REFINED = 20;
 export function undecided(model, put) {
   const element = h('div', { role: 'status', 'aria-label': 'Before the start' });
   function show(request) {
-    const found = [noLimit, notReached, wideSteps, nothingTouches, noStrength, notRefined].flatMap((rule) => rule(request, model) ?? []);
+    const found = [noLimit, notReached, wideSteps, nothingTouches, noContact, noStrength, noThickness, unsound, notRefined].flatMap((rule) => rule(request, model) ?? []);
     replace(element, found.length === 0 ? null : h('div', { class: 'note warning' }, h('strong', {}, 'The verdict would stay undecided:'),
       h('ul', {}, found.map(({ words, mend }) => h('li', {}, words, mend ? [' ', h('button', { type: 'button', on: { click: () => put({ ...request, ...mend[1] }) } }, mend[0])] : null)))));
   }
@@ -68,6 +68,22 @@ function nothingTouches({ scene }) {
   const shape = shapeOf(scene?.casing);
   const isMoved = (scene?.engine_order_excitation ?? []).length > 0 || scene?.casing?.tilt || scene?.orbit || scene?.initial || scene?.clearance_change;
   return shape && shape.left > 0 && !isMoved ? { words: 'no tip touches the casing and no force moves the wheel: make the lobes higher than the clearance.' } : null;
+}
+
+/** A limited clearance consumption where nothing can touch. */
+function noContact({ limits, scene }) {
+  return typeof limits?.clearance_consumption === 'number' && !scene?.contact
+    ? { words: 'the clearance consumption is limited, but contact is switched off.', mend: ['Switch contact on', { scene: { ...scene, contact: {} } }] } : null;
+}
+
+/** Linear theory that cannot be checked. */
+function noThickness({ blade_thickness: thickness }, model) {
+  return Number.isFinite(thickness ?? model.mesh?.tip_thickness) ? null : { words: 'the model has no elements that show it: without the blade thickness at the tip linear theory cannot be checked: give it under “Accuracy”.' };
+}
+
+/** Stiffness over speed that no result can rest on. */
+function unsound({ scene }, model) {
+  return scene?.centrifugal_stiffening && model.stiffening?.verdict === 'unsound' ? { words: 'the stiffness of the model over speed is unsound: its page says why.' } : null;
 }
 
 /** A limited utilisation without the elements or the strengths that it needs. */
