@@ -181,6 +181,27 @@ def test_a_sweep_opens_on_its_verdict_and_leads_on_from_the_worst_speeds(service
     assert index in [speed["index"] for speed in level["speeds"]]
 
 
+def test_stress_stands_in_the_order_of_the_speeds(service, model, new_page):
+    job = service.call("POST", "/v1/sweeps", sweep_of(model, speeds={"values": [24000, 15000, 18000], "unit": "rpm"}, record={"stress": {}}))["id"]
+    assert service.finish(job)["status"] == "successful"
+    page = new_page(f"{service.url}/#/jobs/{job}?view=stress")
+    rows = page.get_by_role("region", name="Largest stress and utilisation at each speed").locator("tbody tr")
+    rows.first.wait_for()
+    assert [row.locator("td").first.inner_text() for row in rows.all()] == ["15,000 rpm", "18,000 rpm", "24,000 rpm"]
+
+
+def test_tables_beside_a_diagram_end_with_a_whole_row(service, model, new_page):
+    job = service.call("POST", "/v1/modal-analyses", {"model": model, "speeds": {"from": 0, "to": 36000, "count": 25, "unit": "rpm"}, "lobes": 2})["id"]
+    assert service.finish(job)["status"] == "successful"
+    page = new_page(f"{service.url}/#/jobs/{job}")
+    table = page.get_by_role("region", name="Engine orders of the lobes meet modes at")
+    table.wait_for()
+    assert table.evaluate("(box) => box.scrollHeight > box.clientHeight")
+    end = table.bounding_box()["y"] + table.bounding_box()["height"]
+    boxes = [row.bounding_box() for row in table.locator("tbody tr").all()]
+    assert [box for box in boxes if box["y"] < end - 1 and box["y"] + box["height"] > end + 1] == []
+
+
 def test_what_was_not_recorded_is_offered_without_a_refusal(service, model, new_page):
     plain = sweep_of(model, name="plain", record={})
     job = service.call("POST", "/v1/sweeps", plain)["id"]
