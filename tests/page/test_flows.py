@@ -181,6 +181,37 @@ def test_a_sweep_opens_on_its_verdict_and_leads_on_from_the_worst_speeds(service
     assert index in [speed["index"] for speed in level["speeds"]]
 
 
+def test_nothing_is_counted_before_a_speed_has_finished(service, swept, new_page):
+    def emptied(route):
+        answer = route.fetch()
+        level = answer.json()
+        level["speeds"], level["verdict"]["critical_speeds"], level["verdict"]["worst"] = [], [], []
+        route.fulfill(response=answer, json=level)
+
+    page = new_page(f"{service.url}/#/jobs")
+    page.route("**/level", emptied)
+    page.goto(f"{service.url}/#/jobs/{swept}")
+    page.get_by_text("No speed was finished.").wait_for()
+    assert page.get_by_role("heading", name="critical speed").count() == 0
+
+
+def test_progress_has_a_percentage_only_where_it_is_known(service, new_page):
+    page = new_page(f"{service.url}/#/jobs")
+    page.get_by_role("heading", name="Jobs").wait_for()
+
+    def told(progress, total, finished, phase):
+        job = {"kind": "sweep", "progress": progress, "phase": phase, "posted": {"speeds": [{"from": 1, "to": 2, "count": 98}, {"values": [3, 4]}]}}
+        job |= {"speeds": {"total": total, "finished": finished, "diverged": 0, "failed": 0}}
+        return page.evaluate("async (job) => Object.values((await import('/page/lib/progress.js')).progressOf(job))", job)
+
+    assert told(55, 100, 50, "50 of 100 speeds finished") == ["55 % · 50 of 100 speeds finished", 55]
+    assert told(99, 123, 100, "100 of 123 speeds finished") == [
+        "all 100 speeds finished; refining: 23 added around peaks · 100 of 123 speeds finished",
+        100 * 100 / 123,
+    ]
+    assert told(99, 100, 100, "control runs: 1 of 5") == ["control runs: 1 of 5", None]
+
+
 def test_stress_stands_in_the_order_of_the_speeds(service, model, new_page):
     job = service.call("POST", "/v1/sweeps", sweep_of(model, speeds={"values": [24000, 15000, 18000], "unit": "rpm"}, record={"stress": {}}))["id"]
     assert service.finish(job)["status"] == "successful"
@@ -297,6 +328,15 @@ def test_speeds_and_operating_ranges_fit_each_other(service, model, new_page):
     expect(page.get_by_text(note)).to_have_count(0)
     steps = int(page.get_by_label("Number of speeds").input_value()) - 1
     assert (25200 - 17100) / steps <= 0.05 * (17100 + (25200 - 17100) / steps)
+    # A limit needs what it is about.
+    page.get_by_text("Effects", exact=True).click()
+    page.get_by_role("checkbox", name="Contact of tips and casing").uncheck()
+    page.get_by_role("button", name="Switch contact on").click()
+    assert page.get_by_role("checkbox", name="Contact of tips and casing").is_checked()
+    page.get_by_label("Utilisation").fill("1")
+    page.get_by_text("has no strengths").wait_for()
+    page.get_by_label("Utilisation").fill("")
+    expect(page.get_by_text(note)).to_have_count(0)
     # The stiffness is not known beyond the highest speed of the model.
     type_ends(page, "Range 1", "18000", "60000")
     page.get_by_text("the stiffness of the model ends at").wait_for()
@@ -351,15 +391,6 @@ def test_the_content_is_framed_for_readers_with_a_keyboard_only(service, new_pag
     page.get_by_role("heading", name="Jobs").wait_for()
     outline = "getComputedStyle(document.querySelector('main')).outlineStyle"
     # By an address.
-    # A limit needs what it is about.
-    page.get_by_text("Effects", exact=True).click()
-    page.get_by_role("checkbox", name="Contact of tips and casing").uncheck()
-    page.get_by_role("button", name="Switch contact on").click()
-    assert page.get_by_role("checkbox", name="Contact of tips and casing").is_checked()
-    page.get_by_label("Utilisation").fill("1")
-    page.get_by_text("has no strengths").wait_for()
-    page.get_by_label("Utilisation").fill("")
-    expect(page.get_by_text(note)).to_have_count(0)
     page.evaluate("location.hash = '#/models'")
     page.get_by_role("heading", name="Models").wait_for()
     assert page.evaluate("document.activeElement.id") == "main" and page.evaluate(outline) == "none"

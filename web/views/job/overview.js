@@ -2,6 +2,7 @@
 
 import { api } from '../../lib/api.js';
 import { h, replace } from '../../lib/dom.js';
+import { ended } from '../../lib/events.js';
 import { inWords } from '../../lib/form/named.js';
 import { unitIn, wordsOf } from '../../lib/form/words.js';
 import { growing, moreSpeeds } from '../../lib/growing.js';
@@ -62,7 +63,8 @@ export async function show(place, context, signal) {
       const recorded = await recordedSpeeds(context.now(), signal);
       if (signal.aborted) return;
       replace(ranges, rangeList(level.verdict));
-      replace(below, worst(level.verdict, recorded, context, signal), questions(level.verdict, job), critical(level.verdict, context));
+      if (level.speeds.length === 0) replace(below, h('p', { class: 'note' }, ended(context.now()) ? 'No speed was finished.' : 'No speed has finished yet.'));
+      else replace(below, worst(level.verdict, recorded, context, signal), questions(level.verdict, job), critical(level.verdict, context, !ended(context.now())));
     } catch (error) {
       if (!signal.aborted) replace(told, unread(error, signal));
     }
@@ -160,8 +162,8 @@ function questions({ would_decide: open }, { id, posted }) {
   }))];
 }
 
-/** Critical speeds of the wheel against ranges and limits. */
-function critical({ critical_speeds: all, ranges_given: given, units, settings }, context) {
+/** Critical speeds of the wheel against ranges and limits; those that the finished speeds show while the job runs. */
+function critical({ critical_speeds: all, ranges_given: given, units, settings }, context, isRunning) {
   const asked = QUANTITIES.filter((name) => settings.limits?.[name] !== undefined && settings.limits[name] !== null);
   const of = (one, name) => one.limits.find((judged) => judged.limit === name);
   const value = (name) => ({
@@ -172,8 +174,8 @@ function critical({ critical_speeds: all, ranges_given: given, units, settings }
     },
   });
   return [
-    h('h2', {}, `${count(all.length, 'critical speed')} of the wheel`),
-    all.length === 0 ? h('p', { class: 'quiet' }, 'The response has no peak.') : table({
+    h('h2', {}, `${count(all.length, 'critical speed')} of the wheel${isRunning ? ' so far' : ''}`),
+    all.length === 0 ? h('p', { class: 'quiet' }, `The response has no peak${isRunning ? ' at the speeds that are finished' : ''}.`) : table({
       caption: 'Critical speeds of the wheel against ranges and limits',
       onChoose: (one) => context.go({ view: 'point', speed: one.index }),
       rows: all,
