@@ -167,6 +167,8 @@ def test_a_sweep_opens_on_its_verdict_and_leads_on_from_the_worst_speeds(service
     # Each worst speed says by how much the limit is passed.
     for card, worst in zip(cards.all(), verdict["worst"]):
         assert f"{worst['limits'][0]['above_percent']:.2g}"[:1] in card.inner_text() and "tip motion" in card.inner_text()
+        value, error = worst["limits"][0]["value"], worst["limits"][0]["error"]
+        assert f"({value / (1 + error / value):.3g} to {value * (1 + error / value):.3g}) mm" in card.inner_text()
     # The wheel is recorded and drawn in its place.
     index = verdict["worst"][0]["index"]
     cards.first.get_by_role("button", name=re.compile("^Record the wheel")).click()

@@ -118,9 +118,10 @@ function responseWords({ critical: isPeak, resolved, engine_order: order, nodal_
   ].filter(Boolean).join(', ');
 }
 
-/** Value with its error and unit. */
+/** Value v with its unit and where it may lie: an error e, which the service gives as v e, leaves v/(1 + e) to v (1 + e). */
 function valueWords({ limit, value, error }, units) {
-  return `${number(value, 3)}${error === undefined ? '' : ` ± ${number(error, 2)}`}${quantityUnit(limit, units)}`;
+  const ends = error > 0 ? ` (${number(value * value / (value + error), 3)} to ${number(value + error, 3)})` : '';
+  return `${number(value, 3)}${ends}${quantityUnit(limit, units)}`;
 }
 
 /** The worst speeds as cards: what, where, which limit by how much, what would decide, and the wheel. */
