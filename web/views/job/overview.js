@@ -36,6 +36,20 @@ const STANDINGS = {
   passed: ['bad', 'passed'],
 };
 
+/** Questions that are open at a speed, in a few words. */
+const QUESTIONS = {
+  speeds_missing: 'no result yet',
+  speeds_failed: 'not computed',
+  not_settled: 'motion not settled',
+  unsound_stiffness: 'stiffness at speed unsound',
+  beyond_linear_theory: 'beyond linear theory',
+  linear_theory_not_checked: 'linear theory not checked',
+  error_across_limit: 'limit within the error',
+  error_unknown: 'error not known',
+  value_unknown: 'value not known',
+  peak_unresolved: 'peak not resolved',
+};
+
 export async function show(place, context, signal) {
   const { job, query } = context;
   const path = `/v1/jobs/${job.id}/level`;
@@ -133,7 +147,7 @@ function worst(verdict, recorded, context, signal) {
       h('h3', {}, h('a', { href: context.address({ view: 'point', speed: one.index }) }, speed(one.speed_rad_s))),
       h('p', { class: 'small' }, [responseWords(one), verdict.ranges_given ? positionWords(one.ranges) : null].filter(Boolean).join('; ')),
       one.limits.length > 0 ? limits(one, verdict.units) : tipWords(one, verdict.units),
-      open.length > 0 ? h('p', { class: 'small' }, 'Undecided here: ', open.map((question, k) => [k > 0 ? '; ' : null, question.what.replaceAll('_', ' ')])) : null,
+      open.length > 0 ? h('p', { class: 'small' }, 'Undecided here: ', open.map((question, k) => [k > 0 ? '; ' : null, QUESTIONS[question.what] ?? inWords(question.finding)])) : null,
       wheelPicture(context, one, recorded, signal),
       fromHere(context.job, one.speed_rad_s, signal));
   };
