@@ -736,6 +736,10 @@ def test_a_form_says_what_run_ups_take(service, swept, model, new_page):
     rates.fill(rates.input_value().split(",")[0])
     runs.nth(1).wait_for(state="detached")
     assert runs.count() == 1
+    # A part that is switched on begins with what suits the wheel.
+    page.get_by_text("Effects", exact=True).click()
+    page.get_by_role("checkbox", name="Friction").check()
+    assert page.get_by_label("Coefficient μ").input_value() == "0.15"
     # What is not possible is said at its field.
     page.get_by_label("From").fill("0")
     page.locator("[aria-invalid=true]").first.wait_for()

@@ -35,7 +35,10 @@ export async function requestForm(place, { model, kind, value, words }, signal) 
   const campbell = speedsOver(model, signal);
   const plan = kind.plan ? planAside(kind.plan, planned, signal) : null;
   const follower = following(model, kind.begin(model));
-  const initial = (pointer) => ({ '/operation': { ranges: [follower.range()] }, '/operation/ranges/-': { ...follower.range(), name: 'Another' } }[pointer] ?? beginning(pointer, model, fields.value()));
+  const initial = (pointer) => {
+    if (pointer === '/operation') return { ranges: [follower.range()] };
+    return pointer === '/operation/ranges/-' ? { ...follower.range(), name: 'Another' } : beginning(pointer, model, fields.value());
+  };
   const cost = kind.priced ? prices(kind.plan, model, signal) : null;
   const dial = kind.priced ? accuracyDial(kind.plan, chooseAccuracy, signal) : null;
   const table = casingTable((measured) => {
