@@ -309,6 +309,19 @@ def test_speeds_and_operating_ranges_fit_each_other(service, model, new_page):
     expect(page.get_by_text(note)).to_have_count(0)
     assert page.get_by_label("Clearance consumption").input_value() == "0.9"
 
+    # The number of speeds tells no range, and a range leaves room for its separation below the highest speed of the model.
+    page = new_page(f"{service.url}/#/sweep?model={model}", expected=["422"])
+    highest = int(ends_of(page, "Speeds")[1])
+    page.get_by_label("Number of speeds").fill("50")
+    page.get_by_role("checkbox", name="Operating ranges").check()
+    within = ends_of(page, "Range 1")
+    assert int(within[0]) * 0.95 >= int(ends_of(page, "Speeds")[0]) and int(within[1]) * 1.05 <= highest
+    page.get_by_role("checkbox", name="Operating ranges").uncheck()
+    type_ends(page, "Speeds", "20000", str(highest))
+    page.get_by_role("checkbox", name="Operating ranges").check()
+    assert ends_of(page, "Range 1")[0] == "20000" and 0 <= highest - 1.05 * int(ends_of(page, "Range 1")[1]) < 2
+    expect(page.get_by_text("do not reach the ends")).to_have_count(0)
+
     # The range first: speeds follow it.
     page = new_page(f"{service.url}/#/sweep?model={model}", expected=["422"])
     page.get_by_role("checkbox", name="Limits").check()

@@ -56,7 +56,7 @@ export function rangeWithin({ from, to }) {
   return { name: 'Operation', from: Math.ceil(rpm(from) / (1 - ASIDE)), to: Math.floor(rpm(to) / (1 + ASIDE)), unit: 'rpm', separation_percent: 100 * ASIDE };
 }
 
-/** An operating range of the speeds in rad/s that somebody typed, as they are. */
-export function rangeOf({ from, to }) {
-  return { ...rangeWithin({ from, to }), from: tidy(rpm(from)), to: tidy(rpm(to)) };
+/** An operating range of the speeds in rad/s that somebody typed, as they are; its separation ends below the highest speed. */
+export function rangeOf({ from, to }, highest) {
+  return { ...rangeWithin({ from, to }), from: tidy(rpm(from)), to: Math.min(tidy(rpm(to)), Math.floor(rpm(highest) / (1 + ASIDE))) };
 }

@@ -36,8 +36,8 @@ export async function requestForm(place, { model, kind, value, words }, signal) 
   const plan = kind.plan ? planAside(kind.plan, planned, signal) : null;
   const follower = following(model, kind.begin(model));
   const initial = (pointer) => {
-    if (pointer === '/operation') return { ranges: [follower.range()] };
-    return pointer === '/operation/ranges/-' ? { ...follower.range(), name: 'Another' } : beginning(pointer, model, fields.value());
+    if (pointer === '/operation') return { ranges: [follower.range(fields.value())] };
+    return pointer === '/operation/ranges/-' ? { ...follower.range(fields.value()), name: 'Another' } : beginning(pointer, model, fields.value());
   };
   const cost = kind.priced ? prices(kind.plan, model, signal) : null;
   const dial = kind.priced ? accuracyDial(kind.plan, chooseAccuracy, signal) : null;
