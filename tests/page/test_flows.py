@@ -140,7 +140,7 @@ def test_a_sweep_is_planned_asked_for_and_followed(service, model, swept, new_pa
     assert "give “Limits”: clearance consumption, tip motion, utilisation or node force" in said.inner_text()
     assert said.bounding_box()["y"] < page.get_by_text("done", exact=True).bounding_box()["y"]
     # What would decide opens the form with that filled in.
-    page.get_by_role("link", name=re.compile("^Open the form with .*“More speeds around peaks” switched on")).click()
+    page.get_by_role("link", name=re.compile("^Open the form with .*“More speeds around peaks” switched on")).first.click()
     page.get_by_text("Changed against that job: “More speeds around peaks”").wait_for()
     assert page.get_by_label("More speeds around peaks").input_value() == "true"
     assert page.get_by_label("Number of speeds").input_value() == "9"
