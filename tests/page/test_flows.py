@@ -135,8 +135,19 @@ def test_a_sweep_is_planned_asked_for_and_followed(service, model, swept, new_pa
     # The verdict comes first; without a limit it is undecided, and no speed is missing any more.
     said = page.locator("[data-verdict=undecided]")
     page.wait_for_function("() => !document.querySelector('[data-verdict]').innerText.includes('without a result')")
-    assert said.inner_text() == service.call("GET", f"/v1/jobs/{job}/verdict")["sentence"].replace("`", "")
+    # Names of fields are those of the form.
+    assert "give `limits`: `clearance_consumption`" in service.call("GET", f"/v1/jobs/{job}/verdict")["sentence"]
+    assert "give “Limits”: clearance consumption, tip motion, utilisation or node force" in said.inner_text()
     assert said.bounding_box()["y"] < page.get_by_text("done", exact=True).bounding_box()["y"]
+    # What would decide opens the form with that filled in.
+    page.get_by_role("link", name=re.compile("^Open the form with .*“More speeds around peaks” switched on")).first.click()
+    page.get_by_text("Changed against that job: “More speeds around peaks”").wait_for()
+    assert page.get_by_label("More speeds around peaks").input_value() == "true"
+    assert page.get_by_label("Number of speeds").input_value() == "9"
+    page.go_back()
+    page.get_by_role("link", name=re.compile("^Open the form with give “Limits”")).click()
+    page.get_by_label("Clearance consumption").wait_for()
+    assert page.get_by_label("Clearance consumption").input_value() == "0.9"
 
 
 def test_a_sweep_opens_on_its_verdict_and_leads_on_from_the_worst_speeds(service, model, new_page):
@@ -156,6 +167,8 @@ def test_a_sweep_opens_on_its_verdict_and_leads_on_from_the_worst_speeds(service
     # Each worst speed says by how much the limit is passed.
     for card, worst in zip(cards.all(), verdict["worst"]):
         assert f"{worst['limits'][0]['above_percent']:.2g}"[:1] in card.inner_text() and "tip motion" in card.inner_text()
+        value, error = worst["limits"][0]["value"], worst["limits"][0]["error"]
+        assert f"({value / (1 + error / value):.3g} to {value * (1 + error / value):.3g}) mm" in card.inner_text()
     # The wheel is recorded and drawn in its place.
     index = verdict["worst"][0]["index"]
     cards.first.get_by_role("button", name=re.compile("^Record the wheel")).click()
@@ -168,6 +181,58 @@ def test_a_sweep_opens_on_its_verdict_and_leads_on_from_the_worst_speeds(service
     rpm = level["verdict"]["worst"][0]["speed_rad_s"] * 9.549296585513721
     assert asked["speed"]["from"] < rpm < asked["speed"]["to"] and asked["scene"]["casing"]["lobes"]["count"] == 2
     assert index in [speed["index"] for speed in level["speeds"]]
+
+
+def test_nothing_is_counted_before_a_speed_has_finished(service, swept, new_page):
+    def emptied(route):
+        answer = route.fetch()
+        level = answer.json()
+        level["speeds"], level["verdict"]["critical_speeds"], level["verdict"]["worst"] = [], [], []
+        route.fulfill(response=answer, json=level)
+
+    page = new_page(f"{service.url}/#/jobs")
+    page.route("**/level", emptied)
+    page.goto(f"{service.url}/#/jobs/{swept}")
+    page.get_by_text("No speed was finished.").wait_for()
+    assert page.get_by_role("heading", name="critical speed").count() == 0
+
+
+def test_progress_has_a_percentage_only_where_it_is_known(service, new_page):
+    page = new_page(f"{service.url}/#/jobs")
+    page.get_by_role("heading", name="Jobs").wait_for()
+
+    def told(progress, total, finished, phase):
+        job = {"kind": "sweep", "progress": progress, "phase": phase, "posted": {"speeds": [{"from": 1, "to": 2, "count": 98}, {"values": [3, 4]}]}}
+        job |= {"speeds": {"total": total, "finished": finished, "diverged": 0, "failed": 0}}
+        return page.evaluate("async (job) => Object.values((await import('/page/lib/progress.js')).progressOf(job))", job)
+
+    assert told(55, 100, 50, "50 of 100 speeds finished") == ["55 % · 50 of 100 speeds finished", 55]
+    assert told(99, 123, 100, "100 of 123 speeds finished") == [
+        "all 100 speeds finished; refining: 23 added around peaks · 100 of 123 speeds finished",
+        100 * 100 / 123,
+    ]
+    assert told(99, 100, 100, "control runs: 1 of 5") == ["control runs: 1 of 5", None]
+
+
+def test_stress_stands_in_the_order_of_the_speeds(service, model, new_page):
+    job = service.call("POST", "/v1/sweeps", sweep_of(model, speeds={"values": [24000, 15000, 18000], "unit": "rpm"}, record={"stress": {}}))["id"]
+    assert service.finish(job)["status"] == "successful"
+    page = new_page(f"{service.url}/#/jobs/{job}?view=stress")
+    rows = page.get_by_role("region", name="Largest stress and utilisation at each speed").locator("tbody tr")
+    rows.first.wait_for()
+    assert [row.locator("td").first.inner_text() for row in rows.all()] == ["15,000 rpm", "18,000 rpm", "24,000 rpm"]
+
+
+def test_tables_beside_a_diagram_end_with_a_whole_row(service, model, new_page):
+    job = service.call("POST", "/v1/modal-analyses", {"model": model, "speeds": {"from": 0, "to": 36000, "count": 25, "unit": "rpm"}, "lobes": 2})["id"]
+    assert service.finish(job)["status"] == "successful"
+    page = new_page(f"{service.url}/#/jobs/{job}")
+    table = page.get_by_role("region", name="Engine orders of the lobes meet modes at")
+    table.wait_for()
+    assert table.evaluate("(box) => box.scrollHeight > box.clientHeight")
+    end = table.bounding_box()["y"] + table.bounding_box()["height"]
+    boxes = [row.bounding_box() for row in table.locator("tbody tr").all()]
+    assert [box for box in boxes if box["y"] < end - 1 and box["y"] + box["height"] > end + 1] == []
 
 
 def test_what_was_not_recorded_is_offered_without_a_refusal(service, model, new_page):
@@ -200,6 +265,96 @@ def test_a_click_on_the_map_opens_that_speed(service, swept, new_page):
     assert "speed=4" in page.url
     page.locator(".figure .main-svg").first.wait_for()
     page.get_by_role("heading", name=re.compile("22,66[67] rpm")).wait_for()
+
+
+def ends_of(page, group):
+    """What the fields of speeds or of a range say."""
+    fields = page.get_by_role("group", name=group, exact=True)
+    return [fields.get_by_label(name, exact=True).input_value() for name in ("From", "To")]
+
+
+def type_ends(page, group, *ends):
+    for name, end in zip(("From", "To"), ends, strict=True):
+        page.get_by_role("group", name=group, exact=True).get_by_label(name, exact=True).fill(end)
+
+
+def test_lobes_follow_the_clearance_until_they_are_written(service, model, new_page):
+    page = new_page(f"{service.url}/#/sweep?model={model}", expected=["422"])
+    height = page.get_by_label("Height")
+    page.get_by_label("At the leading edge").fill("0.4")
+    page.get_by_label("At the trailing edge").fill("0.5")
+    # 5 % above the smaller clearance, as the drawing says.
+    assert height.input_value() == "0.42"
+    page.get_by_text("The casing reaches 0.02 mm past the clearance (5 % of it)").wait_for()
+    # A clearance that is being written is none.
+    page.get_by_label("At the trailing edge").fill("")
+    page.get_by_label("At the trailing edge").fill("0.2")
+    assert height.input_value() == "0.21"
+    height.fill("0.25")
+    page.get_by_label("At the leading edge").fill("0.3")
+    assert height.input_value() == "0.25"
+
+
+def test_speeds_and_operating_ranges_fit_each_other(service, model, new_page):
+    note = "The verdict would stay undecided"
+    # Speeds first: they are the range, and reach past its separation then.
+    page = new_page(f"{service.url}/#/sweep?model={model}", expected=["422"])
+    type_ends(page, "Speeds", "18000", "24000")
+    page.get_by_role("checkbox", name="Operating ranges").check()
+    assert ends_of(page, "Range 1") == ["18000", "24000"] and ends_of(page, "Speeds") == ["17100", "25200"]
+    # Speeds that somebody typed are never given up.
+    type_ends(page, "Range 1", "20000", "22000")
+    assert ends_of(page, "Speeds") == ["18000", "24000"]
+    page.get_by_role("button", name="Limit the clearance consumption to 90 %").click()
+    expect(page.get_by_text(note)).to_have_count(0)
+    assert page.get_by_label("Clearance consumption").input_value() == "0.9"
+
+    # The number of speeds tells no range, and a range leaves room for its separation below the highest speed of the model.
+    page = new_page(f"{service.url}/#/sweep?model={model}", expected=["422"])
+    highest = int(ends_of(page, "Speeds")[1])
+    page.get_by_label("Number of speeds").fill("50")
+    page.get_by_role("checkbox", name="Operating ranges").check()
+    within = ends_of(page, "Range 1")
+    assert int(within[0]) * 0.95 >= int(ends_of(page, "Speeds")[0]) and int(within[1]) * 1.05 <= highest
+    page.get_by_role("checkbox", name="Operating ranges").uncheck()
+    type_ends(page, "Speeds", "20000", str(highest))
+    page.get_by_role("checkbox", name="Operating ranges").check()
+    assert ends_of(page, "Range 1")[0] == "20000" and 0 <= highest - 1.05 * int(ends_of(page, "Range 1")[1]) < 2
+    expect(page.get_by_text("do not reach the ends")).to_have_count(0)
+
+    # The range first: speeds follow it.
+    page = new_page(f"{service.url}/#/sweep?model={model}", expected=["422"])
+    page.get_by_role("checkbox", name="Limits").check()
+    page.get_by_role("checkbox", name="Operating ranges").check()
+    expect(page.get_by_text(note)).to_have_count(0)
+    type_ends(page, "Range 1", "18000", "24000")
+    assert ends_of(page, "Speeds") == ["17100", "25200"]
+    expect(page.get_by_text(note)).to_have_count(0)
+    # Speeds that fall short are told, and mended.
+    type_ends(page, "Speeds", "18000", "24000")
+    page.get_by_text("do not reach the ends of Operation with their separation").wait_for()
+    page.get_by_role("button", name="Ask for 17,100 to 25,200 rpm").click()
+    assert ends_of(page, "Speeds") == ["17100", "25200"]
+    # Steps over 5 % may pass over a critical speed.
+    page.get_by_label("Number of speeds").fill("8")
+    page.get_by_text("a step of 6.3 %").wait_for()
+    page.get_by_role("button", name=re.compile(r"Ask for \d+ speeds")).click()
+    page.get_by_role("button", name="Add speeds around peaks").click()
+    expect(page.get_by_text(note)).to_have_count(0)
+    steps = int(page.get_by_label("Number of speeds").input_value()) - 1
+    assert (25200 - 17100) / steps <= 0.05 * (17100 + (25200 - 17100) / steps)
+    # A limit needs what it is about.
+    page.get_by_text("Effects", exact=True).click()
+    page.get_by_role("checkbox", name="Contact of tips and casing").uncheck()
+    page.get_by_role("button", name="Switch contact on").click()
+    assert page.get_by_role("checkbox", name="Contact of tips and casing").is_checked()
+    page.get_by_label("Utilisation").fill("1")
+    page.get_by_text("has no strengths").wait_for()
+    page.get_by_label("Utilisation").fill("")
+    expect(page.get_by_text(note)).to_have_count(0)
+    # The stiffness is not known beyond the highest speed of the model.
+    type_ends(page, "Range 1", "18000", "60000")
+    page.get_by_text("the stiffness of the model ends at").wait_for()
 
 
 def test_a_range_that_the_speeds_do_not_reach_is_told_before_the_start(service, model, new_page):
@@ -408,7 +563,7 @@ def test_ranges_and_limits_are_asked_for_over_the_frequencies_of_the_model(servi
     page.get_by_role("button", name="Another range").click()
     page.get_by_role("group", name="Range 2").get_by_label("Name").fill("Full speed")
     page.get_by_role("checkbox", name="Limits").check()
-    page.get_by_label("Motion of a tip").fill("0.5")
+    page.get_by_label("Tip motion").fill("0.5")
     assert page.locator("rect.range").count() == 2
     page.get_by_text("Idle: ").wait_for()
     page.get_by_text("The request as JSON").click()
@@ -594,6 +749,10 @@ def test_a_form_says_what_run_ups_take(service, swept, model, new_page):
     rates.fill(rates.input_value().split(",")[0])
     runs.nth(1).wait_for(state="detached")
     assert runs.count() == 1
+    # A part that is switched on begins with what suits the wheel.
+    page.get_by_text("Effects", exact=True).click()
+    page.get_by_role("checkbox", name="Friction").check()
+    assert page.get_by_label("Coefficient μ").input_value() == "0.15"
     # What is not possible is said at its field.
     page.get_by_label("From").fill("0")
     page.locator("[aria-invalid=true]").first.wait_for()

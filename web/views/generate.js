@@ -72,7 +72,7 @@ export async function show(main, { query }, signal) {
     schema: { $ref: '#/components/schemas/ImpellerRequest' },
     definitions, value, sections: sections(picture.element, alloys), units: unitsOf(value), skip: ['/preset'],
     initial: (pointer) => (pointer === '/splitter' ? {} : undefined),
-    onChange: changed,
+    onChange: () => changed(made.value()),
   });
   picture.show(value);
   let asking = new AbortController();

@@ -5,6 +5,7 @@ import { h, replace } from '../lib/dom.js';
 import { ended, poll } from '../lib/events.js';
 import { KINDS, moment, nameOf } from '../lib/format.js';
 import { problem } from '../lib/problem.js';
+import { progressOf } from '../lib/progress.js';
 import { verdictTag } from '../lib/verdict-tag.js';
 import { example } from './home/example.js';
 import { STATUSES } from './job.js';
@@ -63,7 +64,7 @@ function tryOut(signal) {
 }
 
 function row(job) {
-  const words = [KINDS[job.kind], ended(job) ? moment(job.finished_at) : `${job.progress} %`].filter(Boolean).join(' · ');
+  const words = [KINDS[job.kind], ended(job) ? moment(job.finished_at) : progressOf(job).words].filter(Boolean).join(' · ');
   const tag = verdictTag(job) ?? h('span', { class: `tag ${job.status === 'failed' ? 'bad' : ''}` }, STATUSES[job.status] ?? job.status);
   return h('li', { class: 'row between' }, h('span', {}, h('a', { href: `#/jobs/${job.id}` }, nameOf(job)), ' ', h('span', { class: 'quiet small' }, words)), tag);
 }

@@ -7,6 +7,7 @@ import { bytes, count, moment, nameOf } from '../lib/format.js';
 import { labelsButton } from '../lib/labels.js';
 import { again, placeWith } from '../lib/place.js';
 import { problem, unread } from '../lib/problem.js';
+import { progressOf, showProgress } from '../lib/progress.js';
 import { actions } from './job/actions.js';
 import { verdict } from './job/verdict.js';
 
@@ -83,7 +84,7 @@ export async function show(main, { id, query }, signal) {
     }, words))),
     place);
   let shown = job;
-  const stateOf = stateView(state, signal);
+  const stateOf = stateView(state, job, signal);
   const tell = (now) => {
     shown = now;
     stateOf(now);
@@ -122,8 +123,8 @@ export async function show(main, { id, query }, signal) {
   }
 }
 
-/** Shows how far a job is, again and again. Its buttons are made anew only when others are needed: one that has the focus keeps it. */
-function stateView(element, signal) {
+/** Shows how far a job is, again and again; events do not repeat what was posted. Its buttons are made anew only when others are needed: one that has the focus keeps it. */
+function stateView(element, { posted }, signal) {
   const tag = h('span');
   const words = h('span');
   const bar = h('progress', { max: 100, 'aria-label': 'Progress' });
@@ -138,9 +139,9 @@ function stateView(element, signal) {
     tag.className = `tag ${{ successful: 'good', failed: 'bad' }[job.status] ?? ''}`;
     replace(tag, STATUSES[job.status] ?? job.status);
     const { speeds } = job;
-    replace(words, running(job) ? `${job.progress} %${job.phase ? ` · ${job.phase}` : ''}`
-      : `${moment(job.finished_at)} · ${bytes(job.stored_bytes)}`);
-    bar.value = job.progress;
+    const progress = progressOf({ ...job, posted });
+    replace(words, running(job) ? progress.words : `${moment(job.finished_at)} · ${bytes(job.stored_bytes)}`);
+    showProgress(bar, progress);
     lost.hidden = !speeds || speeds.diverged + speeds.failed === 0;
     if (!lost.hidden) replace(lost, `${count(speeds.diverged, 'speed')} diverged, ${speeds.failed} failed: they have no amplitude`);
   };

@@ -6,6 +6,7 @@ import { ended, poll } from '../lib/events.js';
 import { bytes, count, KINDS, moment, nameOf, short } from '../lib/format.js';
 import { cursorOf, placeWith } from '../lib/place.js';
 import { problem } from '../lib/problem.js';
+import { progressOf, showProgress } from '../lib/progress.js';
 import { narrowing, searchField } from '../lib/search.js';
 import { verdictTag } from '../lib/verdict-tag.js';
 import { STATUSES } from './job.js';
@@ -132,7 +133,8 @@ function progress(element, job, model) {
     replace(element, h('p', { class: 'quiet small' }, [...what, moment(job.finished_at), bytes(job.stored_bytes)].filter(Boolean).join(' · '), bad > 0 ? h('span', { class: 'warn' }, ` · ${count(bad, 'speed')} without a result`) : null));
     return;
   }
-  const bar = h('progress', { max: 100, value: job.progress, 'aria-label': `Progress of ${nameOf(job)}` });
-  bar.value = job.progress;
-  replace(element, bar, h('p', { class: 'small' }, [...what, `${job.progress} %`, job.phase].filter(Boolean).join(' · ')));
+  const bar = h('progress', { max: 100, 'aria-label': `Progress of ${nameOf(job)}` });
+  const now = progressOf(job);
+  showProgress(bar, now);
+  replace(element, bar, h('p', { class: 'small' }, [...what, now.words].filter(Boolean).join(' · ')));
 }

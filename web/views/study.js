@@ -1,6 +1,6 @@
 // A new study: the form of new jobs, beginning with that kind.
 
-import { show as showRequest } from './sweep.js';
+import { show as showRequest } from './new-job.js';
 
 export function show(main, where, signal) {
   return showRequest(main, where, signal, 'study');

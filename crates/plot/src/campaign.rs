@@ -4,7 +4,7 @@ use super::axis::significant;
 use super::campaign_difference as difference;
 use super::cells::{cells, extent};
 use super::drawing::Drawing;
-use super::layer::{Band, Bars, Cells, Curve, Mark, Marks};
+use super::layer::{Band, Bars, Cells, Curve, Mark, Marks, Reach};
 use super::sketch::{Axis, Panel, Sketch};
 use super::style::{Colour, Dash, Look, Pen, Symbol};
 use super::{colour, hatching, heading};
@@ -224,7 +224,7 @@ fn sensitivities(campaign: &Campaign, top: f64) -> Option<Panel<'static>> {
         let colour = Colour { paper: paper.to_owned(), ..Colour::curve() };
         let look = if index == 0 { Look::filled } else { Look::open };
         let look = look(Symbol::Circle, (4.0, 9.0), colour).with(paper, paper, 1.0);
-        let lengths = shown.iter().map(|of| value(of).1).collect();
+        let lengths = shown.iter().map(|of| Reach::even(value(of).1)).collect();
         let bars = Bars {
             lengths,
             colour: Colour { paper: "#222222".to_owned(), ..Colour::curve() },

@@ -3,7 +3,7 @@
 use super::axis::significant;
 use super::cells::rpm;
 use super::colour::DISTINCT;
-use super::layer::{Bars, Mark, Marks};
+use super::layer::{Bars, Mark, Marks, Reach};
 use super::sketch::{Axis, Panel};
 use super::style::{Colour, Look, Symbol};
 use super::svg::line;
@@ -63,7 +63,7 @@ pub(super) fn panel(
         let here: Vec<&(f64, Difference)> = known.iter().filter(|(_, of)| of.verdict == verdict).collect();
         let marks = here.iter().map(|(speed, of)| Mark::new((*speed, of.mean), told(*speed, of)));
         let look = Look::filled(Symbol::Circle, (3.2, 7.0), Colour::of(colour));
-        let lengths = here.iter().map(|(_, of)| ends(of).1 - of.mean).collect();
+        let lengths = here.iter().map(|(_, of)| Reach::even(ends(of).1 - of.mean)).collect();
         let bars = Bars { lengths, colour: Colour::of(colour), class: "error" };
         let marks = Marks::new(words, look, marks).class("difference");
         panel.marks(words, Marks { bars: Some(bars), ..marks });

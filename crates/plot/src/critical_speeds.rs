@@ -4,7 +4,7 @@ use super::axis::{label, significant};
 use super::cells::rpm;
 use super::drawing::Drawing;
 use super::key::MARK_WIDTH;
-use super::layer::{Bars, Curve, Mark, Marks, Stroke};
+use super::layer::{Bars, Curve, Mark, Marks, Reach, Stroke};
 use super::marks::DRIVEN;
 use super::sketch::{Axis, Panel, Sketch};
 use super::style::{Colour, Dash, Look, Pen, Symbol};
@@ -120,8 +120,10 @@ fn add_peaks(critical: &CriticalSpeeds, panel: &mut Panel) {
             false => Look::open(Symbol::Circle, (4.6, 10.0), colour).with("white", "#1f4e79", 1.6),
         };
         let bars = |lengths| Some(Bars { lengths, colour: Colour::curve(), class: "error" });
-        let across = of.iter().map(|peak| rpm(peak.speed_error_rad_s)).collect();
-        let error = |peak: &&CriticalSpeed| peak.amplitude_error.map_or(f64::NAN, |error| peak.rms * error);
+        let across = of.iter().map(|peak| Reach::even(rpm(peak.speed_error_rad_s))).collect();
+        let error = |peak: &&CriticalSpeed| {
+            peak.amplitude_error.map_or(Reach::even(f64::NAN), |error| Reach::of_factor(peak.rms, error))
+        };
         let upwards = of.iter().map(error).collect();
         let marks = Marks::new(name, look, of.iter().map(mark)).class("peak");
         panel.marks(name, Marks { across: bars(across), bars: bars(upwards), ..marks });

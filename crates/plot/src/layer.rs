@@ -111,8 +111,8 @@ pub(super) struct Curve {
     pub(super) labels: Vec<String>,
     /// Whether the drawing has words of its own in the place of the labels.
     pub(super) has_texts: bool,
-    /// Half the lengths of error bars at the points in the figure; not a number where there is none.
-    pub(super) errors: Vec<f64>,
+    /// Error bars at the points in the figure.
+    pub(super) errors: Vec<Reach>,
     /// Marks at all points.
     pub(super) look: Option<Look>,
     /// Class in the drawing.
@@ -231,11 +231,35 @@ impl Mark {
     }
 }
 
+/// Lengths of an error bar below and above its mark, or to its left and right; not numbers where a mark has no bar.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Reach {
+    pub(super) below: f64,
+    pub(super) above: f64,
+}
+
+impl Reach {
+    /// Bar that is as long on one side as on the other.
+    pub(super) fn even(length: f64) -> Self {
+        Self { below: length, above: length }
+    }
+
+    /// Bar from v/(1 + e) to v (1 + e) for a value v and its relative error e, as verdicts have it: it never ends below 0.
+    pub(super) fn of_factor(value: f64, relative_error: f64) -> Self {
+        Self { below: value - value / (1.0 + relative_error), above: value * relative_error }
+    }
+
+    /// Whether the bar is as long on one side as on the other, or absent.
+    pub(super) fn is_even(&self) -> bool {
+        self.below.total_cmp(&self.above).is_eq()
+    }
+}
+
 /// Error bars of marks.
 #[derive(Debug, Clone)]
 pub(super) struct Bars {
-    /// Half the length of every bar; not a number where a mark has none.
-    pub(super) lengths: Vec<f64>,
+    /// Lengths of the bar of every mark.
+    pub(super) lengths: Vec<Reach>,
     pub(super) colour: Colour,
     /// Class in the drawing.
     pub(super) class: &'static str,

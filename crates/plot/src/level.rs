@@ -3,7 +3,7 @@
 use super::axis::significant;
 use super::cells::{Cell, within};
 use super::diagram::Diagram;
-use super::layer::{Area, Areas, Curve, Layer, Mark, Marks};
+use super::layer::{Area, Areas, Curve, Layer, Mark, Marks, Reach};
 use super::map_view::missing_words;
 use super::settling_strip::{self, Standing};
 use super::sketch::{Axis, Panel};
@@ -127,7 +127,8 @@ fn curve(map: &InteractionMap, seen: &[Seen]) -> Curve {
     let errors = map.errors.as_ref().filter(|errors| !errors.points.is_empty());
     let errors = errors.into_iter().flat_map(|errors| {
         seen.iter().map(|Seen { cell, rms }| {
-            rms.zip(errors.of(cell.index as u32)).map_or(f64::NAN, |(rms, error)| rms * error)
+            rms.zip(errors.of(cell.index as u32))
+                .map_or(Reach::even(f64::NAN), |(rms, error)| Reach::of_factor(rms, error))
         })
     });
     Curve { errors: errors.collect(), ..curve }

@@ -7,7 +7,8 @@ use super::heading;
 use super::key::{Flow, Key};
 use super::labels::{Labels, traced};
 use super::layer::{
-    Area, Areas, Bars, Cells, Course, Curve, Hover, Layer, Mark, Marks, Place, Stroke, Upright, Uprights,
+    Area, Areas, Bars, Cells, Course, Curve, Hover, Layer, Mark, Marks, Place, Reach, Stroke, Upright,
+    Uprights,
 };
 use super::marks::spread;
 use super::pixels::Pixels;
@@ -262,8 +263,8 @@ fn marks(panel: &Panel, marks: &Marks) -> Element {
     let ends = |bars: &Option<Bars>, is_level: bool| -> Vec<Element> {
         let lengths =
             bars.iter().flat_map(|bars| bars.lengths.iter().zip(&marks.marks).map(move |both| (bars, both)));
-        let known = lengths.filter(|(_, (length, _))| length.is_finite());
-        known.filter_map(|(bars, (length, mark))| bar(panel, bars, mark, *length, is_level)).collect()
+        let known = lengths.filter(|(_, (reach, _))| reach.above.is_finite());
+        known.filter_map(|(bars, (reach, mark))| bar(panel, bars, mark, *reach, is_level)).collect()
     };
     let standing = marks.stems.is_some();
     let drawn = marks.marks.iter().filter(|_| !standing).filter_map(|mark| {
@@ -308,14 +309,14 @@ fn stems(panel: &Panel) -> Element {
 }
 
 /// Error bar of a mark with caps, cut off at the frame.
-fn bar(panel: &Panel, bars: &Bars, mark: &Mark, length: f64, is_level: bool) -> Option<Element> {
+fn bar(panel: &Panel, bars: &Bars, mark: &Mark, reach: Reach, is_level: bool) -> Option<Element> {
     const CAP: f64 = 3.5;
     let (x, y) = panel.diagram.inside(mark.place.0, mark.place.1)?;
     let (scale, range, at) = match is_level {
         true => (panel.diagram.x, panel.x.range, mark.place.0),
         false => (panel.diagram.y, panel.y.range, mark.place.1),
     };
-    let ends = [at - length, at + length].map(|value| scale.place(value.clamp(range.0, range.1)));
+    let ends = [at - reach.below, at + reach.above].map(|value| scale.place(value.clamp(range.0, range.1)));
     let stroke = match is_level {
         true => line((ends[0], y), (ends[1], y)),
         false => line((x, ends[0]), (x, ends[1])),

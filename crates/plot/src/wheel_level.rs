@@ -4,7 +4,7 @@ use super::axis::{label, significant};
 use super::cells::{range, rpm};
 use super::drawing::Drawing;
 use super::heading;
-use super::layer::{Area, Areas, Bars, Curve, Layer, Mark, Marks, Upright, Uprights};
+use super::layer::{Area, Areas, Bars, Curve, Layer, Mark, Marks, Reach, Upright, Uprights};
 use super::marks;
 use super::sketch::{Axis, Panel, Sketch};
 use super::style::{Colour, Dash, Look, Pen, Symbol};
@@ -217,21 +217,31 @@ fn add_values(
             };
             let mark = |(speed, value): &(&LevelSpeed, &LevelValue)| {
                 let speed_rpm = rpm(speed.speed_rad_s);
-                let error =
-                    value.error.map_or_else(String::new, |error| format!(" ± {}", significant(error)));
+                let error = reach(value).map_or_else(String::new, |Reach { below, above }| {
+                    let ends = [value.value - below, value.value + above].map(significant);
+                    format!(" ({} to {})", ends[0], ends[1])
+                });
                 let told = format!("{} rpm: {}{error} {unit}", label(speed_rpm, 0), significant(value.value));
                 let told = format!("{}, {words}", told.trim_end());
                 Mark { index: Some(speed.index as usize), ..Mark::new((speed_rpm, value.value), told) }
             };
             let look = if is_inside { Look::filled } else { Look::open };
             let look = look(symbol, (4.2, 9.0), Colour::of(colour));
-            let lengths: Vec<f64> = of().map(|(_, value)| value.error.unwrap_or(f64::NAN)).collect();
-            let has_errors = lengths.iter().any(|length| length.is_finite());
+            let lengths: Vec<Reach> =
+                of().map(|(_, value)| reach(value).unwrap_or(Reach::even(f64::NAN))).collect();
+            let has_errors = lengths.iter().any(|reach| reach.above.is_finite());
             let bars = has_errors.then(|| Bars { lengths, colour: Colour::of(colour), class: "error" });
             let name = if is_inside { words.to_owned() } else { format!("{words}, outside the ranges") };
             panel.marks(&name, Marks { bars, ..Marks::new(&name, look, of().map(mark)).class("level") });
         }
     }
+}
+
+/// Error bar of a value, if its error is known; 0 has a bar without length.
+fn reach(value: &LevelValue) -> Option<Reach> {
+    let error = value.error?;
+    let relative = if value.value > 0.0 { error / value.value } else { 0.0 };
+    Some(Reach::of_factor(value.value, relative))
 }
 
 /// Adds the speeds without values on the axis.

@@ -3,7 +3,7 @@
 use super::axis::label;
 use super::drawing::Drawing;
 use super::key::MARK_WIDTH;
-use super::layer::{Bars, Course, Curve, Mark, Marks};
+use super::layer::{Bars, Course, Curve, Mark, Marks, Reach};
 use super::scheme;
 use super::sketch::{Axis, Panel};
 use super::study_runs::{Drawn, begin, error_axis, extent, no_speed, reason, words};
@@ -140,7 +140,7 @@ impl<'a> View<'a> {
         let mut here: Vec<&Drawn> =
             self.runs.iter().filter(|drawn| drawn.run.setting.scheme == scheme).collect();
         here.sort_by_key(|drawn| std::cmp::Reverse(drawn.run.setting.modes_per_speed));
-        let lengths = here.iter().map(|drawn| drawn.spread.unwrap_or(f64::NAN)).collect();
+        let lengths = here.iter().map(|drawn| Reach::even(drawn.spread.unwrap_or(f64::NAN))).collect();
         let bars = Bars { lengths, colour: Colour::of(scheme::colour(scheme)), class: "spread" };
         let look = scheme::look(scheme, (5.5, 8.0));
         let marks = Marks::new(&scheme::words(scheme), look, here.into_iter().map(|drawn| self.mark(drawn)));

@@ -38,7 +38,7 @@ function readNumber(text) {
 }
 
 /** What `"auto"` means of a field, where other words say it better. */
-const AUTO = { revolutions: 'until it repeats' };
+export const AUTO = { revolutions: 'until it repeats' };
 
 /** Words of a contract that are no words. */
 const OPTIONS = { rad_s: 'rad/s', hz: 'Hz', running: 'at speed', cold: 'cold, at rest' };

@@ -13,7 +13,7 @@ import { ordered, unitIn, wordsOf } from './words.js';
 
 /**
  * A form.
- * @param {{schema: any, definitions: Record<string, any>, value: any, onChange: (value: any) => void,
+ * @param {{schema: any, definitions: Record<string, any>, value: any, onChange: (pointer: string) => void,
  *   sections: Section[], units?: any, rare?: Record<string, [string, string[]]>, skip?: string[], initial?: (pointer: string) => any,
  *   beside?: (pointer: string) => Node | null}} what
  *   `sections` says in which order parts stand, `units` are those of the model, `rare` has by pointers the fields that few need, closed under a title, `skip` pointers that are asked
@@ -36,6 +36,12 @@ export function form(what) {
     value: () => context.value,
     /** Shows another value. */
     set,
+    /** Gives a field, which is shown, another value; its user did not write it. */
+    write(pointer, value) {
+      change(context, pointer, value);
+      const control = context.places.get(pointer)?.control;
+      if (control) control.value = value;
+    },
     /** Says at each field what the service finds wrong there; returns those errors that have no field. */
     complain(errors, focus) {
       for (const place of context.places.values()) place.complain(null);
@@ -77,8 +83,14 @@ function get(context, pointer) {
   return words(pointer).reduce((value, word) => value?.[word], context.value);
 }
 
-/** Puts a value at a pointer, or takes away what is there; the parts around it are there already. */
+/** Puts what the user wrote at a pointer. */
 function put(context, pointer, value) {
+  change(context, pointer, value);
+  context.onChange(pointer);
+}
+
+/** Puts a value at a pointer, or takes away what is there; the parts around it are there already. */
+function change(context, pointer, value) {
   const path = words(pointer);
   const last = path.pop();
   const copy = structuredClone(context.value);
@@ -91,7 +103,6 @@ function put(context, pointer, value) {
   }
   context.value = completed(copy, context.schema, context.definitions);
   tellStates(context);
-  context.onChange(context.value);
 }
 
 /** Says beside the titles of sections what is in them. */

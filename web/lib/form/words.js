@@ -88,9 +88,9 @@ separation_percent|Separation asked for|%|How far critical speeds are to stay of
 #
 limits|Limits||What must not be passed; any one or several. Off: the verdict stays undecided.
 # limits
-clearance_consumption|Clearance used, outward motion|of the clearance|0.9: the outward motion of a tip may take 90 % of its clearance.
-tip_motion|Motion of a tip|L|To either side of its middle.
-utilisation|Utilisation of the material|of its strength|By Goodman’s rule, 1: nothing is left. Needs the strengths of the material, and stress among what is recorded.
+clearance_consumption|Clearance consumption|of the clearance|0.9: the outward motion of a tip may take 90 % of its clearance.
+tip_motion|Tip motion|L|To either side of its middle.
+utilisation|Utilisation|of the strength|Of the material, by Goodman’s rule; 1: nothing is left. Needs its strengths; stress is recorded then.
 node_force|Contact force on a node|F|
 #
 blade_thickness|Blade thickness at the tip|L|By which linear theory is checked where the model has no elements that show it.

@@ -11,7 +11,7 @@ import { table } from '../../lib/table.js';
 import { unitOf } from '../../lib/units.js';
 import { besideWords, sweepBeside } from './beside.js';
 import { sensors } from './choices.js';
-import { STABILITY } from './verdicts.js';
+import { STABILITY } from './sweep-credentials.js';
 
 const KINDS = {
   fold: 'fold: it turns back',

@@ -4,7 +4,7 @@
 import { api, submit } from '../../lib/api.js';
 import { h, replace } from '../../lib/dom.js';
 import { follow } from '../../lib/events.js';
-import { number, rpm, speed } from '../../lib/format.js';
+import { count, number, rpm, speed } from '../../lib/format.js';
 import { again } from '../../lib/place.js';
 import { plot } from '../../lib/plot.js';
 import { problem } from '../../lib/problem.js';
@@ -44,7 +44,7 @@ function tablesOf(found, context) {
     { name: 'Diameter', number: true, cell: (each) => each.i, sort: (each) => each.i },
     { name: 'Family', number: true, cell: (each) => each.j + 1, sort: (each) => each.j },
   ];
-  const titled = (caption, what) => [h('h2', { class: 'small' }, caption), table({ caption, ...what })];
+  const titled = (caption, what) => [h('h2', { class: 'small' }, `${caption} ${count(what.rows.length, 'speed')}`), table({ caption, ...what })];
   return [
     titled('Engine orders of the lobes meet modes at', {
       rows: found.driven_crossings,

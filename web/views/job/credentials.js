@@ -4,7 +4,7 @@ import { facts, h, replace } from '../../lib/dom.js';
 import { ended } from '../../lib/events.js';
 import { duration, moment, number } from '../../lib/format.js';
 import { again } from '../../lib/place.js';
-import { verdicts } from './verdicts.js';
+import { sweepCredentials } from './sweep-credentials.js';
 
 export async function show(place, context, signal) {
   const { job } = context;
@@ -38,6 +38,6 @@ export async function show(place, context, signal) {
     h('h2', {}, 'The request'),
     h('pre', { tabindex: '0', 'aria-label': 'Request' }, JSON.stringify(job.request, null, 2)));
   if (!ended(job)) context.onChange((now) => ended(now) && again());
-  if (job.kind === 'sweep') await verdicts(worth, context, signal);
+  if (job.kind === 'sweep') await sweepCredentials(worth, context, signal);
 }
 

@@ -11,7 +11,7 @@ import { table } from '../../lib/table.js';
 import { unitOf } from '../../lib/units.js';
 import { select, sensors } from './choices.js';
 import { fromHere } from './from-here.js';
-import { LINEAR, SETTLED, SETTLING, VALIDITY } from './verdicts.js';
+import { LINEAR, SETTLED, SETTLING, VALIDITY } from './sweep-credentials.js';
 
 export async function show(place, context, signal) {
   const { job, query } = context;
@@ -137,7 +137,7 @@ function wheelTable(found, context, signal) {
       { name: 'Severity', title: SEVERITY, number: true, cell: (each) => number(each.severity, 3), sort: (each) => each.severity },
       { name: 'Tip', cell: (each) => `blade ${each.tip.sector}, node ${each.tip.contact_node}, ${each.tip.component}` },
       { name: `Tip motion, ${length}`, number: true, cell: (each) => number(each.tip.half_peak_to_peak), sort: (each) => each.tip.half_peak_to_peak },
-      { name: 'Clearance used, outward', title: 'Largest share of its clearance that the outward motion of a node uses', number: true, cell: (each) => percent(each.clearance_consumption), sort: (each) => each.clearance_consumption },
+      { name: 'Clearance consumption', title: 'Largest share of its clearance that the outward motion of a node uses', number: true, cell: (each) => percent(each.clearance_consumption), sort: (each) => each.clearance_consumption },
       { name: `Force, ${force}`, title: 'Largest sum of all contact forces', number: true, cell: (each) => number(each.peak_force), sort: (each) => each.peak_force },
       ...common,
       next(context, signal),

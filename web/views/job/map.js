@@ -9,7 +9,7 @@ import { unread } from '../../lib/problem.js';
 import { select, sensors } from './choices.js';
 import { linear } from './linear.js';
 import { has } from './recorded.js';
-import { verdicts } from './verdicts.js';
+import { sweepCredentials } from './sweep-credentials.js';
 
 export async function show(place, context, signal) {
   const { job, query } = context;
@@ -41,7 +41,7 @@ export async function show(place, context, signal) {
       await plot(figure, scale === 'linear' ? linear(found) : found, {
         signal, label: 'Interaction map', onClick: (event) => open(event, found, context),
       });
-      if (ended(context.now())) await verdicts(summary, context, signal);
+      if (ended(context.now())) await sweepCredentials(summary, context, signal);
     } catch (error) {
       if (!signal.aborted) replace(told, unread(error, signal));
     }

@@ -2,25 +2,31 @@
 
 import { api } from '../../lib/api.js';
 import { h, replace } from '../../lib/dom.js';
+import { ended } from '../../lib/events.js';
+import { inWords } from '../../lib/form/named.js';
+import { unitIn, wordsOf } from '../../lib/form/words.js';
 import { growing, moreSpeeds } from '../../lib/growing.js';
 import { count, number, percent, speed } from '../../lib/format.js';
 import { plot } from '../../lib/plot.js';
 import { unread } from '../../lib/problem.js';
 import { table } from '../../lib/table.js';
 import { TAGS } from '../../lib/verdict-tag.js';
+import { mendable } from '../request/mend.js';
 import { select } from './choices.js';
 import { fromHere } from './from-here.js';
 import { recordedSpeeds } from './recorded.js';
-import { coded } from './verdict.js';
 import { wheelPicture } from './wheel-picture.js';
 
-/** Quantities that are judged, with the unit of each among those of the model. */
-export const QUANTITIES = {
-  clearance_consumption: ['clearance consumption', null],
-  tip_motion: ['tip motion', 'length'],
-  utilisation: ['utilisation', null],
-  node_force: ['contact force on a node', 'force'],
-};
+/** Quantities that are judged, called as where limits are asked for. */
+const QUANTITIES = ['clearance_consumption', 'tip_motion', 'utilisation', 'node_force'];
+
+const quantityWords = (name) => wordsOf(`/limits/${name}`)[0].toLowerCase();
+
+/** Unit of a quantity behind its value; none of shares. */
+function quantityUnit(name, units) {
+  const [, code] = wordsOf(`/limits/${name}`);
+  return /^[LF]$/.test(code) ? ` ${unitIn(code, units)}` : '';
+}
 
 /** Looks and words of a value against its limit. */
 const STANDINGS = {
@@ -28,6 +34,20 @@ const STANDINGS = {
   reached: ['warn', '80 % reached'],
   open: ['quiet', 'within the error'],
   passed: ['bad', 'passed'],
+};
+
+/** Questions that are open at a speed, in a few words. */
+const QUESTIONS = {
+  speeds_missing: 'no result yet',
+  speeds_failed: 'not computed',
+  not_settled: 'motion not settled',
+  unsound_stiffness: 'stiffness at speed unsound',
+  beyond_linear_theory: 'beyond linear theory',
+  linear_theory_not_checked: 'linear theory not checked',
+  error_across_limit: 'limit within the error',
+  error_unknown: 'error not known',
+  value_unknown: 'value not known',
+  peak_unresolved: 'peak not resolved',
 };
 
 export async function show(place, context, signal) {
@@ -38,7 +58,7 @@ export async function show(place, context, signal) {
   const told = h('div');
   const below = h('div');
   const quantity = query.get('quantity') ?? '';
-  const options = [['', 'the quantity that decides'], ...Object.entries(QUANTITIES).map(([name, [words]]) => [name, words])];
+  const options = [['', 'the quantity that decides'], ...QUANTITIES.map((name) => [name, quantityWords(name)])];
   replace(place,
     ranges,
     h('div', { class: 'row' }, select('Level of the wheel', options, quantity, (chosen) => context.go({ quantity: chosen }))),
@@ -57,7 +77,8 @@ export async function show(place, context, signal) {
       const recorded = await recordedSpeeds(context.now(), signal);
       if (signal.aborted) return;
       replace(ranges, rangeList(level.verdict));
-      replace(below, worst(level.verdict, recorded, context, signal), questions(level.verdict), critical(level.verdict, context));
+      if (level.speeds.length === 0) replace(below, h('p', { class: 'note' }, ended(context.now()) ? 'No speed was finished.' : 'No speed has finished yet.'));
+      else replace(below, worst(level.verdict, recorded, context, signal), questions(level.verdict, job), critical(level.verdict, context, !ended(context.now())));
     } catch (error) {
       if (!signal.aborted) replace(told, unread(error, signal));
     }
@@ -111,10 +132,10 @@ function responseWords({ critical: isPeak, resolved, engine_order: order, nodal_
   ].filter(Boolean).join(', ');
 }
 
-/** Value with its error and unit. */
+/** Value v with its unit and where it may lie: an error e, which the service gives as v e, leaves v/(1 + e) to v (1 + e). */
 function valueWords({ limit, value, error }, units) {
-  const unit = QUANTITIES[limit][1] ? ` ${units[QUANTITIES[limit][1]]}` : '';
-  return `${number(value, 3)}${error === undefined ? '' : ` ± ${number(error, 2)}`}${unit}`;
+  const ends = error > 0 ? ` (${number(value * value / (value + error), 3)} to ${number(value + error, 3)})` : '';
+  return `${number(value, 3)}${ends}${quantityUnit(limit, units)}`;
 }
 
 /** The worst speeds as cards: what, where, which limit by how much, what would decide, and the wheel. */
@@ -126,7 +147,7 @@ function worst(verdict, recorded, context, signal) {
       h('h3', {}, h('a', { href: context.address({ view: 'point', speed: one.index }) }, speed(one.speed_rad_s))),
       h('p', { class: 'small' }, [responseWords(one), verdict.ranges_given ? positionWords(one.ranges) : null].filter(Boolean).join('; ')),
       one.limits.length > 0 ? limits(one, verdict.units) : tipWords(one, verdict.units),
-      open.length > 0 ? h('p', { class: 'small' }, 'Undecided here: ', open.map((question, k) => [k > 0 ? '; ' : null, question.what.replaceAll('_', ' ')])) : null,
+      open.length > 0 ? h('p', { class: 'small' }, 'Undecided here: ', open.map((question, k) => [k > 0 ? '; ' : null, QUESTIONS[question.what] ?? inWords(question.finding)])) : null,
       wheelPicture(context, one, recorded, signal),
       fromHere(context.job, one.speed_rad_s, signal));
   };
@@ -142,30 +163,34 @@ function limits(one, units) {
   return h('ul', { class: 'plain small' }, sorted.map((judged) => {
     const [look, words] = STANDINGS[judged.standing];
     const by = `${judged.above_percent > 0 ? '+' : ''}${number(judged.above_percent, 2)} %`;
-    return h('li', {}, `${QUANTITIES[judged.limit][0]} ${valueWords(judged, units)}, limit ${number(judged.allowed)}: `, h('strong', { class: look }, `${words} (${by})`));
+    return h('li', {}, `${quantityWords(judged.limit)} ${valueWords(judged, units)}, limit ${number(judged.allowed)}: `, h('strong', { class: look }, `${words} (${by})`));
   }));
 }
 
-/** What is open, each question once, and what would decide it. */
-function questions({ would_decide: open }) {
+/** What is open, each question once, and what would decide it, with the form in which it is filled in. */
+function questions({ would_decide: open }, { id, posted }) {
   if (open.length === 0) return null;
-  return [h('h2', {}, 'What would decide'), h('ul', {}, open.map(({ range, finding, remedy }) => h('li', {}, range ? `${range}: ` : '', coded(finding), ' → ', coded(remedy))))];
+  return [h('h2', {}, 'What would decide'), h('ul', {}, open.map(({ range, finding, remedy }) => {
+    const mend = posted ? mendable(remedy) : null;
+    const link = mend ? [' ', h('a', { href: `#/sweep?as=${id}&mend=${mend}`, 'aria-label': `Open the form with ${inWords(remedy)}` }, 'Open the form with that')] : null;
+    return h('li', {}, range ? `${range}: ` : '', inWords(finding), ' → ', inWords(remedy), link ? '.' : null, link);
+  }))];
 }
 
-/** Critical speeds of the wheel against ranges and limits. */
-function critical({ critical_speeds: all, ranges_given: given, units, settings }, context) {
-  const asked = Object.keys(QUANTITIES).filter((name) => settings.limits?.[name] !== undefined && settings.limits[name] !== null);
+/** Critical speeds of the wheel against ranges and limits; those that the finished speeds show while the job runs. */
+function critical({ critical_speeds: all, ranges_given: given, units, settings }, context, isRunning) {
+  const asked = QUANTITIES.filter((name) => settings.limits?.[name] !== undefined && settings.limits[name] !== null);
   const of = (one, name) => one.limits.find((judged) => judged.limit === name);
   const value = (name) => ({
-    name: { utilisation: 'Utilisation', node_force: 'Node force' }[name], title: QUANTITIES[name][0], number: true, sort: (one) => of(one, name)?.value,
+    name: wordsOf(`/limits/${name}`)[0], number: true, sort: (one) => of(one, name)?.value,
     cell: (one) => {
       const judged = of(one, name);
       return judged ? h('span', { class: STANDINGS[judged.standing][0], title: `${STANDINGS[judged.standing][1]}; limit ${number(judged.allowed)}` }, valueWords(judged, units)) : '–';
     },
   });
   return [
-    h('h2', {}, `${count(all.length, 'critical speed')} of the wheel`),
-    all.length === 0 ? h('p', { class: 'quiet' }, 'The response has no peak.') : table({
+    h('h2', {}, `${count(all.length, 'critical speed')} of the wheel${isRunning ? ' so far' : ''}`),
+    all.length === 0 ? h('p', { class: 'quiet' }, `The response has no peak${isRunning ? ' at the speeds that are finished' : ''}.`) : table({
       caption: 'Critical speeds of the wheel against ranges and limits',
       onChoose: (one) => context.go({ view: 'point', speed: one.index }),
       rows: all,

@@ -9,7 +9,7 @@ import { select, sensors } from './choices.js';
 import { fromHere } from './from-here.js';
 import { QUANTITIES, recorder } from './histories.js';
 import { recordedSpeeds } from './recorded.js';
-import { points, SETTLING, steadyWords, validityWords } from './verdicts.js';
+import { points, SETTLING, steadyWords, validityWords } from './sweep-credentials.js';
 
 export async function show(place, context, signal) {
   const { job, query } = context;
@@ -113,7 +113,7 @@ function credentials(point, map) {
     ['Remaining penetration', point.largest_penetration === null || point.largest_penetration === undefined ? null : `${number(point.largest_penetration, 2)} ${length}`],
     ['Contact', `${percent(point.contact_share)} of the steps`],
     ['Largest force on a node', point.contact ? `${number(point.contact.peak_node_force)} ${force}` : null],
-    ['Clearance used, outward motion', point.contact ? percent(point.contact.clearance_consumption) : null],
+    ['Clearance consumption', point.contact ? percent(point.contact.clearance_consumption) : null],
     ['Largest tip motion', point.tip ? `blade ${point.tip.sector}, ${point.tip.component}, half peak to peak ${number(point.tip.half_peak_to_peak)} ${length}` : null],
     ['Largest von Mises stress', point.stress ? `${number(point.stress.largest.von_mises)} ${force}/${length}²` : null],
     ['Scheme', point.scheme ? `${point.scheme.name}: ${point.scheme.reason}` : null],

@@ -10,7 +10,7 @@ import { problem } from '../../lib/problem.js';
 import { table } from '../../lib/table.js';
 import { select } from './choices.js';
 import { has } from './recorded.js';
-import { LINEAR, VALIDITY } from './verdicts.js';
+import { LINEAR, VALIDITY } from './sweep-credentials.js';
 
 export async function show(place, context, signal) {
   const { job, query } = context;
@@ -33,7 +33,9 @@ export async function show(place, context, signal) {
   replace(place, h('div', { class: 'row' }, select('Coloured by', colours, colour, (chosen) => context.go({ colour: chosen })),
     query.has('speed') ? h('a', { href: context.address({ speed: null }) }, 'All speeds') : null), lacking.map((words) => h('p', { class: 'note' }, `No utilisation: ${words}. Strengths belong to the material of the model’s mesh.`)), figure, below);
   const unit = `${found.units.force}/${found.units.length}²`;
-  const worst = found.speeds.map((at) => ({ at, cycle: at.stress.cycles[0] ?? null }));
+  // Refinement adds speeds behind the others.
+  const speeds = found.speeds.toSorted((a, b) => a.speed_rad_s - b.speed_rad_s);
+  const worst = speeds.map((at) => ({ at, cycle: at.stress.cycles[0] ?? null }));
   replace(below,
     h('h2', {}, 'Over speed'),
     table({

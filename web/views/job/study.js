@@ -6,7 +6,7 @@ import { duration, percent, speed } from '../../lib/format.js';
 import { plot } from '../../lib/plot.js';
 import { table } from '../../lib/table.js';
 import { select } from './choices.js';
-import { SETTLING, steadyWords } from './verdicts.js';
+import { SETTLING, steadyWords } from './sweep-credentials.js';
 
 const QUANTITIES = [
   ['amplitude', 'steady amplitude'],

@@ -4,12 +4,12 @@ import { api } from '../../lib/api.js';
 import { debounced, h, newId, replace } from '../../lib/dom.js';
 import { duration, number } from '../../lib/format.js';
 import { between } from './plan.js';
+import { TARGETS } from './settings.js';
 
-const TARGETS = [0.1, 0.03, 0.01, 0.003, 0.001];
 const PAUSE_MS = 1500;
 
 /**
- * A choice among accuracies, each with its time where pilot runs of earlier jobs tell it, and the knobs as they are.
+ * A choice among accuracies, each with its time where pilot runs of earlier jobs tell it, and the settings as they are.
  * @param {string} path of the plan
  * @param {(target: number | null) => void} choose
  * @param {AbortSignal} signal

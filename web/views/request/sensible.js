@@ -10,8 +10,6 @@ const LOBE = 1.05;
 const SPEEDS = 40;
 /** Where a sweep begins, over where it ends. */
 const LOWEST = 1 / 3;
-/** Separation of critical speeds from an operating range, as a share of its ends. */
-const ASIDE = 0.05;
 
 /** Rounds to two significant digits: the numbers are to be read and edited. */
 export function round(value) {
@@ -25,33 +23,36 @@ export function speedsOf(model, count = SPEEDS) {
   return { from: Math.round(LOWEST * to), to, count, unit: 'rpm' };
 }
 
+/** Height of a lobe for a clearance along the blade; nothing where that is not whole. */
+export function lobeHeight(clearance) {
+  const smallest = Math.min(...(Array.isArray(clearance?.values) ? clearance.values : [clearance?.leading, clearance?.trailing]));
+  return Number.isFinite(smallest) ? Number((LOBE * smallest).toPrecision(3)) : undefined;
+}
+
 /** A scene with contact. */
 export function sceneOf(model) {
-  const clearance = round(CLEARANCE * (model.contact_radius ?? 100));
+  const closer = round(CLEARANCE * (model.contact_radius ?? 100));
+  const clearance = { leading: closer, trailing: closer };
   return {
     centrifugal_stiffening: (model.speeds_rad_s ?? []).length > 1,
     damping: { modal_ratio: 0.005 },
     casing: {
-      clearance: { leading: clearance, trailing: clearance },
-      lobes: { count: 2, amplitude: Number((LOBE * clearance).toPrecision(3)), width_rad: 0.35 },
+      clearance,
+      lobes: { count: 2, amplitude: lobeHeight(clearance), width_rad: 0.35 },
     },
     contact: {},
   };
 }
 
-/** Values of a part of a request when it is switched on: in proportion to the model and the speeds asked for, rad/s; to be changed. */
-export function beginning(pointer, model, asked = []) {
+/** Values of a part of a request when it is switched on: in proportion to the model and to what the request says; to be changed. */
+export function beginning(pointer, model, request = {}) {
   const radius = model.contact_radius ?? 100;
   const scene = sceneOf(model);
-  const { from, to } = asked.length > 0 ? { from: rpm(Math.min(...asked)), to: rpm(Math.max(...asked)) } : speedsOf(model);
-  // The speeds asked for reach past its separation, as a verdict needs them to.
-  const range = { name: 'Operation', from: Math.ceil(from / (1 - ASIDE)), to: Math.floor(to / (1 + ASIDE)), unit: 'rpm', separation_percent: 100 * ASIDE };
+  const height = lobeHeight(request.scene?.casing?.clearance);
   const known = {
     '/scene/casing': scene.casing,
-    '/scene/casing/lobes': scene.casing.lobes,
+    '/scene/casing/lobes': height > 0 ? { ...scene.casing.lobes, amplitude: height } : scene.casing.lobes,
     '/scene/damping': scene.damping,
-    '/operation': { ranges: [range] },
-    '/operation/ranges/-': { ...range, name: 'Another' },
     '/limits': { clearance_consumption: 0.9, ...((model.mesh?.sets ?? []).some((set) => set.ultimate && set.fatigue) && { utilisation: 1 }) },
     '/scene/friction': { coefficient: 0.15 },
     '/scene/casing/single_lobes/-': { angle_rad: 0, amplitude: scene.casing.lobes.amplitude, width_rad: 0.35 },

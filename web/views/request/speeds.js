@@ -8,6 +8,7 @@ import { PALETTE } from '../../lib/plot.js';
 import { problem } from '../../lib/problem.js';
 import { drawing, line, s, words } from '../../lib/svg.js';
 import { OF_SPEED } from '../../lib/units.js';
+import { rangesOf } from './operation.js';
 import { speedsOf } from './sensible.js';
 
 const [WIDTH, HEIGHT] = [760, 300];
@@ -37,14 +38,6 @@ export function askedSpeeds({ speeds, speed: one }) {
   return [speeds, one].flat().filter(Boolean).flatMap(named);
 }
 
-/** Operating ranges with their ends in rad/s, those that are whole. */
-function rangesOf({ operation }) {
-  const whole = (operation?.ranges ?? []).filter(({ from, to }) => isNumber(from) && isNumber(to) && from < to);
-  return whole.map(({ name, from, to, unit, separation_percent: percent }) => ({
-    name: name ?? '', from: toRadS(from, unit), to: toRadS(to, unit), aside: (isNumber(percent) ? percent : 0) / 100,
-  }));
-}
-
 /** A step that divides an axis into a handful of round parts. */
 function step(most) {
   const power = 10 ** Math.floor(Math.log10(most / 4));
@@ -54,7 +47,7 @@ function step(most) {
 /** The drawing; a family that has no frequency at a speed leaves it out there. */
 function diagram(campbell, ranges, asked) {
   const speeds = campbell?.speeds_rad_s ?? [];
-  const right = 1.02 * Math.max(1, ...speeds, ...asked, ...ranges.map(({ to, aside }) => to * (1 + aside)));
+  const right = 1.02 * Math.max(1, ...speeds, ...asked, ...ranges.map(({ highest: end }) => end));
   const waves = campbell?.waves;
   const tables = waves ? [['forward, ', waves.forward_hz], ['backward, ', waves.backward_hz]] : campbell ? [['', campbell.frequencies_hz]] : [];
   const highest = 1.05 * Math.max(1, ...tables.flatMap(([, table]) => table.flat(2)).filter(isNumber));
@@ -79,7 +72,7 @@ function diagram(campbell, ranges, asked) {
     return [s('path', { class: 'order', d: line([[x(0), y(0)], [ex, ey]]) }), isClose ? null : words(ex + (end < right ? 3 : -16), ey + (end < right ? 10 : -3), order)];
   });
   return drawing('Speeds, operating ranges and natural frequencies', WIDTH, HEIGHT,
-    ranges.map(({ from, to, aside }) => [band(from * (1 - aside), to * (1 + aside), 'aside'), band(from, to, 'range')]),
+    ranges.map(({ from, to, lowest, highest: end }) => [band(lowest, end, 'aside'), band(from, to, 'range')]),
     s('path', { class: 'frame', d: `M${PLOT.left} ${PLOT.top}V${PLOT.bottom}H${PLOT.right}` }),
     ticks(rpm(right), (value) => words(x(value / rpm(1)), PLOT.bottom + 26, number(value, 6), { 'text-anchor': 'middle' })),
     campbell ? ticks(highest, (value) => words(PLOT.left - 6, y(value) + 4, number(value, 6), { 'text-anchor': 'end' })) : null,
@@ -89,20 +82,11 @@ function diagram(campbell, ranges, asked) {
     ranges.map(({ name, from, to }, k) => words((x(from) + x(to)) / 2, PLOT.bottom - 6 - 14 * (k % 3), name, { 'text-anchor': 'middle', class: 'of-range' })));
 }
 
-/** Ranges whose ends, or those of their separation, the speeds asked for do not reach, in words: known before anything is computed. */
-function notReached(ranges, asked) {
-  const [first, last] = [Math.min(...asked), Math.max(...asked)];
-  const reached = ({ from, to, aside }) => first <= from * (1 - aside) * (1 + 1e-9) && last >= to * (1 + aside) * (1 - 1e-9);
-  const short = asked.length > 0 ? ranges.filter((range) => !reached(range)) : [];
-  return short.map(({ name, from, to, aside }) => h('p', { class: 'note warning' },
-    h('strong', {}, `${name || 'Range'}: `), `the speeds do not reach its ends${aside > 0 ? ' with their separation' : ''}, so its verdict will be undecided: ask for ${speed(from * (1 - aside))} to ${speed(to * (1 + aside))}.`));
-}
-
 /** Crossings within each range, in words. */
 function inRanges(campbell, ranges) {
   const { driven_crossings: all } = campbell;
-  return ranges.map(({ name, from, to, aside }) => {
-    const inside = all.filter(({ speed_rad_s: at }) => at >= from * (1 - aside) && at <= to * (1 + aside)).toSorted((a, b) => a.speed_rad_s - b.speed_rad_s);
+  return ranges.map(({ name, lowest, highest }) => {
+    const inside = all.filter(({ speed_rad_s: at }) => at >= lowest && at <= highest).toSorted((a, b) => a.speed_rad_s - b.speed_rad_s);
     const some = inside.slice(0, TOLD).map((one) => `${speed(one.speed_rad_s)} (order ${one.engine_order}, nodal diameter ${one.nodal_diameter})`);
     const more = inside.length > TOLD ? `, and ${inside.length - TOLD} more` : '';
     return h('li', {}, h('strong', {}, `${name || 'Range'}: `), inside.length === 0 ? 'no crossing.' : `${count(inside.length, 'crossing')}: ${some.join(', ')}${more}.`);
@@ -151,7 +135,6 @@ export function speedsOver(model, signal) {
     const forces = model.gyroscopic ? `, ${isSplit(request) ? 'with' : 'without'} Coriolis forces` : '';
     start.textContent = campbell ? `Compute for ${count(lobes, 'lobe')}${forces}` : 'Compute natural frequencies';
     replace(told,
-      notReached(ranges, askedSpeeds(request)),
       h('p', { class: 'quiet' }, campbell
         ? `Lines: natural frequencies, a colour for each family; dashed: engine orders. Dots: where an engine order of ${count(campbell.settings.lobes, 'lobe')} meets a mode that it drives. Ticks below: the speeds asked for.${ranges.length > 0 ? ' Bands: operating ranges, with their separation.' : ''}`
         : 'Ticks: the speeds asked for. Natural frequencies of this model have not been computed yet.'),

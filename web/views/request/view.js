@@ -12,14 +12,17 @@ import { editor } from './editor.js';
 import { planAside } from './plan.js';
 import { prices } from './prices.js';
 import { RARE, sectionsOf } from './sections.js';
+import { following } from './following.js';
 import { beginning } from './sensible.js';
-import { askedSpeeds, speedsOver } from './speeds.js';
+import { settingsOf, withAccuracy, withSettings } from './settings.js';
+import { speedsOver } from './speeds.js';
+import { undecided } from './undecided.js';
 import { wheelInCasing } from './wheel.js';
 
 /**
  * A form for requests of one kind.
  * @param {HTMLElement} place
- * @param {{model: any, kind: {schema: string, path: string, plan: string | null, priced: boolean}, value: any, words: string}} what
+ * @param {{model: any, kind: {schema: string, path: string, plan: string | null, priced: boolean, judged?: boolean}, value: any, words: string}} what
  * @param {AbortSignal} signal
  */
 export async function requestForm(place, { model, kind, value, words }, signal) {
@@ -31,27 +34,27 @@ export async function requestForm(place, { model, kind, value, words }, signal) 
   const wheel = wheelInCasing(model, section);
   const campbell = speedsOver(model, signal);
   const plan = kind.plan ? planAside(kind.plan, planned, signal) : null;
-  const initial = (pointer) => beginning(pointer, model, askedSpeeds(fields.value()));
+  const follower = following(model, kind.begin(model));
+  const initial = (pointer) => {
+    if (pointer === '/operation') return { ranges: [follower.range(fields.value())] };
+    return pointer === '/operation/ranges/-' ? { ...follower.range(fields.value()), name: 'Another' } : beginning(pointer, model, fields.value());
+  };
   const cost = kind.priced ? prices(kind.plan, model, signal) : null;
   const dial = kind.priced ? accuracyDial(kind.plan, chooseAccuracy, signal) : null;
   const table = casingTable((measured) => {
     const now = structuredClone(fields.value());
     now.scene.casing.measured = measured;
-    fields.set(now);
-    changed();
+    put(now);
   }, signal);
   const alloys = materialChoice(() => model.units, (material) => {
     const now = structuredClone(fields.value());
     now.record.stress.strengths = Object.fromEntries(setsOf(model).map((set) => [set, strengthsOf(material)]));
-    fields.set(now);
-    changed();
+    put(now);
   });
+  const open = kind.judged ? undecided(model, put) : null;
   const told = h('div');
   const unsent = h('div');
-  const json = editor((now) => {
-    fields.set(now);
-    changed(json);
-  });
+  const json = editor((now) => put(now, json));
   const fields = form({
     schema: { $ref: `#/components/schemas/${kind.schema}` },
     definitions, value: begun, initial,
@@ -59,13 +62,23 @@ export async function requestForm(place, { model, kind, value, words }, signal) 
     units: model.units, rare: RARE,
     beside: (pointer) => (pointer === '/record/stress/strengths' ? alloys : cost?.beside(pointer) ?? table.beside(pointer)),
     sections: sectionsOf({ value: begun, begun: kind.begin(model), units: model.units, wheel: wheel.element, campbell: campbell.element, dial: dial?.element }),
-    onChange: () => changed(),
+    onChange: (pointer) => {
+      for (const [at, following] of follower.after(pointer, fields.value())) fields.write(at, following);
+      changed();
+    },
   });
   const button = h('button', { type: 'submit', class: 'main' }, 'Start');
-  const element = h('form', { novalidate: true, on: { submit: start } }, fields.element, json.element, told, unsent, h('div', { class: 'row' }, button));
+  const element = h('form', { novalidate: true, on: { submit: start } }, fields.element, json.element, open?.element, told, unsent, h('div', { class: 'row' }, button));
   replace(place, draft.kept() ? draftNote(draft) : null, words ? h('p', {}, words) : null, h('div', { class: 'columns' }, element, plan?.element));
+  follower.begin(begun);
   tell();
 
+  /** Shows another request. */
+  function put(now, by = null) {
+    fields.set(now);
+    follower.begin(now);
+    changed(by);
+  }
   function changed(by = null) {
     draft.keep(fields.value());
     tell(by);
@@ -76,6 +89,7 @@ export async function requestForm(place, { model, kind, value, words }, signal) 
     if (by !== json) json.show(now);
     wheel.show(now);
     campbell.show(now);
+    open?.show(now);
     dial?.show(now);
     plan?.refresh(now);
   }
@@ -87,13 +101,11 @@ export async function requestForm(place, { model, kind, value, words }, signal) 
     dial?.refresh(fields.value());
   }
   // The settings in whose place an accuracy was put.
-  let knobs = {};
+  let settings = {};
   function chooseAccuracy(target) {
-    const { accuracy, ...rest } = fields.value();
-    if (!accuracy) knobs = knobsOf(rest);
-    const next = target === null ? withKnobs(rest, knobs) : { ...withoutKnobs(rest), accuracy: { ...accuracy, target } };
-    fields.set(next);
-    changed();
+    const now = fields.value();
+    if (!now.accuracy) settings = settingsOf(now);
+    put(target === null ? withSettings(now, settings) : withAccuracy(now, target));
   }
   async function start(event) {
     event.preventDefault();
@@ -134,29 +146,6 @@ function withSets(schemas, model) {
 
 function strengthsOf({ yield_strength, ultimate_strength, fatigue_strength }) {
   return { yield_strength, ultimate_strength, fatigue_strength };
-}
-
-/** What an accuracy stands in the place of: the settings of a request and of its integration. */
-const KNOBS = ['budget', 'modes_per_speed'];
-const INTEGRATION_KNOBS = ['scheme', 'kept_modes', 'steps_per_revolution'];
-
-const only = (value, names) => Object.fromEntries(Object.entries(value).filter(([name]) => names.includes(name)));
-const without = (value, names) => Object.fromEntries(Object.entries(value).filter(([name]) => !names.includes(name)));
-
-function knobsOf(request) {
-  return { ...only(request, KNOBS), integration: only(request.integration ?? {}, INTEGRATION_KNOBS) };
-}
-
-function withoutKnobs(request) {
-  const { integration = {}, ...rest } = without(request, KNOBS);
-  const kept = without(integration, INTEGRATION_KNOBS);
-  return { ...rest, modes_per_speed: 'auto', ...(Object.keys(kept).length > 0 && { integration: kept }) };
-}
-
-/** A request with knobs as they were. */
-function withKnobs(request, { integration: own = {}, ...knobs }) {
-  const integration = { ...request.integration, ...own };
-  return { ...without(request, [...KNOBS, 'integration']), ...knobs, ...(Object.keys(integration).length > 0 && { integration }) };
 }
 
 /** A choice of the model, where none is given. */

@@ -53,7 +53,8 @@ impl Asked {
             range: None,
             speeds: Vec::new(),
             finding: "the request gives no limit".to_owned(),
-            remedy: "give `limits`: clearance_consumption, tip_motion, utilisation or node_force".to_owned(),
+            remedy: "give `limits`: `clearance_consumption`, `tip_motion`, `utilisation` or `node_force`"
+                .to_owned(),
         })
     }
 

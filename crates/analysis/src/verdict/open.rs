@@ -75,7 +75,7 @@ impl RangeEvidence<'_> {
             OpenKind::SpeedsFailed,
             &self.range.failed,
             "that could not be computed",
-            "read the reason in `message` of these speeds, and ask for speeds close beside them",
+            "read the reason (`message` of these speeds), and ask for speeds close beside them",
         );
         // Refinement, control runs and measured validity are still to come.
         let unended = (self.range.missing.is_empty() && self.seen.driven.is_none()).then(|| {

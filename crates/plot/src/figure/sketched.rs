@@ -9,7 +9,9 @@ use super::heat;
 use super::marks::{bars, scatter, template};
 use super::text::escaped;
 use super::thinned;
-use crate::layer::{Areas, Band, Bars, Cells, Course, Curve, Hover, Layer, Marks, Place, Upright, Uprights};
+use crate::layer::{
+    Areas, Band, Bars, Cells, Course, Curve, Hover, Layer, Marks, Place, Reach, Upright, Uprights,
+};
 use crate::marks::spread;
 use crate::merged::{MOST, together};
 use crate::sketch::{self, Kind, Panel, Sketch, Zoom};
@@ -214,7 +216,7 @@ fn curve(curve: &Curve, sampled: usize, thinned_by: &mut usize) -> Scatter {
     let trace = match curve.errors.is_empty() {
         true => trace,
         false => {
-            let bars = bars().array(curve.errors.clone()).color(curve.pen.colour.screen.as_str());
+            let bars = reaching(&curve.errors).color(curve.pen.colour.screen.as_str());
             trace.error_y(bars.thickness(1.0).width(2.0))
         }
     };
@@ -371,7 +373,7 @@ fn marks(marks: &Marks, panel: &Panel) -> Scatter {
         false => trace,
     };
     let lengths = |of: &Bars| {
-        let bars = bars().array(of.lengths.clone()).color(of.colour.screen.as_str());
+        let bars = reaching(&of.lengths).color(of.colour.screen.as_str());
         bars.thickness(1.3).width(4.0)
     };
     let trace = match &marks.across {
@@ -383,6 +385,17 @@ fn marks(marks: &Marks, panel: &Panel) -> Scatter {
         (None, Some(_)) => trace.error_y(stems(marks, panel.y.range.0)),
         (None, None) => trace,
     }
+}
+
+/// Error bars of these lengths.
+fn reaching(lengths: &[Reach]) -> ErrorBars {
+    let above: Vec<f64> = lengths.iter().map(|reach| reach.above).collect();
+    let bars = bars().array(above);
+    if lengths.iter().all(Reach::is_even) {
+        return bars;
+    }
+    let below: Vec<f64> = lengths.iter().map(|reach| reach.below).collect();
+    bars.arrayminus(below).symmetric(false)
 }
 
 /// Whether marks are the first of the panel that have values.

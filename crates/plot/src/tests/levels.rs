@@ -70,6 +70,32 @@ fn ranges_limits_errors_and_critical_speeds_are_where_they_belong() {
     assert!(nothing.contains("utilisation needs recorded stress and strengths"));
 }
 
+/// A value of 0.4 with a relative error of 3 is one of 0.1 to 1.6: its bar does not end below 0.
+#[test]
+fn a_large_error_is_a_bar_from_the_value_over_its_factor_to_the_value_times_it() {
+    let mut level = level();
+    level.speeds[1].values[0].error = Some(1.2);
+    let figure = json!(figure::wheel_level(&level, None));
+    let traces = figure["data"].as_array().unwrap();
+    let trace = traces.iter().find(|trace| trace["customdata"] == json!([1])).unwrap();
+    let bars = &trace["error_y"];
+    assert_eq!(bars["symmetric"], false);
+    let length = |name: &str| bars[name][0].as_f64().unwrap();
+    assert!((length("arrayminus") - 0.3).abs() < 1e-12 && (length("array") - 1.2).abs() < 1e-12, "{bars}");
+    assert!(trace["hovertext"][0].as_str().unwrap().contains("0.400 (0.100 to 1.60) mm"), "{trace}");
+
+    let drawing = svg::wheel_level(&level, None);
+    let read = Document::parse(&drawing).unwrap();
+    let height = |bar: roxmltree::Node| {
+        let end = |name: &str| -> f64 { bar.attribute(name).unwrap().parse().unwrap() };
+        (end("y1") - end("y2")).abs()
+    };
+    let mut heights: Vec<f64> = of_class(&read, "error").map(height).collect();
+    heights.sort_by(f64::total_cmp);
+    // The longest is 1.6 - 0.1 high; the next belongs to a value of 1 and an error of 10 %: 1.1 - 1/1.1.
+    assert!((heights[4] / heights[3] - 1.5 / (1.1 - 1.0 / 1.1)).abs() < 0.02, "{heights:?}");
+}
+
 #[test]
 fn the_figure_has_the_labels_of_the_drawing() {
     let figure = json!(figure::wheel_level(&level(), None));

@@ -1,4 +1,4 @@
-// Credentials of a sweep in words: steady state, error bars, validity of linear theory. The verdict on the sweep is in verdict.js.
+// Credentials of a sweep in words: steady state, error bars, validity of linear theory.
 
 import { api } from '../../lib/api.js';
 import { h, replace, facts } from '../../lib/dom.js';
@@ -56,7 +56,7 @@ export function points(job, signal) {
 }
 
 /** Shows the credentials of a sweep. */
-export async function verdicts(element, { job }, signal) {
+export async function sweepCredentials(element, { job }, signal) {
   const map = await points(job, signal);
   if (signal.aborted) return;
   const errors = map.errors;

@@ -3,10 +3,12 @@
 import { api } from '../lib/api.js';
 import { h, replace } from '../lib/dom.js';
 import { KINDS, nameOf } from '../lib/format.js';
+import { inWords } from '../lib/form/named.js';
 import { placeWith } from '../lib/place.js';
 import { select } from './job/choices.js';
 import { campaignOfModel } from './request/campaign.js';
 import { fromSweep } from './request/from-sweep.js';
+import { mended } from './request/mend.js';
 import { runUpsOfModel } from './request/run-up.js';
 import { chooseModel, requestForm } from './request/view.js';
 import { sceneOf, speedsOf } from './request/sensible.js';
@@ -14,7 +16,7 @@ import { sceneOf, speedsOf } from './request/sensible.js';
 /** Kinds of jobs that are asked for by a form. */
 export const REQUESTS = {
   sweep: {
-    words: 'Sweep: contact over a range of speeds', schema: 'SweepRequest', path: '/v1/sweeps', plan: '/v1/sweeps/plan', priced: true,
+    words: 'Sweep: contact over a range of speeds', schema: 'SweepRequest', path: '/v1/sweeps', plan: '/v1/sweeps/plan', priced: true, judged: true,
     // Stress where there are elements to compute it in: whether a wheel bears its motion is asked of every one.
     begin: (model) => ({ model: model.id, speeds: speedsOf(model), scene: sceneOf(model), ...(model.mesh && { record: { stress: {} } }) }),
   },
@@ -60,7 +62,10 @@ export async function show(main, { query }, signal, first = 'sweep') {
     if (job.posted_to !== kind.path) throw new Error('this job records a sweep, and has no request of its own: begin with that sweep');
     replace(main, h('h1', {}, `As ${nameOf(job)}, but …`), place);
     const model = await api.get(`/v1/models/${job.model}`, { signal });
-    await requestForm(place, { model, kind, value: job.posted, words: `Model: ${model.name}` }, signal);
+    const mend = query.get('mend');
+    const value = mend ? mended(job.posted, mend, model) : job.posted;
+    const words = `Model: ${model.name}${mend ? `. Changed against that job: ${inWords(`\`${mend}\``)}.` : ''}`;
+    await requestForm(place, { model, kind, value, words }, signal);
     return;
   }
   const name = query.get('kind') ?? first;
