@@ -9,6 +9,7 @@ use super::error::Interruption;
 use super::progress::PhaseMonitor;
 use super::validity::mesh_and_nodes;
 use crate::analysis::error::AnalysisError;
+use crate::analysis::monitor::Monitor;
 use crate::analysis::run::{self, NotMeasured};
 use crate::dynamics::bending::BladeBending;
 use crate::dynamics::reduction::ReducedWheel;
