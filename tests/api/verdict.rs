@@ -55,13 +55,18 @@ async fn a_sweep_is_judged_by_its_ranges_and_limits() {
     // The worst value is the largest of the speeds from 380 to 840 rad/s, told from the map alone.
     let points = after["points"].as_array().unwrap();
     let speed = |point: &Value| point["speed_rad_s"].as_f64().unwrap();
-    let motion = |point: &Value| point["tip"]["half_peak_to_peak"].as_f64().unwrap();
+    // The largest peak of all tips, which may be that of another tip than the one with the largest root mean square.
+    let peak = |point: &Value| {
+        let tip = &point["tip"];
+        tip.get("largest_half_peak_to_peak").unwrap_or(&tip["half_peak_to_peak"]).clone()
+    };
+    let motion = |point: &Value| peak(point).as_f64().unwrap();
     let near = points.iter().filter(|point| (380.0..=840.0).contains(&speed(point)));
     let worst = near.clone().max_by(|a, b| motion(a).total_cmp(&motion(b))).unwrap();
     let range = &found["ranges"][0];
     assert_eq!(range["speeds"], json!(near.count()));
     assert_eq!(range["limits"][0]["index"], worst["index"]);
-    assert_eq!(range["limits"][0]["judged"]["value"], worst["tip"]["half_peak_to_peak"]);
+    assert_eq!(range["limits"][0]["judged"]["value"], peak(worst));
     assert_eq!(found["worst"][0]["index"], worst["index"]);
     // Critical speeds are those of the table of the wheel.
     let table = api.get(&format!("/v1/jobs/{strict}/critical-speeds/wheel")).await.body;
@@ -82,7 +87,7 @@ async fn a_sweep_is_judged_by_its_ranges_and_limits() {
         let point = points.iter().find(|point| point["index"] == of["index"]).unwrap();
         let tip =
             of["values"].as_array().unwrap().iter().find(|value| value["quantity"] == "tip_motion").unwrap();
-        assert_eq!((&tip["value"], &tip["standing"]), (&point["tip"]["half_peak_to_peak"], &json!("passed")));
+        assert_eq!((&tip["value"], &tip["standing"]), (&peak(point), &json!("passed")));
     }
     for (query, words) in [("", "tip motion"), ("&quantity=node_force", "contact force on a node")] {
         let drawn =
