@@ -40,6 +40,9 @@ class AssemblyPrice(TypedDict):
 AutoOr: TypeAlias = Literal["auto"] | int
 
 
+Bending: TypeAlias = Literal["kinematics", "full"]
+
+
 BifurcationKind: TypeAlias = Literal["fold", "flip", "neimark_sacker", "branching"]
 
 
@@ -223,6 +226,8 @@ class EnergyHistory(TypedDict):
 
 
 class EnergyReport(TypedDict):
+    bending_residual: NotRequired[float]
+    bending_work: NotRequired[float]
     casing_loss: NotRequired[float]
     casing_work: NotRequired[float]
     contact_work: float
@@ -326,6 +331,11 @@ class GaugeEnd(TypedDict):
     length: float
     node: int
     position: list[float]
+
+
+class GeometricNonlinearity(TypedDict, closed=True):
+    coordinates: NotRequired[int]
+    include: Bending
 
 
 class GivenStrengths(TypedDict, closed=True):
@@ -1947,6 +1957,7 @@ class Scene(TypedDict, closed=True):
     engine_order_excitation: NotRequired[list[EngineOrderExcitation]]
     flexible_casing: NotRequired[FlexibleCasing | None]
     friction: NotRequired[Friction | None]
+    geometric_nonlinearity: NotRequired[GeometricNonlinearity | None]
     initial: NotRequired[Initial | None]
     mistuning: NotRequired[Mistuning | None]
     orbit: NotRequired[Orbit | None]

@@ -97,8 +97,8 @@ fn fields_at_once(sectors: usize, coordinates: usize) -> usize {
 pub(crate) fn with_bending_cost(all: Estimate, request: &ResolvedSweep, facts: &ModelFacts) -> Estimate {
     let (Some(mesh), Some(coordinates)) = (&facts.mesh, request.bending_coordinates()) else { return all };
     let coordinates = coordinates as usize;
-    let seconds = SOLUTIONS_PER_RELAXATION.recip() * products(coordinates + 1).count() as f64;
-    let seconds = relaxing_seconds(facts.own_dofs, 0) * (1.0 + seconds);
+    let solutions = (coordinates + products(coordinates).count()) as f64;
+    let seconds = relaxing_seconds(facts.own_dofs, 0) * (1.0 + solutions / SOLUTIONS_PER_FACTOR);
     let once = CostRange { free: seconds, contact: seconds };
     let (dofs, fields) = (facts.own_dofs as usize, fields_at_once(facts.sectors as usize, coordinates));
     all.followed_by(Estimate {
@@ -111,8 +111,8 @@ pub(crate) fn with_bending_cost(all: Estimate, request: &ResolvedSweep, facts: &
     })
 }
 
-/// Solutions that take as long as the factor: those of a relaxation, about.
-const SOLUTIONS_PER_RELAXATION: f64 = 50.0;
+/// Number of solutions that take about as long as the factor.
+const SOLUTIONS_PER_FACTOR: f64 = 50.0;
 
 /// Displacements of all nodes in so many of the lowest modes at rest of every nodal diameter, at two instants a quarter of a period apart,
 /// times 1/ω.

@@ -90,12 +90,12 @@ pub struct EnergyReport {
     /// Work of mistuning: minus the change of the energy that the stiffness deviations store.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mistuning_work: Option<f64>,
-    /// Work of blades that stiffen: minus the change of their energy beyond the quadratic one.
+    /// Work of blades that stiffen as they bend: minus the change of their energy beyond the quadratic one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub stiffening_work: Option<f64>,
+    pub bending_work: Option<f64>,
     /// Largest difference between that work and energy over the largest mechanical energy; of second order in the step.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub stiffening_residual: Option<f64>,
+    pub bending_residual: Option<f64>,
     /// Work of the contact forces on the elastic casing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub casing_work: Option<f64>,
@@ -123,8 +123,8 @@ impl EnergyReport {
             damping_loss: parts * audit.loss(),
             excitation_work: None,
             mistuning_work: None,
-            stiffening_work: None,
-            stiffening_residual: None,
+            bending_work: None,
+            bending_residual: None,
             casing_work: None,
             casing_loss: None,
             friction_heat: None,

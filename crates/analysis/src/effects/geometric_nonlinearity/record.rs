@@ -10,7 +10,7 @@ pub(super) fn record(point: &mut Point, ran: &Ran<'_>) {
     if let Some(energy) = &mut point.energy
         && stiffens
     {
-        energy.stiffening_work = Some(ran.parts * ran.run.energy.effects().stiffening);
-        energy.stiffening_residual = ran.run.energy.stiffening_residual();
+        energy.bending_work = Some(ran.parts * ran.run.energy.effects().stiffening);
+        energy.bending_residual = ran.run.energy.stiffening_residual();
     }
 }

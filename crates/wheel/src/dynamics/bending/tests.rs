@@ -182,11 +182,11 @@ fn literal(scene: Scene) -> Vec<f64> {
     };
     let acceleration = |z: &[f64]| -> Vec<f64> {
         let mut a: Vec<f64> = z.iter().zip(&omega).map(|(z, w)| -w * w * z).collect();
-        for s in 0..sectors {
+        for (s, rows) in coordinate.iter().enumerate().filter(|_| stiffens) {
             let p = p_of(z, s);
-            for j in (0..COORDINATES).filter(|_| stiffens) {
+            for (j, row) in rows.iter().enumerate() {
                 let f = slope(&|p| blade.potential.energy(p), &p, j);
-                a.iter_mut().zip(&coordinate[s][j]).for_each(|(a, r)| *a -= f * r);
+                a.iter_mut().zip(row).for_each(|(a, r)| *a -= f * r);
             }
         }
         a
@@ -210,9 +210,9 @@ fn literal(scene: Scene) -> Vec<f64> {
             let of_tip = |(s, k, normal): &(usize, usize, Vec<f64>)| {
                 let p = p_of(&z, *s);
                 let mut jacobian = normal.clone();
-                for j in 0..COORDINATES {
+                for (j, row) in coordinate[*s].iter().enumerate() {
                     let by = slope(&|p| along(p, *k, true), &p, j);
-                    jacobian.iter_mut().zip(&coordinate[*s][j]).for_each(|(n, r)| *n += by * r);
+                    jacobian.iter_mut().zip(row).for_each(|(n, r)| *n += by * r);
                 }
                 (CLEARANCE - dot(normal, &z) - along(&p, *k, true), jacobian)
             };
