@@ -6,8 +6,8 @@ use std::sync::Arc;
 
 use super::computing::Computing;
 use super::error::Interruption;
+use super::mesh::mesh_and_nodes;
 use super::progress::PhaseMonitor;
-use super::validity::mesh_and_nodes;
 use crate::analysis::error::AnalysisError;
 use crate::analysis::monitor::Monitor;
 use crate::analysis::run::{self, NotMeasured};

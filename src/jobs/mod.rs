@@ -40,6 +40,7 @@ mod handle;
 mod histories;
 mod legs;
 mod machine;
+mod mesh;
 mod once;
 mod patience;
 mod perform;

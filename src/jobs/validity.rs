@@ -1,11 +1,11 @@
 //! Validity of linear theory, measured once all speeds of a sweep are finished.
 
-use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
 use super::engine::{Engine, Live};
 use super::error::Interruption;
+use super::mesh::mesh_and_nodes;
 use super::patience::patiently;
 use super::progress::PhaseMonitor;
 use crate::analysis::error::AnalysisError;
@@ -13,7 +13,6 @@ use crate::analysis::resolved::ResolvedSweep;
 use crate::analysis::result::Point;
 use crate::analysis::run::{self, MeasuredMotion, NotMeasured, ReducedSector};
 use crate::dynamics::nodes::SectorNode;
-use crate::package::{self, Limits};
 use crate::solid::mesh::SectorMesh;
 
 /// Measures validity at the speeds of a finished sweep that matter and stores the points with it; points without a doubt, and those of models
@@ -77,13 +76,4 @@ async fn measured_motions(
         Err(NotMeasured::Cancelled) => Err(AnalysisError::Cancelled.into()),
         measured => Ok(measured),
     }
-}
-
-/// Elements and nodes of a package; none for a package without elements.
-pub(super) fn mesh_and_nodes(package: &Path) -> Result<Option<(SectorMesh, Vec<SectorNode>)>, Interruption> {
-    let limits = Limits::default();
-    let mesh = package::read_mesh(package, &limits).map_err(Interruption::stored_package)?;
-    let Some(mesh) = mesh else { return Ok(None) };
-    let nodes = package::read_nodes(package, &limits).map_err(Interruption::stored_package)?;
-    Ok(Some((mesh, nodes)))
 }
