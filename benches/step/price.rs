@@ -1,7 +1,6 @@
 //! Price list: cost of a step with each effect of a scene, beside the scene without.
 
-use faer::Mat;
-use rubmap::dynamics::bending::{Bending, BladeBending, Potential, products};
+use rubmap::dynamics::bending::{Bending, BladeBending};
 use rubmap::dynamics::clearance_change::ClearanceChange;
 use rubmap::dynamics::contact::coating::{Coating, CoatingMaterial};
 use rubmap::dynamics::contact::disc::disc_directions;
@@ -59,7 +58,8 @@ pub(crate) fn measure() {
         load: vec![1.0; scene.modal.harmonics[0].omega.len()],
     };
     let euler_force = Some(&euler);
-    let blade = bending(contact.len());
+    // Coordinates are the displacements of the first contact nodes.
+    let blade = BladeBending::alike(4, contact.len(), Vec::new(), 1e-5);
     let [kinematics, full] =
         [false, true].map(|stiffens| Some(Bending { blade: &blade, first: 0, stiffens }));
     let none = Effects::default();
@@ -140,21 +140,6 @@ pub(crate) fn measure() {
             1e9 * time,
             time / times[0]
         );
-    }
-}
-
-/// Blades in four coordinates, the displacements of their first contact nodes, that hardly bend.
-fn bending(nodes: usize) -> BladeBending {
-    let count = products(4).count();
-    BladeBending {
-        asked: 4,
-        rows: Vec::new(),
-        potential: Potential::new(
-            Mat::from_fn(4, count, |_, _| 1e-3),
-            Mat::from_fn(count, count, |_, _| 1e-3),
-        ),
-        linear: Mat::from_fn(3 * nodes, 4, |_, _| 1e-5),
-        second_order: Mat::from_fn(3 * nodes, count, |_, _| 1e-5),
     }
 }
 

@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
+use faer::Mat;
 use serde::{Deserialize, Serialize};
 
 use crate::euler_load::EulerLoad;
@@ -85,14 +86,21 @@ impl ReducedSector {
         ))
     }
 
-    /// Copy for a plan: where the growth of the tips and the Euler force are not known yet, they are zero.
+    /// Copy for a plan: where the growth of the tips, the Euler force and the bending of second order are not known yet, they are zero.
     pub(crate) fn for_planning(&self) -> Self {
         let still = || Arc::new(TipGrowth::none(self.wheel.contact.len()));
         Self {
             growth: Some(self.growth.clone().unwrap_or_else(still)),
             euler_load: Some(self.euler_load.clone().unwrap_or_else(|| Arc::new(EulerLoad::none()))),
+            bending: Some(self.bending.clone().unwrap_or_else(|| Arc::new(self.unbent()))),
             ..self.clone()
         }
+    }
+
+    /// Bending of zero, in one coordinate.
+    fn unbent(&self) -> BladeBending {
+        let rows = self.wheel.harmonics.iter().map(|harmonic| Mat::zeros(1, harmonic.mass.ncols()));
+        BladeBending::alike(1, self.wheel.contact.len(), rows.collect(), 0.0)
     }
 
     /// Whether the bending of second order that was made is in so many coordinates.

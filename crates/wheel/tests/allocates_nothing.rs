@@ -2,7 +2,7 @@
 
 use allocation_counter::measure;
 use faer::{Mat, c64};
-use rubmap_wheel::dynamics::bending::{Bending, BladeBending, Potential, products};
+use rubmap_wheel::dynamics::bending::{Bending, BladeBending};
 use rubmap_wheel::dynamics::casing::{Casing, Lobes};
 use rubmap_wheel::dynamics::clearance_change::ClearanceChange;
 use rubmap_wheel::dynamics::clearance_drift::ClearanceDrift;
@@ -102,21 +102,6 @@ fn long_runs_take_no_more(scheme: Scheme, coriolis: bool, effects: Effects<'_>) 
     assert_eq!(of(12), of(2), "{scheme:?}");
 }
 
-/// Blades whose coordinates are the displacements of contact node 0.
-fn bending() -> BladeBending {
-    let count = products(3).count();
-    BladeBending {
-        asked: 3,
-        rows: Vec::new(),
-        potential: Potential::new(
-            Mat::from_fn(3, count, |_, _| 1e-3),
-            Mat::from_fn(count, count, |_, _| 1e-3),
-        ),
-        linear: Mat::from_fn(3 * NODES, 3, |_, _| 1e-4),
-        second_order: Mat::from_fn(3 * NODES, count, |_, _| 1e-4),
-    }
-}
-
 #[test]
 fn without_effects_and_with_coriolis_forces() {
     for scheme in [Scheme::CentralDifferences, Scheme::ExactModal, Scheme::MasslessBoundary { kept_modes: 5 }]
@@ -169,7 +154,8 @@ fn with_each_effect_and_with_all() {
         rate: SpeedRate(vec![StraightRate { revolutions: [0.0, 4.0], rad_s2: [1e3, -1e3] }]),
         load: vec![1e-3; MODES],
     };
-    let blade = bending();
+    // Coordinates are the displacements of contact node 0.
+    let blade = BladeBending::alike(3, NODES, Vec::new(), 1e-4);
     let bending = Bending { blade: &blade, first: 0, stiffens: true };
     let bending = Effects { bending: Some(bending), ..Effects::default() };
     let all = Effects {

@@ -16,7 +16,7 @@ pub(super) fn check(found: &mut Findings, request: &ResolvedSweep, facts: &Model
     );
     found.require(
         request.fields() != Some(false),
-        "/record/fields",
+        "/fields",
         "the bending of second order is made from the rows of the basis: let them be stored",
     );
     found.require(

@@ -48,6 +48,19 @@ pub struct Bending<'a> {
 }
 
 impl BladeBending {
+    /// Blade of no particular shape, every coefficient `size`, to measure what bending costs. Without rows its coordinates are read elsewhere.
+    pub fn alike(coordinates: usize, contact_nodes: usize, rows: Vec<Mat<c64>>, size: f64) -> Self {
+        let (count, places) = (products(coordinates).count(), COMPONENTS * contact_nodes);
+        let alike = |rows, columns| Mat::from_fn(rows, columns, |_, _| size);
+        Self {
+            asked: coordinates,
+            rows,
+            potential: Potential::new(alike(coordinates, count), alike(count, count)),
+            linear: alike(places, coordinates),
+            second_order: alike(places, count),
+        }
+    }
+
     /// Number of coordinates of a sector.
     pub fn coordinates(&self) -> usize {
         self.potential.coordinates()

@@ -333,26 +333,20 @@ fn delassus(
     stride: usize,
     casing: Option<&CasingMotion>,
 ) -> Delassus {
-    let normals = outward_normals(simulation.contact_nodes);
-    let symmetric = symmetric_flexibility(simulation, oscillators, &normals, &normals);
-    let ridge = ridge(&symmetric, simulation.wheel.sectors);
-    let coordinates: Vec<_> = simulation.effects.bending.iter().flat_map(Bending::directions).collect();
-    let (normals, symmetric) = match coordinates.len() {
-        0 => (normals, symmetric),
-        _ => {
-            let read = read(simulation);
-            let symmetric = symmetric_flexibility(simulation, oscillators, &read, &read);
-            (read, symmetric)
-        }
-    };
+    let directions = read(simulation);
+    let symmetric = symmetric_flexibility(simulation, oscillators, &directions, &directions);
+    // Only normals may be indistinguishable: coordinates are never solved for.
+    let nodes = simulation.contact_nodes.len();
+    let of_normals: Vec<_> =
+        symmetric.iter().map(|block| block.submatrix(0, 0, nodes, nodes).to_owned()).collect();
+    let ridge = ridge(&of_normals, simulation.wheel.sectors);
+    let coordinates = directions.len() - nodes;
     let mut delassus = match simulation.effects.sliding() {
-        None if !simulation.wheel.turns() => {
-            Delassus::new(&symmetric, ridge, stride, coordinates.len(), fourier)
-        }
+        None if !simulation.wheel.turns() => Delassus::new(&symmetric, ridge, stride, coordinates, fourier),
         friction => {
-            let from = friction.map_or(normals.as_slice(), |friction| friction.directions);
-            let blocks = step_flexibility(simulation, oscillators, &normals, from);
-            Delassus::new(&blocks, ridge, stride, coordinates.len(), fourier)
+            let from = friction.map_or(directions.as_slice(), |friction| friction.directions);
+            let blocks = step_flexibility(simulation, oscillators, &directions, from);
+            Delassus::new(&blocks, ridge, stride, coordinates, fourier)
         }
     };
     if let Some(casing) = casing {

@@ -310,8 +310,8 @@ impl Oscillators {
         work: &mut EffectWork,
     ) -> Exchange {
         let mut sums = DrivenSums::new(simd);
-        // Mistuning and stiffening pull at what all nodal diameters have come to. Without them one after the other is completed and predicted while its
-        // mode shapes are in the first-level cache.
+        // Mistuning and stiffening pull at what all nodal diameters have come to. Without them one after the other is completed and predicted
+        // while its mode shapes are in the first-level cache.
         let at_once = drive.mistuning.is_none() && drive.stiffening.is_none();
         if !at_once {
             for index in 0..self.segments.len() {
