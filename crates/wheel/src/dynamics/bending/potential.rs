@@ -34,11 +34,11 @@ impl Potential {
 
     /// Energy V at `p`.
     pub fn energy(&self, p: &[f64]) -> f64 {
-        let q: Vec<f64> = products(p.len()).map(|(j, k)| p[j] * p[k]).collect();
+        let q = || products(p.len()).map(|(j, k)| p[j] * p[k]);
         let mut energy = 0.0;
-        for (a, qa) in q.iter().enumerate() {
-            let cubic: f64 = p.iter().enumerate().map(|(j, p)| self.cubic[(j, a)] * p).sum();
-            let quartic: f64 = q.iter().enumerate().map(|(b, qb)| self.quartic[(a, b)] * qb).sum();
+        for (a, qa) in q().enumerate() {
+            let cubic: f64 = p.iter().zip(self.cubic.col_as_slice(a)).map(|(p, cubic)| cubic * p).sum();
+            let quartic: f64 = q().zip(self.quartic.col_as_slice(a)).map(|(qb, quartic)| quartic * qb).sum();
             energy += qa * (cubic + 0.5 * quartic);
         }
         energy
