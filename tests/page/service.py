@@ -64,7 +64,7 @@ class Service:
 
     def finish(self, job):
         """The job when it has ended."""
-        for _ in range(1200):
+        for _ in range(6000):
             found = self.call("GET", f"/v1/jobs/{job}")
             if found["status"] not in ("accepted", "running"):
                 return found

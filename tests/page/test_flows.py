@@ -233,6 +233,8 @@ def test_tables_beside_a_diagram_end_with_a_whole_row(service, model, new_page):
     end = table.bounding_box()["y"] + table.bounding_box()["height"]
     boxes = [row.bounding_box() for row in table.locator("tbody tr").all()]
     assert [box for box in boxes if box["y"] < end - 1 and box["y"] + box["height"] > end + 1] == []
+    # Other tests look at the model without one.
+    service.call("DELETE", f"/v1/jobs/{job}")
 
 
 def test_what_was_not_recorded_is_offered_without_a_refusal(service, model, new_page):
