@@ -35,7 +35,6 @@ use circulation::Circulation;
 use rubmap_numerics::aligned::Aligned;
 use rubmap_numerics::sector_fourier::SectorFourier;
 use stiffening::Stiffening;
-pub(crate) use stiffening::coordinates;
 use turning::Turning;
 
 /// Drive of the oscillators: forces other than contact, and the numbers of the step under way.
