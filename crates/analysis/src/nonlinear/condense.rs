@@ -73,7 +73,7 @@ pub(super) fn condense(
     }
     let quartic: Mat<f64> = Mat::from_fn(count, count, |a, b| 0.5 * (quartic[(a, b)] + quartic[(b, a)]));
     Condensed {
-        potential: Potential::new(cubic, quartic),
+        potential: Potential::new(&cubic, &quartic),
         second_order: follows.iter().map(|(moved, _)| sector.spread(moved)).collect(),
     }
 }

@@ -21,6 +21,9 @@ pub use potential::{Potential, products};
 /// Largest number of coordinates of a sector.
 pub const MOST_COORDINATES: usize = 8;
 
+/// Largest number of their products.
+pub(crate) const MOST_PRODUCTS: usize = MOST_COORDINATES * (MOST_COORDINATES + 1) / 2;
+
 /// Second-order bending of the blade of a sector.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BladeBending {
@@ -55,7 +58,7 @@ impl BladeBending {
         Self {
             asked: coordinates,
             rows,
-            potential: Potential::new(alike(coordinates, count), alike(count, count)),
+            potential: Potential::new(&alike(coordinates, count), &alike(count, count)),
             linear: alike(places, coordinates),
             second_order: alike(places, count),
         }

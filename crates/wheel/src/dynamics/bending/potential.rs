@@ -1,14 +1,20 @@
 //! Strain energy of third and fourth order in the coordinates of a sector.
 
 use faer::Mat;
+use pulp::Simd;
+
+use super::{MOST_COORDINATES, MOST_PRODUCTS};
 
 /// Energy V = Σ_ja B_ja p_j q_a + ½ Σ_ab A_ab q_a q_b of the products q of the coordinates p.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Potential {
-    /// B, `coordinates × products`.
-    cubic: Mat<f64>,
-    /// A, `products × products`, symmetric.
-    quartic: Mat<f64>,
+    coordinates: usize,
+    /// B, `[product][coordinate]`.
+    cubic: Vec<f64>,
+    /// A, `[product][product]`, symmetric.
+    quartic: Vec<f64>,
+    /// Coordinates of each product.
+    products: Vec<(usize, usize)>,
 }
 
 /// Products p_j p_k of so many coordinates, j ≤ k, in their order.
@@ -17,59 +23,88 @@ pub fn products(coordinates: usize) -> impl Iterator<Item = (usize, usize)> {
 }
 
 impl Potential {
-    /// Potential of these B and A.
+    /// Potential of B, `coordinates × products`, and A, `products × products` and symmetric.
     ///
     /// # Panics
-    /// If their sizes do not belong together.
-    pub fn new(cubic: Mat<f64>, quartic: Mat<f64>) -> Self {
-        let of_products = products(cubic.nrows()).count();
-        assert_eq!([cubic.ncols(), quartic.nrows(), quartic.ncols()], [of_products; 3]);
-        Self { cubic, quartic }
+    /// If their sizes do not belong together, or there are more than [`MOST_COORDINATES`].
+    pub fn new(cubic: &Mat<f64>, quartic: &Mat<f64>) -> Self {
+        let (coordinates, products) = (cubic.nrows(), products(cubic.nrows()).collect::<Vec<_>>());
+        assert!(coordinates <= MOST_COORDINATES);
+        assert_eq!([cubic.ncols(), quartic.nrows(), quartic.ncols()], [products.len(); 3]);
+        let in_columns = |of: &Mat<f64>| of.col_iter().flat_map(|column| column.iter().copied()).collect();
+        Self { coordinates, cubic: in_columns(cubic), quartic: in_columns(quartic), products }
     }
 
     /// Number of coordinates.
     pub fn coordinates(&self) -> usize {
-        self.cubic.nrows()
+        self.coordinates
     }
 
     /// Energy V at `p`.
     pub fn energy(&self, p: &[f64]) -> f64 {
-        let q = || products(p.len()).map(|(j, k)| p[j] * p[k]);
-        let mut energy = 0.0;
-        for (a, qa) in q().enumerate() {
-            let cubic: f64 = p.iter().zip(self.cubic.col_as_slice(a)).map(|(p, cubic)| cubic * p).sum();
-            let quartic: f64 = q().zip(self.quartic.col_as_slice(a)).map(|(qb, quartic)| quartic * qb).sum();
-            energy += qa * (cubic + 0.5 * quartic);
+        self.energies(pulp::Scalar, &padded(p))
+    }
+
+    /// Energy V of each lane of the coordinates `p`.
+    #[inline(always)]
+    pub(crate) fn energies<S: Simd>(&self, simd: S, p: &[S::f64s; MOST_COORDINATES]) -> S::f64s {
+        let q = self.products_of(simd, p);
+        let count = self.products.len();
+        let mut energy = simd.splat_f64s(0.0);
+        for a in 0..count {
+            let mut slope = simd.splat_f64s(0.0);
+            for (&quartic, &qb) in self.quartic[a * count..][..count].iter().zip(&q) {
+                slope = simd.mul_add_e_f64s(simd.splat_f64s(0.5 * quartic), qb, slope);
+            }
+            for (&cubic, &p) in self.cubic[a * self.coordinates..][..self.coordinates].iter().zip(p) {
+                slope = simd.mul_add_e_f64s(simd.splat_f64s(cubic), p, slope);
+            }
+            energy = simd.mul_add_e_f64s(slope, q[a], energy);
         }
         energy
     }
 
-    /// Adds the force −∂V/∂p at `p` to `force`. `scratch` holds two numbers for each product.
-    #[inline]
-    pub(crate) fn add_force(&self, p: &[f64], force: &mut [f64], scratch: &mut [f64]) {
-        let (q, y) = scratch.split_at_mut(scratch.len() / 2);
-        for (q, (j, k)) in q.iter_mut().zip(products(p.len())) {
-            *q = p[j] * p[k];
-        }
-        y.fill(0.0);
-        for (b, &qb) in q.iter().enumerate() {
-            let column = self.quartic.col_as_slice(b);
-            for (y, a) in y.iter_mut().zip(column) {
-                *y += a * qb;
+    /// Force −∂V/∂p of each lane of the coordinates `p`.
+    #[inline(always)]
+    pub(crate) fn forces<S: Simd>(
+        &self,
+        simd: S,
+        p: &[S::f64s; MOST_COORDINATES],
+    ) -> [S::f64s; MOST_COORDINATES] {
+        let q = self.products_of(simd, p);
+        let count = self.products.len();
+        let mut force = [simd.splat_f64s(0.0); MOST_COORDINATES];
+        for (a, &(j, k)) in self.products.iter().enumerate() {
+            let mut slope = simd.splat_f64s(0.0);
+            for (&quartic, &qb) in self.quartic[a * count..][..count].iter().zip(&q) {
+                slope = simd.mul_add_e_f64s(simd.splat_f64s(quartic), qb, slope);
             }
-        }
-        for (a, (y, &qa)) in y.iter_mut().zip(&*q).enumerate() {
-            let column = self.cubic.col_as_slice(a);
-            for ((p, cubic), force) in p.iter().zip(column).zip(&mut *force) {
-                *y += cubic * p;
-                *force -= cubic * qa;
+            let cubic = &self.cubic[a * self.coordinates..][..self.coordinates];
+            for ((&cubic, &p), force) in cubic.iter().zip(p).zip(&mut force) {
+                let cubic = simd.splat_f64s(cubic);
+                slope = simd.mul_add_e_f64s(cubic, p, slope);
+                *force = simd.negate_mul_add_e_f64s(cubic, q[a], *force);
             }
+            force[j] = simd.negate_mul_add_e_f64s(slope, p[k], force[j]);
+            force[k] = simd.negate_mul_add_e_f64s(slope, p[j], force[k]);
         }
-        for (y, (j, k)) in y.iter().zip(products(p.len())) {
-            force[j] -= y * p[k];
-            force[k] -= y * p[j];
-        }
+        force
     }
+
+    #[inline(always)]
+    fn products_of<S: Simd>(&self, simd: S, p: &[S::f64s; MOST_COORDINATES]) -> [S::f64s; MOST_PRODUCTS] {
+        let mut q = [simd.splat_f64s(0.0); MOST_PRODUCTS];
+        for (q, &(j, k)) in q.iter_mut().zip(&self.products) {
+            *q = simd.mul_f64s(p[j], p[k]);
+        }
+        q
+    }
+}
+
+fn padded(p: &[f64]) -> [f64; MOST_COORDINATES] {
+    let mut padded = [0.0; MOST_COORDINATES];
+    padded[..p.len()].copy_from_slice(p);
+    padded
 }
 
 #[cfg(test)]
@@ -82,12 +117,11 @@ mod tests {
         for m in 1..5 {
             let of_products = products(m).count();
             let potential = Potential::new(
-                Mat::from_fn(m, of_products, |i, a| noise(3 * i + 7 * a + 1)),
-                Mat::from_fn(of_products, of_products, |a, b| noise(a * b + a + b + 40)),
+                &Mat::from_fn(m, of_products, |i, a| noise(3 * i + 7 * a + 1)),
+                &Mat::from_fn(of_products, of_products, |a, b| noise(a * b + a + b + 40)),
             );
             let p: Vec<f64> = (0..m).map(|j| noise(j + 90)).collect();
-            let mut force = vec![0.0; m];
-            potential.add_force(&p, &mut force, &mut vec![0.0; 2 * of_products]);
+            let force = potential.forces(pulp::Scalar, &padded(&p));
             for j in 0..m {
                 let at = |by: f64| {
                     let mut moved = p.clone();

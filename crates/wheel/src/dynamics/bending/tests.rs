@@ -50,8 +50,8 @@ fn blade() -> BladeBending {
         asked: COORDINATES,
         rows: Vec::new(),
         potential: Potential::new(
-            Mat::from_fn(COORDINATES, PRODUCTS, |_, _| 2e5 * numbers.next()),
-            4e7 * (&a.transpose().to_owned() * &a),
+            &Mat::from_fn(COORDINATES, PRODUCTS, |_, _| 2e5 * numbers.next()),
+            &(4e7 * (&a.transpose().to_owned() * &a)),
         ),
         linear: Mat::from_fn(3 * NODES, COORDINATES, |_, _| numbers.next()),
         second_order: Mat::from_fn(3 * NODES, PRODUCTS, |_, _| 8.0 * numbers.next()),

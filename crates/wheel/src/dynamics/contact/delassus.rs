@@ -24,7 +24,7 @@ pub(crate) struct Delassus {
     largest: Vec<f64>,
     /// Sector and node of every index.
     places: Vec<(usize, usize)>,
-    /// Motion of contact nodes per unit of a coordinate of their sector, `[sector][node][coordinate]`; empty without coordinates.
+    /// Motion of contact nodes per unit of a coordinate of their sector, `[sector][coordinate][node]`, padded; empty without coordinates.
     slopes: Vec<f64>,
     /// Largest share by which slopes make any entry larger than the largest of the table: (1 + Σ |slope|)².
     steepest: f64,
@@ -56,7 +56,7 @@ impl Delassus {
             ridge,
             largest: Vec::new(),
             places,
-            slopes: vec![0.0; sectors * (nodes - coordinates) * coordinates],
+            slopes: vec![0.0; sectors * coordinates * stride],
             steepest: 1.0,
         };
         this.find_largest();
@@ -86,31 +86,48 @@ impl Delassus {
         self.nodes - self.coordinates
     }
 
-    /// Sets the motion of contact nodes per unit of a coordinate of their sector, `[sector][node][coordinate]`: W becomes J W Jᵀ, J reading a
-    /// node and by its slopes the coordinates.
+    /// Lets `write` set the motion of contact nodes per unit of a coordinate of their sector, `[sector][coordinate][node]`, padded by zeros: W
+    /// becomes J W Jᵀ, J reading a node and by its slopes the coordinates.
     #[inline(always)]
-    pub(crate) fn bend(&mut self, slopes: &[f64]) {
-        self.slopes.copy_from_slice(slopes);
-        let of_node = slopes.chunks_exact(self.coordinates).map(|of| of.iter().map(|s| s.abs()).sum::<f64>());
-        self.steepest = (1.0 + of_node.fold(0.0, f64::max)).powi(2);
+    pub(crate) fn bend(&mut self, write: impl FnOnce(&mut [f64])) {
+        write(&mut self.slopes);
+        let mut steepest = [0.0f64; LANES];
+        for of_sector in self.slopes.chunks_exact((self.coordinates * self.stride).max(1)) {
+            for first in (0..self.stride).step_by(LANES) {
+                let mut sums = [0.0; LANES];
+                for slopes in of_sector[first..].chunks(self.stride) {
+                    sums.iter_mut().zip(slopes).for_each(|(sum, slope)| *sum += slope.abs());
+                }
+                steepest
+                    .iter_mut()
+                    .zip(sums)
+                    .for_each(|(most, sum)| *most = if sum > *most { sum } else { *most });
+            }
+        }
+        self.steepest = (1.0 + steepest.iter().fold(0.0, |most: f64, &of| most.max(of))).powi(2);
     }
 
     /// Motion of the node of an index per unit of each coordinate of its sector; nothing without coordinates.
     #[inline(always)]
-    pub(crate) fn slope(&self, index: usize) -> &[f64] {
+    pub(crate) fn slope(&self, index: usize) -> impl Iterator<Item = f64> {
         let (sector, node) = self.place(index);
-        let m = self.coordinates;
-        &self.slopes[(sector * self.contact_nodes() + node) * m..][..m]
+        self.slopes_of(sector).iter().skip(node).step_by(self.stride).copied()
+    }
+
+    /// Slopes of a sector, `[coordinate][node]`.
+    #[inline(always)]
+    fn slopes_of(&self, sector: usize) -> &[f64] {
+        let count = self.coordinates * self.stride;
+        &self.slopes[sector * count..][..count]
     }
 
     /// Entry that the slopes add to that of the table.
     fn bent_entry(&self, i: usize, j: usize) -> f64 {
         let ((to_sector, to), (from_sector, from)) = (self.place(i), self.place(j));
         let (distance, first) = (self.distance(to_sector, from_sector), self.contact_nodes());
-        let (to_slope, from_slope) = (self.slope(i), self.slope(j));
-        let along = |column: &[f64]| to_slope.iter().zip(&column[first..]).map(|(s, w)| s * w).sum::<f64>();
+        let along = |column: &[f64]| self.slope(i).zip(&column[first..]).map(|(s, w)| s * w).sum::<f64>();
         let own = along(self.column(distance, from));
-        let pushed = from_slope.iter().enumerate().map(|(b, slope)| {
+        let pushed = self.slope(j).enumerate().map(|(b, slope)| {
             let column = self.column(distance, first + b);
             slope * (column[to] + along(column))
         });
@@ -121,12 +138,14 @@ impl Delassus {
     #[inline(always)]
     fn add_bent(&self, sector: usize, active: &[usize], lambda: &[f64], gap: &mut [f64]) {
         let (first, m) = (self.contact_nodes(), self.coordinates);
-        let gap = &mut gap[..first];
+        let gap = gap.as_chunks_mut::<LANES>().0;
         let mut moved = [0.0; MOST_COORDINATES];
-        let mut add = |column: &[f64], force: f64, to_nodes: bool| {
+        let mut read = |column: &[f64], force: f64| {
             moved.iter_mut().zip(&column[first..first + m]).for_each(|(moved, w)| *moved += w * force);
-            if to_nodes {
-                gap.iter_mut().zip(column).for_each(|(gap, w)| *gap += w * force);
+        };
+        let mut add = |column: &[f64], by: f64| {
+            for (gap, column) in gap.iter_mut().zip(column.as_chunks::<LANES>().0) {
+                gap.iter_mut().zip(column).for_each(|(gap, w)| *gap += w * by);
             }
         };
         let mut loads = active.iter().zip(lambda).peekable();
@@ -142,15 +161,16 @@ impl Delassus {
                     .iter_mut()
                     .zip(self.slope(index))
                     .for_each(|(pushed, slope)| *pushed += slope * lambda);
-                add(self.column(distance, self.place(index).1), *lambda, false);
+                read(self.column(distance, self.place(index).1), *lambda);
             }
             for (b, &force) in pushed[..m].iter().enumerate() {
-                add(self.column(distance, first + b), force, true);
+                let column = self.column(distance, first + b);
+                read(column, force);
+                add(column, force);
             }
         }
-        let slopes = self.slopes[sector * first * m..][..first * m].chunks_exact(m);
-        for (gap, slope) in gap.iter_mut().zip(slopes) {
-            *gap += slope.iter().zip(&moved).map(|(s, p)| s * p).sum::<f64>();
+        for (slopes, &moved) in self.slopes_of(sector).chunks_exact(self.stride).zip(&moved) {
+            add(slopes, moved);
         }
     }
 

@@ -44,8 +44,6 @@ pub(super) struct Contact {
     sliding: Option<Sliding>,
     delassus: Delassus,
     residual: ResidualDisplacement,
-    /// Derivatives of the motion of second order by the coordinates, `[sector][node][coordinate]`; empty for blades that do not bend far.
-    slopes: Vec<f64>,
     tolerance: f64,
     /// Largest penetration that may be left where W is singular.
     most_left: f64,
@@ -77,7 +75,7 @@ impl Contact {
         oscillators: &Oscillators,
         fourier: &SectorFourier,
     ) -> Self {
-        let Simulation { wheel, scheme, contact_nodes: nodes, effects, .. } = *simulation;
+        let Simulation { wheel, scheme, effects, .. } = *simulation;
         let normals = read(simulation);
         let rows = Rows::new(wheel, &normals, |modes| scheme.integrated_modes(modes));
         let (stride, sectors) = (rows.stride, fourier.sectors());
@@ -94,7 +92,6 @@ impl Contact {
             + clearance_change.map_or(0.0, ClearanceChange::largest)
             + clearance_drift.map_or(0.0, ClearanceDrift::largest);
         Self {
-            slopes: vec![0.0; sectors * nodes.len() * (normals.len() - nodes.len())],
             delassus,
             residual: ResidualDisplacement::new(simulation, &normals),
             // Gaps are differences of lengths of this scale. A casing far out of reach of some node must not loosen it.
@@ -164,10 +161,9 @@ impl Contact {
         statistics: &mut RunStatistics,
         work: &mut EffectWork,
     ) -> Result<(), ComplementarityError> {
-        let Self { law, gaps, delassus, slopes, .. } = self;
-        if let Some(second_order) = &mut gaps.second_order {
-            second_order.slopes(fourier, &gaps.harmonic, self.rows.stride, slopes);
-            delassus.bend(slopes);
+        let Self { law, gaps, delassus, .. } = self;
+        if let Some(second_order) = &gaps.second_order {
+            delassus.bend(|slopes| second_order.slopes(&gaps.linear, slopes));
             law.operator_changed();
         }
         loop {
@@ -212,7 +208,7 @@ impl Contact {
                 press(self.force_rows * row + direction, force);
             }
             let lambda = *lambda;
-            for (coordinate, slope) in delassus.slope(index).iter().enumerate() {
+            for (coordinate, slope) in delassus.slope(index).enumerate() {
                 press(delassus.contact_nodes() + coordinate, slope * lambda);
             }
             if let Some(sliding) = &self.sliding {
@@ -276,6 +272,9 @@ impl Contact {
     #[inline(always)]
     pub(super) fn end_interval(&mut self, fourier: &SectorFourier, seen: Option<&mut ContactInterval>) {
         let Self { tally, gaps, rows, .. } = self;
+        if let Some(second_order) = &mut gaps.second_order {
+            second_order.add(fourier, &mut gaps.harmonic);
+        }
         let columns = gaps.harmonic.chunks_exact(rows.stride);
         let outward = |sector: usize, node: usize| {
             fourier.row(sector).iter().zip(columns.clone()).map(|(f, column)| f * column[node]).sum()

@@ -42,6 +42,8 @@ pub(super) struct Gaps {
     pub(super) shift: Option<GapShift>,
     /// Motion of second order towards the casing, of blades that bend far.
     pub(super) second_order: Option<SecondOrder>,
+    /// Linear displacements, `[sector][row]`, of blades that bend far.
+    pub(super) linear: Vec<f64>,
 }
 
 /// Casing as the gaps of one step see it.
@@ -78,25 +80,22 @@ impl Gaps {
             shift: GapShift::new(simulation, stride),
             second_order: (simulation.effects.bending)
                 .map(|bending| SecondOrder::towards_casing(bending, simulation.contact_nodes)),
+            linear: vec![0.0; sectors * stride],
         }
     }
 
     /// Predicts the gaps g_p = c − p − nᵀu of all sectors. Returns the smallest if it is negative, otherwise a number that is not.
     ///
-    /// Normal displacements must have been read since: what blades move by bending far is added to them.
-    ///
     /// A far sector, where c − p is not below the upper bound of nᵀu in any sector, gets c − p less that bound.
     #[inline(always)]
     pub(super) fn predict<S: Simd>(&mut self, simd: S, fourier: &SectorFourier, now: Instant) -> f64 {
-        if let Some(second_order) = &mut self.second_order {
-            second_order.add(fourier, &mut self.harmonic, self.stride);
-        }
         let growth = ramp(now.revolutions, self.ramp_revolutions);
         if let Some(shift) = &mut self.shift {
             shift.move_to(now.revolutions, growth);
         }
         let wall = Wall { step: now.step, growth };
-        if fourier.sectors() > ALL_TRANSFORMED {
+        // Motion of second order has no bound here.
+        if fourier.sectors() > ALL_TRANSFORMED && self.second_order.is_none() {
             amplitude_sums(simd, fourier, &self.harmonic, &mut self.amplitude_sums);
             self.near.clear();
             for sector in 0..fourier.sectors() {
@@ -161,9 +160,11 @@ impl Gaps {
         sectors: [usize; R],
     ) -> S::f64s {
         let Wall { step, growth } = wall;
-        let Self { restriction, unrestricted, clearance, harmonic, predicted, shift, .. } = self;
+        let Self { restriction, unrestricted, clearance, harmonic, predicted, shift, second_order, .. } =
+            self;
         let shift = shift.as_ref().map(|shift| shift.now.as_slice());
         let vectors = self.stride / S::F64_LANES;
+        let linear = S::as_mut_simd_f64s(&mut self.linear).0;
         let gap = S::as_mut_simd_f64s(predicted).0;
         let clearance = &S::as_simd_f64s(clearance).0[..vectors];
         let harmonic = S::as_simd_f64s(harmonic).0;
@@ -189,7 +190,18 @@ impl Gaps {
                 let restricted = S::as_simd_f64s(restricted).0[v];
                 let room = room(simd, clearance[v], growth, restricted, shift, at);
                 gap[at] = simd.sub_f64s(room, u[r]);
-                smallest = simd.min_f64s(smallest, gap[at]);
+                if second_order.is_some() {
+                    linear[at] = u[r];
+                } else {
+                    smallest = simd.min_f64s(smallest, gap[at]);
+                }
+            }
+        }
+        if let Some(second_order) = second_order {
+            for sector in sectors {
+                let linear = &self.linear[sector * self.stride..][..self.stride];
+                let gap = &mut gap[sector * vectors..][..vectors];
+                smallest = simd.min_f64s(smallest, second_order.close(simd, linear, gap));
             }
         }
         smallest

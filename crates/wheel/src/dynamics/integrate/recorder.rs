@@ -105,7 +105,7 @@ impl Recorder {
             self.residual.add(force, force.len() / fourier.sectors(), &mut self.harmonic, stride);
         }
         if let Some(second_order) = &mut self.second_order {
-            second_order.add(fourier, &mut self.harmonic, stride);
+            second_order.add(fourier, &mut self.harmonic);
         }
         let sensors = self.sectors.len();
         if windowed && sensors > 0 {

@@ -1,9 +1,12 @@
 //! Displacement of second order of blades that bend far, at rows that are read.
 
-use super::super::bending::{Bending, products};
+use pulp::Simd;
+
+use super::super::bending::{Bending, MOST_COORDINATES, products};
 use super::super::direction::{COMPONENTS, Direction};
-use super::super::oscillators::driven::coordinates;
+use super::super::oscillators::lanes::{LANES, padded};
 use super::super::sector::ContactNode;
+use rubmap_numerics::aligned::Aligned;
 use rubmap_numerics::sector_fourier::SectorFourier;
 
 /// Displacement Σ_a c_a q_a(p) of second order of some rows, behind which the coordinates p are read as rows, too.
@@ -11,10 +14,14 @@ use rubmap_numerics::sector_fourier::SectorFourier;
 pub(super) struct SecondOrder {
     /// Number of rows that move.
     rows: usize,
-    /// Coefficients c, `[product][row]`.
-    curvature: Vec<f64>,
-    /// Coordinates of one sector.
-    p: Vec<f64>,
+    /// Number of coordinates of a sector.
+    coordinates: usize,
+    /// Number of rows and coordinates, padded to whole vectors.
+    stride: usize,
+    /// Coefficients c, `[product][row]`, padded by zeros.
+    curvature: Aligned,
+    /// Coordinates of each product.
+    products: Vec<(usize, usize)>,
     /// Displacement of the rows of one sector.
     moved: Vec<f64>,
 }
@@ -47,55 +54,81 @@ impl SecondOrder {
         })
     }
 
-    fn of(bending: Bending<'_>, rows: usize, curvature: impl Fn(usize, usize) -> f64) -> Self {
-        let m = bending.blade.coordinates();
-        let all = (0..products(m).count()).flat_map(|product| (0..rows).map(move |row| (row, product)));
-        Self {
-            rows,
-            curvature: all.map(|(row, product)| curvature(row, product)).collect(),
-            p: vec![0.0; m],
-            moved: vec![0.0; rows],
+    fn of(bending: Bending<'_>, rows: usize, c: impl Fn(usize, usize) -> f64) -> Self {
+        let coordinates = bending.blade.coordinates();
+        let products: Vec<_> = products(coordinates).collect();
+        let stride = padded(rows + coordinates);
+        let mut curvature = Aligned::zeros(products.len() * stride);
+        for (product, of) in curvature.chunks_exact_mut(stride).enumerate() {
+            of[..rows].iter_mut().enumerate().for_each(|(row, of)| *of = c(row, product));
         }
+        Self { rows, coordinates, stride, curvature, products, moved: vec![0.0; stride] }
     }
 
-    /// Adds the displacement to the rows in Fourier coordinates, `[column][row]` padded to `stride`, the coordinates behind the rows.
+    /// Adds the displacement to the rows in Fourier coordinates, `[column][row]`, padded, the coordinates behind the rows.
     #[inline(always)]
-    pub(super) fn add(&mut self, fourier: &SectorFourier, harmonic: &mut [f64], stride: usize) {
-        let Self { rows, curvature, p, moved } = self;
+    pub(super) fn add(&mut self, fourier: &SectorFourier, harmonic: &mut [f64]) {
+        let Self { rows, coordinates: m, stride, curvature, products, moved } = self;
+        let mut p = [0.0; MOST_COORDINATES];
         // The coordinates stay as they are while the rows before them are added to.
         for sector in 0..fourier.sectors() {
-            coordinates(fourier, sector, &harmonic[*rows..], stride, p);
+            coordinates(fourier, sector, &harmonic[*rows..], *stride, &mut p[..*m]);
             moved.fill(0.0);
-            for (curvature, (j, k)) in curvature.chunks_exact((*rows).max(1)).zip(products(p.len())) {
+            for (c, &(j, k)) in curvature.chunks_exact(*stride).zip(&*products) {
                 let q = p[j] * p[k];
-                moved.iter_mut().zip(curvature).for_each(|(moved, c)| *moved += c * q);
+                moved.iter_mut().zip(c).for_each(|(moved, c)| *moved += c * q);
             }
-            for (&row, column) in fourier.row(sector).iter().zip(harmonic.chunks_mut(stride)) {
+            for (&row, column) in fourier.row(sector).iter().zip(harmonic.chunks_exact_mut(*stride)) {
                 column.iter_mut().zip(&*moved).for_each(|(sum, moved)| *sum += row * moved);
             }
         }
     }
 
-    /// Writes the derivatives of the displacement by the coordinates, `[sector][row][coordinate]`, at those in `harmonic` as of [`Self::add`].
+    /// Takes the displacement of the rows of a sector from their gaps; returns the smallest. `linear` is the linear displacement of rows and
+    /// coordinates, both padded.
     #[inline(always)]
-    pub(super) fn slopes(
-        &mut self,
-        fourier: &SectorFourier,
-        harmonic: &[f64],
-        stride: usize,
-        slopes: &mut [f64],
-    ) {
-        let Self { rows, curvature, p, .. } = self;
-        let m = p.len();
-        for (sector, slopes) in slopes.chunks_exact_mut(*rows * m).enumerate() {
-            coordinates(fourier, sector, &harmonic[*rows..], stride, p);
+    pub(super) fn close<S: Simd>(&self, simd: S, linear: &[f64], gap: &mut [S::f64s]) -> S::f64s {
+        let p = &linear[self.rows..][..self.coordinates];
+        let curvature = S::as_simd_f64s(&self.curvature).0;
+        for (c, &(j, k)) in curvature.chunks_exact(gap.len()).zip(&self.products) {
+            let q = simd.splat_f64s(p[j] * p[k]);
+            for (gap, &c) in gap.iter_mut().zip(c) {
+                *gap = simd.negate_mul_add_e_f64s(q, c, *gap);
+            }
+        }
+        let mut smallest = simd.splat_f64s(f64::INFINITY);
+        for &gap in &*gap {
+            smallest = simd.min_f64s(smallest, gap);
+        }
+        smallest
+    }
+
+    /// Writes the derivatives of the displacement by the coordinates, `[sector][coordinate][row]`, padded. `linear` is the linear displacement
+    /// of rows and coordinates of all sectors, padded.
+    #[inline(always)]
+    pub(super) fn slopes(&self, linear: &[f64], slopes: &mut [f64]) {
+        let Self { rows, coordinates: m, stride, curvature, products, .. } = self;
+        let of_sectors = slopes.chunks_exact_mut((m * stride).max(1)).zip(linear.chunks_exact(*stride));
+        for (slopes, linear) in of_sectors {
+            let p = &linear[*rows..][..*m];
             slopes.fill(0.0);
-            for (curvature, (j, k)) in curvature.chunks_exact(*rows).zip(products(m)) {
-                for (slope, c) in slopes.chunks_exact_mut(m).zip(curvature) {
-                    slope[j] += c * p[k];
-                    slope[k] += c * p[j];
+            for (c, &(j, k)) in curvature.chunks_exact(*stride).zip(products) {
+                for (of, by) in [(j, p[k]), (k, p[j])] {
+                    let slope = slopes[of * stride..][..*stride].as_chunks_mut::<LANES>().0;
+                    for (slope, c) in slope.iter_mut().zip(c.as_chunks::<LANES>().0) {
+                        slope.iter_mut().zip(c).for_each(|(slope, c)| *slope += c * by);
+                    }
                 }
             }
         }
+    }
+}
+
+/// Writes the coordinates of a sector, given in Fourier coordinates `[column][coordinate]` padded to `stride`, into `p`.
+#[inline(always)]
+fn coordinates(fourier: &SectorFourier, sector: usize, harmonic: &[f64], stride: usize, p: &mut [f64]) {
+    p.fill(0.0);
+    for (&row, column) in fourier.row(sector).iter().zip(harmonic.chunks(stride)) {
+        p.iter_mut().zip(column).for_each(|(p, value)| *p += row * value);
     }
 }

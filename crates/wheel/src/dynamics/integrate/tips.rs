@@ -103,7 +103,7 @@ impl TipTally {
             self.residual.add(force, force.len() / fourier.sectors(), harmonic, rows.stride);
         }
         if let Some(second_order) = &mut self.second_order {
-            second_order.add(fourier, harmonic, rows.stride);
+            second_order.add(fourier, harmonic);
         }
         let columns = harmonic.chunks_exact(rows.stride);
         let components = self.components;

@@ -136,16 +136,23 @@ pub(super) struct Forces<'a, S: Simd> {
     pub(super) stiffening: Option<&'a [S::f64s]>,
 }
 
-impl<S: Simd> Forces<'_, S> {
-    /// Sum of the forces on vector `m`.
+impl<'a, S: Simd> Forces<'a, S> {
+    /// Forces of all kinds together, if there are any; `sum` is where several of them are added up.
     #[inline(always)]
-    pub(super) fn sum(&self, simd: S, m: usize) -> S::f64s {
-        let mut sum = simd.splat_f64s(0.0);
+    pub(super) fn total(&self, simd: S, sum: &'a mut [S::f64s]) -> Option<&'a [S::f64s]> {
         let all = [self.contact, self.excitation, self.mistuning, self.stiffening];
-        for force in all.into_iter().flatten() {
-            sum = simd.add_f64s(sum, force[m]);
+        let mut acting = all.into_iter().flatten();
+        let first = acting.next()?;
+        let Some(second) = acting.next() else { return Some(first) };
+        for ((sum, &a), &b) in sum.iter_mut().zip(first).zip(second) {
+            *sum = simd.add_f64s(a, b);
         }
-        sum
+        for force in acting {
+            for (sum, &f) in sum.iter_mut().zip(force) {
+                *sum = simd.add_f64s(*sum, f);
+            }
+        }
+        Some(sum)
     }
 }
 
@@ -165,21 +172,25 @@ impl<S: Simd> DrivenSums<S> {
         Self { contact: zero, excitation: zero, mistuning: zero, stiffening: zero, loss: zero }
     }
 
-    /// Adds the exchange of the final swing of vector `m` under `forces`.
+    /// Adds the exchange of the final swings of a part under `forces`.
     #[inline(always)]
-    pub(super) fn count(&mut self, simd: S, swing: S::f64s, loss: S::f64s, forces: &Forces<'_, S>, m: usize) {
-        self.loss = simd.mul_add_e_f64s(loss, simd.mul_f64s(swing, swing), self.loss);
-        if let Some(force) = forces.contact {
-            self.contact = simd.mul_add_e_f64s(force[m], swing, self.contact);
+    pub(super) fn count(&mut self, simd: S, swing: &[S::f64s], loss: &[S::f64s], forces: &Forces<'_, S>) {
+        for (&loss, &swing) in loss.iter().zip(swing) {
+            self.loss = simd.mul_add_e_f64s(loss, simd.mul_f64s(swing, swing), self.loss);
         }
-        if let Some(force) = forces.excitation {
-            self.excitation = simd.mul_add_e_f64s(force[m], swing, self.excitation);
-        }
-        if let Some(force) = forces.mistuning {
-            self.mistuning = simd.mul_add_e_f64s(force[m], swing, self.mistuning);
-        }
-        if let Some(force) = forces.stiffening {
-            self.stiffening = simd.mul_add_e_f64s(force[m], swing, self.stiffening);
+        let works = [
+            (&mut self.contact, forces.contact),
+            (&mut self.excitation, forces.excitation),
+            (&mut self.mistuning, forces.mistuning),
+            (&mut self.stiffening, forces.stiffening),
+        ];
+        for (work, force) in works {
+            let Some(force) = force else { continue };
+            let mut sum = *work;
+            for (&force, &swing) in force.iter().zip(swing) {
+                sum = simd.mul_add_e_f64s(force, swing, sum);
+            }
+            *work = sum;
         }
     }
 

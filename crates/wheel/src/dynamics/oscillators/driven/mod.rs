@@ -35,7 +35,6 @@ use circulation::Circulation;
 use rubmap_numerics::aligned::Aligned;
 use rubmap_numerics::sector_fourier::SectorFourier;
 use stiffening::Stiffening;
-pub(crate) use stiffening::coordinates;
 use turning::Turning;
 
 /// Drive of the oscillators: forces other than contact, and the numbers of the step under way.
@@ -54,6 +53,8 @@ pub(crate) struct Drive {
     moved: Aligned,
     /// Swing of one nodal diameter after S.
     turned: Aligned,
+    /// Sum of the forces on one part of a nodal diameter, where there are several.
+    total: Aligned,
 }
 
 impl Drive {
@@ -108,6 +109,7 @@ impl Drive {
             swing: of(true),
             moved: Aligned::zeros(2 * longest),
             turned: Aligned::zeros(2 * longest),
+            total: Aligned::zeros(longest),
         })
     }
 
@@ -348,25 +350,22 @@ impl Oscillators {
             }
         }
         let of = self.coefficients.of::<S>(segment);
+        let turns = turning.is_some();
         for start in segment.parts() {
             let Part { z, d, .. } = self.state.part::<S>(segment, start, false, false);
             let forces = acting.on::<S>(index, segment, start, loaded);
             let swing = &mut S::as_mut_simd_f64s(&mut swing[start..start + segment.length]).0[..z.len()];
             let moved = &S::as_simd_f64s(&moved[start - segment.state..][..segment.length]).0[..z.len()];
-            for m in 0..z.len() {
-                let of = of.at(m);
-                let mut modes = Modes { z: z[m], d: d[m], swing: swing[m] };
-                if let Some(force) = forces.contact {
-                    let moved = match turning {
-                        Some(_) => moved[m],
-                        None => simd.mul_f64s(of.receptance, force[m]),
-                    };
+            if let Some(force) = forces.contact {
+                for m in 0..z.len() {
+                    let mut modes = Modes { z: z[m], d: d[m], swing: swing[m] };
+                    let moved = if turns { moved[m] } else { simd.mul_f64s(of.receptance[m], force[m]) };
                     modes.move_by(simd, moved);
-                    (z[m], d[m]) = (modes.z, modes.d);
+                    (z[m], d[m], swing[m]) = (modes.z, modes.d, modes.swing);
                 }
-                sums.count(simd, modes.swing, of.loss, &forces, m);
-                swing[m] = simd.splat_f64s(0.0);
             }
+            sums.count(simd, swing, of.loss, &forces);
+            swing.fill(simd.splat_f64s(0.0));
         }
     }
 
@@ -394,9 +393,7 @@ impl Oscillators {
             for start in segment.parts() {
                 let swing = S::as_simd_f64s(&drive.swing[start..start + segment.length]).0;
                 let forces = drive.acting.on::<S>(index, segment, start, loads.is_some());
-                for (m, (&swing, &loss)) in swing.iter().zip(of.loss).enumerate() {
-                    sums.count(simd, swing, loss, &forces, m);
-                }
+                sums.count(simd, swing, of.loss, &forces);
             }
             if let Some(Readout { rows, out }) = &mut reading {
                 rows.project(simd, index, segment, &self.state.z, out);
@@ -410,17 +407,19 @@ impl Oscillators {
     fn swing<S: Simd>(&mut self, simd: S, index: usize, drive: &mut Drive, revolutions: f64, loaded: bool) {
         let segment = self.segments[index];
         drive.force(simd, index, segment, revolutions, &self.state.z);
-        let Drive { turning, acting, swing, moved, turned, .. } = drive;
+        let Drive { turning, acting, swing, moved, turned, total, .. } = drive;
         let of = self.coefficients.of::<S>(segment);
+        let turns = turning.is_some();
         for start in segment.parts() {
             let Part { z, d, .. } = self.state.part::<S>(segment, start, false, false);
-            let forces = acting.on::<S>(index, segment, start, loaded);
+            let total = S::as_mut_simd_f64s(&mut total[..segment.length]).0;
+            let force = acting.on::<S>(index, segment, start, loaded).total(simd, total);
             let swing = S::as_mut_simd_f64s(&mut swing[start..start + segment.length]).0;
             let moved = S::as_mut_simd_f64s(&mut moved[start - segment.state..][..segment.length]).0;
             for m in 0..of.keep.len() {
                 let mut modes = Modes { z: z[m], d: d[m], swing: swing[m] };
-                modes.advance(simd, &of.at(m), Some(forces.sum(simd, m)));
-                if turning.is_some() {
+                modes.advance(simd, &of.at(m), force.map(|force| force[m]));
+                if turns {
                     moved[m] = modes.swing;
                 } else {
                     (z[m], d[m], swing[m]) = (modes.z, modes.d, modes.swing);

@@ -2,9 +2,10 @@
 
 use pulp::Simd;
 
-use super::super::super::bending::{Bending, Potential};
+use super::super::super::bending::{Bending, MOST_COORDINATES, Potential};
 use super::super::super::modal_wheel::ModalWheel;
 use super::super::Oscillators;
+use super::super::lanes::padded;
 use super::super::rows::{Loads, Rows};
 use super::super::segment::Segment;
 use rubmap_numerics::aligned::Aligned;
@@ -15,17 +16,18 @@ use rubmap_numerics::sector_fourier::SectorFourier;
 pub(super) struct Stiffening {
     rows: Rows,
     potential: Potential,
-    fourier: SectorFourier,
+    /// Columns of the Fourier basis, `[column][sector]`, sectors padded to whole vectors by zeros.
+    waves: Aligned,
     /// Coordinates in Fourier coordinates, `[column][coordinate]`, padded.
     harmonic: Vec<f64>,
     /// Forces on them, in the same order.
     force: Vec<f64>,
     /// Indices of all coordinates.
     all: Vec<usize>,
-    /// Coordinates of one sector, forces on them, and what the potential needs.
-    p: Vec<f64>,
-    f: Vec<f64>,
-    scratch: Vec<f64>,
+    /// Coordinates, `[coordinate][sector]`, padded as the waves.
+    p: Aligned,
+    /// Forces on them, in the same order.
+    f: Aligned,
 }
 
 impl Stiffening {
@@ -52,16 +54,20 @@ impl Stiffening {
             slow
         });
         let (m, sectors, stride) = (directions.len(), fourier.sectors(), rows.stride);
-        let potential = bending.blade.potential.clone();
+        let of_wave = padded(sectors);
+        let mut waves = Aligned::zeros(sectors * of_wave);
+        for sector in 0..sectors {
+            let columns = waves.iter_mut().skip(sector).step_by(of_wave);
+            columns.zip(fourier.row(sector)).for_each(|(wave, row)| *wave = *row);
+        }
         Self {
-            scratch: vec![0.0; m * (m + 1)],
-            potential,
-            fourier: fourier.clone(),
+            potential: bending.blade.potential.clone(),
+            waves,
             harmonic: vec![0.0; sectors * stride],
             force: vec![0.0; sectors * stride],
             all: (0..m).collect(),
-            p: vec![0.0; m],
-            f: vec![0.0; m],
+            p: Aligned::zeros(m * of_wave),
+            f: Aligned::zeros(m * of_wave),
             rows,
         }
     }
@@ -69,17 +75,24 @@ impl Stiffening {
     /// Writes the modal forces of the state `z`.
     #[inline(always)]
     pub(super) fn force<S: Simd>(&mut self, simd: S, segments: &[Segment], z: &[f64], out: &mut Aligned) {
-        let Self { rows, potential, fourier, harmonic, force, all, p, f, scratch } = self;
-        for (index, &segment) in segments.iter().enumerate() {
-            rows.project(simd, index, segment, z, harmonic);
+        self.read(simd, segments, z);
+        let Self { rows, potential, waves, harmonic: _, force, all, p, f } = self;
+        let [p, waves] = [&*p, &*waves].map(|values| S::as_simd_f64s(values).0);
+        let f = S::as_mut_simd_f64s(f).0;
+        let vectors = p.len() / all.len().max(1);
+        for v in 0..vectors {
+            let forces = potential.forces(simd, &lanes(simd, p, vectors, v));
+            for (f, force) in f.chunks_exact_mut(vectors).zip(forces) {
+                f[v] = force;
+            }
         }
-        force.fill(0.0);
-        for sector in 0..fourier.sectors() {
-            coordinates(fourier, sector, harmonic, rows.stride, p);
-            f.fill(0.0);
-            potential.add_force(p, f, scratch);
-            for (&row, column) in fourier.row(sector).iter().zip(force.chunks_exact_mut(rows.stride)) {
-                column.iter_mut().zip(&*f).for_each(|(sum, f)| *sum += row * f);
+        for (column, wave) in force.chunks_exact_mut(rows.stride).zip(waves.chunks_exact(vectors)) {
+            for (force, f) in column.iter_mut().zip(f.chunks_exact(vectors)) {
+                let mut sum = simd.splat_f64s(0.0);
+                for (&wave, &f) in wave.iter().zip(f) {
+                    sum = simd.mul_add_e_f64s(wave, f, sum);
+                }
+                *force = simd.reduce_sum_f64s(sum);
             }
         }
         let loads = Loads { rows, loaded: all, force };
@@ -91,29 +104,44 @@ impl Stiffening {
     /// Strain energy beyond the quadratic one in the state `z`.
     #[inline(always)]
     pub(super) fn energy<S: Simd>(&mut self, simd: S, segments: &[Segment], z: &[f64]) -> f64 {
-        let Self { rows, potential, fourier, harmonic, p, .. } = self;
+        self.read(simd, segments, z);
+        let p = S::as_simd_f64s(&self.p).0;
+        let vectors = p.len() / self.all.len().max(1);
+        let mut energy = simd.splat_f64s(0.0);
+        for v in 0..vectors {
+            let of = self.potential.energies(simd, &lanes(simd, p, vectors, v));
+            energy = simd.add_f64s(energy, of);
+        }
+        simd.reduce_sum_f64s(energy)
+    }
+
+    /// Reads the coordinates of all sectors in the state `z`.
+    #[inline(always)]
+    fn read<S: Simd>(&mut self, simd: S, segments: &[Segment], z: &[f64]) {
+        let Self { rows, waves, harmonic, p, .. } = self;
         for (index, &segment) in segments.iter().enumerate() {
             rows.project(simd, index, segment, z, harmonic);
         }
-        let of = |sector: usize| {
-            coordinates(fourier, sector, harmonic, rows.stride, p);
-            potential.energy(p)
-        };
-        (0..fourier.sectors()).map(of).sum()
+        let waves = S::as_simd_f64s(waves).0;
+        let vectors = waves.len() / (harmonic.len() / rows.stride);
+        for (j, p) in S::as_mut_simd_f64s(p).0.chunks_exact_mut(vectors).enumerate() {
+            p.fill(simd.splat_f64s(0.0));
+            for (column, wave) in harmonic.chunks_exact(rows.stride).zip(waves.chunks_exact(vectors)) {
+                let value = simd.splat_f64s(column[j]);
+                for (p, &wave) in p.iter_mut().zip(wave) {
+                    *p = simd.mul_add_e_f64s(value, wave, *p);
+                }
+            }
+        }
     }
 }
 
-/// Writes the coordinates of a sector, given in Fourier coordinates `[column][coordinate]` padded to `stride`, into `p`.
+/// Vector `v` of every coordinate in `p`, `vectors` of each.
 #[inline(always)]
-pub(crate) fn coordinates(
-    fourier: &SectorFourier,
-    sector: usize,
-    harmonic: &[f64],
-    stride: usize,
-    p: &mut [f64],
-) {
-    p.fill(0.0);
-    for (&row, column) in fourier.row(sector).iter().zip(harmonic.chunks(stride)) {
-        p.iter_mut().zip(column).for_each(|(p, value)| *p += row * value);
+fn lanes<S: Simd>(simd: S, p: &[S::f64s], vectors: usize, v: usize) -> [S::f64s; MOST_COORDINATES] {
+    let mut lanes = [simd.splat_f64s(0.0); MOST_COORDINATES];
+    for (lane, p) in lanes.iter_mut().zip(p.chunks_exact(vectors)) {
+        *lane = p[v];
     }
+    lanes
 }
