@@ -17,6 +17,8 @@ pub use measure::{LargestMotion, MeasuredMotion, NotMeasured, measure, measuring
 pub(crate) use measure::{Neglected, PHASE, expected_bytes, relaxing_seconds};
 
 #[cfg(test)]
+mod calculix;
+#[cfg(test)]
 mod tests;
 #[cfg(test)]
 mod wheel_tests;

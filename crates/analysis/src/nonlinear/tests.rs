@@ -18,22 +18,28 @@ use rubmap_wheel::dynamics::nodes::{NodeDof, SectorNode};
 
 const YOUNG: f64 = 100e3;
 
-/// Strip along x of so many elements, one across and one through its thickness along z; clamped at x = 0 and, if asked for, at its other end.
-fn strip(
+/// Strip as of [`plate`], one element across.
+fn strip(kind: ElementKind, size: [f64; 3], count: usize, both_ends: bool) -> (SectorMesh, Vec<SectorNode>) {
+    plate(kind, size, [count, 1], both_ends)
+}
+
+/// Plate of so many elements along x and across along y, one through its thickness along z; clamped at x = 0 and, if asked for, at its other end.
+pub(super) fn plate(
     kind: ElementKind,
     [length, width, thickness]: [f64; 3],
-    count: usize,
+    [count, across]: [usize; 2],
     both_ends: bool,
 ) -> (SectorMesh, Vec<SectorNode>) {
     let mut found: HashMap<[usize; 3], u32> = HashMap::new();
     let mut nodes: Vec<[f64; 3]> = Vec::new();
     let mut elements = Vec::new();
-    for k in 0..count {
+    for k in 0..count * across {
+        let first = [2 * (k / across), 2 * (k % across), 0];
         let place = |xi: &[f64; 3]| {
-            let lattice = [2 * k + (xi[0] + 1.0) as usize, (xi[1] + 1.0) as usize, (xi[2] + 1.0) as usize];
+            let lattice = [0, 1, 2].map(|d| first[d] + (xi[d] + 1.0) as usize);
             *found.entry(lattice).or_insert_with(|| {
                 let [x, y, z] = lattice.map(|at| at as f64 / 2.0);
-                nodes.push([x * length / count as f64, y * width, z * thickness]);
+                nodes.push([x * length / count as f64, y * width / across as f64, z * thickness]);
                 nodes.len() as u32 - 1
             })
         };
@@ -61,12 +67,12 @@ fn strip(
         // At θ = 0 the directions r, θ, z are x, y, z.
         let coordinates = [position[0], 0.0, position[2]];
         let contact = (position == [length, 0.0, 0.0]).then_some(0);
-        SectorNode { id: index as u64, position, coordinates, dofs, on_high_face: false, contact }
+        SectorNode { id: index as u64 + 1, position, coordinates, dofs, on_high_face: false, contact }
     };
     let sector_nodes = nodes.iter().enumerate().map(sector_node).collect();
     let mesh = SectorMesh {
         sectors: 1,
-        node_ids: (0..nodes.len() as u64).collect(),
+        node_ids: (1..=nodes.len() as u64).collect(),
         nodes,
         axis: ([0.0; 3], [0.0, 0.0, 1.0]),
         cyclic: Vec::new(),
