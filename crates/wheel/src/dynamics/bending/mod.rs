@@ -16,13 +16,7 @@ use super::direction::{COMPONENTS, Direction};
 use super::error::ModelError;
 use super::modal_wheel::{ModalWheel, mode_shapes};
 use super::reduction::ReducedWheel;
-pub use potential::{Potential, products};
-
-/// Largest number of coordinates of a sector.
-pub const MOST_COORDINATES: usize = 8;
-
-/// Largest number of their products.
-pub(crate) const MOST_PRODUCTS: usize = MOST_COORDINATES * (MOST_COORDINATES + 1) / 2;
+pub use potential::{MOST_COORDINATES, Potential, products};
 
 /// Second-order bending of the blade of a sector.
 #[derive(Debug, Clone, PartialEq)]

@@ -3,11 +3,16 @@
 use faer::Mat;
 use pulp::Simd;
 
-use super::{MOST_COORDINATES, MOST_PRODUCTS};
+/// Largest number of coordinates of a sector.
+pub const MOST_COORDINATES: usize = 8;
+
+/// Largest number of their products.
+const MOST_PRODUCTS: usize = MOST_COORDINATES * (MOST_COORDINATES + 1) / 2;
 
 /// Energy V = Σ_ja B_ja p_j q_a + ½ Σ_ab A_ab q_a q_b of the products q of the coordinates p.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Potential {
+    /// Number of coordinates.
     coordinates: usize,
     /// B, `[product][coordinate]`.
     cubic: Vec<f64>,

@@ -80,7 +80,7 @@ impl Gaps {
             shift: GapShift::new(simulation, stride),
             second_order: (simulation.effects.bending)
                 .map(|bending| SecondOrder::towards_casing(bending, simulation.contact_nodes)),
-            linear: vec![0.0; sectors * stride],
+            linear: vec![0.0; simulation.effects.bending.map_or(0, |_| sectors * stride)],
         }
     }
 
