@@ -1,6 +1,7 @@
 //! Second-order bending against CalculiX, `NLGEOM`: static load curves and free vibration.
 //!
-//! Its linear elastic material under `NLGEOM` is that of Green–Lagrange strain, too, and its C3D20 has the points of ours.
+//! Material and element are the same in both: CalculiX's linear elastic material under `NLGEOM` is that of Green–Lagrange strain, too, and its C3D20 has
+//! the points of ours.
 
 use std::fmt::Write as _;
 use std::process::Command;
