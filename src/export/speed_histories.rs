@@ -5,13 +5,14 @@ use super::array::Array;
 use crate::analysis::result::{ContactHistory, EnergyHistory, SpeedHistories};
 
 /// Histories of the energy by the names of their fields; histories that were not recorded are empty.
-fn energies(energy: &EnergyHistory) -> [(&'static str, &[f64]); 8] {
+fn energies(energy: &EnergyHistory) -> [(&'static str, &[f64]); 9] {
     [
         ("mechanical", &energy.mechanical),
         ("contact_work", &energy.contact_work),
         ("damping_loss", &energy.damping_loss),
         ("excitation_work", &energy.excitation_work),
         ("mistuning_work", &energy.mistuning_work),
+        ("bending_work", &energy.bending_work),
         ("casing_work", &energy.casing_work),
         ("casing_loss", &energy.casing_loss),
         ("friction_heat", &energy.friction_heat),

@@ -47,6 +47,15 @@ async fn blades_bend_far_at_a_price_with_their_energy() {
             assert!(point["energy_residual"].as_f64() < Some(1e-9), "{point}");
             assert_ne!(point["tip"], linear["tip"], "{include} changes nothing");
             let energy = &point["energy"];
+            let checks = point["validity"]["checks"].as_array().unwrap();
+            let named = |what: &str| checks.iter().find(|check| check["what"] == what);
+            let outside = named("outside_coordinates").unwrap()["value"].as_f64().unwrap();
+            assert!((1e-3..1.0).contains(&outside), "three coordinates carry some of the motion: {point}");
+            // Blades that stiffen leave nothing that geometry could guess, or a measure tell.
+            for what in ["displacement_over_thickness", "displacement_over_chord", "excess_energy"] {
+                assert!(include == "kinematics" || named(what).is_none(), "{point}");
+            }
+            assert!(named("second_order_gap").is_none(), "{point}");
             if include == "full" {
                 assert!(energy["bending_work"].as_f64().unwrap() != 0.0, "{point}");
                 assert!(energy["bending_residual"].as_f64() < Some(1e-2), "{point}");

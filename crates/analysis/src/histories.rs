@@ -193,6 +193,7 @@ fn energy(audits: &[EnergyAudit], point: &Point, repeats: usize) -> Option<Energ
         damping_loss: line(&EnergyAudit::loss),
         excitation_work: effect(named.excitation_work, |work| work.excitation),
         mistuning_work: effect(named.mistuning_work, |work| work.mistuning),
+        bending_work: effect(named.bending_work, |work| work.stiffening),
         casing_work: effect(named.casing_work, |work| work.casing),
         casing_loss: effect(named.casing_loss, |work| work.casing_loss),
         friction_heat: effect(named.friction_heat, |work| work.friction_heat),

@@ -61,7 +61,7 @@ pub(crate) fn with_cost(
 /// and the most severe peaks.
 pub fn speeds_to_measure(request: &ResolvedSweep, reduced: &ReducedSector, points: &[Point]) -> Vec<u32> {
     let open = |point: &Point| {
-        let validity = point.validity.as_ref().filter(|validity| is_open(validity))?;
+        let validity = point.validity.as_ref().filter(|validity| is_open(validity, request))?;
         Some((point.index, displacement(validity, reduced, request)?))
     };
     let candidates: Vec<(u32, f64)> = points.iter().filter_map(open).collect();
@@ -126,7 +126,7 @@ pub fn judge_by_measures(
 ) {
     for point in points {
         let Some(validity) = &point.validity else { continue };
-        if !is_open(validity) {
+        if !is_open(validity, request) {
             continue;
         }
         let Some(displacement) = displacement(validity, reduced, request) else { continue };
@@ -146,11 +146,11 @@ pub fn judge_by_measures(
                 let failure = || candidates.iter().find_map(|motion| motion.neglected.err());
                 if let Some(excess) = worst(&|neglected, scale| Some(neglected.excess * scale)) {
                     let from = |(value, index): (f64, u32)| (value, (index != point.index).then_some(index));
-                    point.validity = Some(beside(
-                        validity,
-                        from(excess),
-                        worst(&|neglected, scale| Some(neglected.gap? * scale.powi(2))).map(from),
-                    ));
+                    // Of blades that bend far it is simulated.
+                    let is_linear = request.scene.geometric_nonlinearity.is_none();
+                    let gap = worst(&|neglected, scale| Some(neglected.gap? * scale.powi(2)));
+                    let gap = gap.filter(|_| is_linear).map(from);
+                    point.validity = Some(beside(validity, from(excess), gap));
                 } else if let Some(reason) = failure() {
                     point.validity = Some(unmeasured(validity, &reason.to_string()));
                 }

@@ -1,6 +1,7 @@
 //! Validity of linear theory at a speed: ratios of displacement, rotation and strain to their limits.
 
 use crate::effects::casing::shape::Shape;
+use crate::effects::geometric_nonlinearity::request::Bending;
 use crate::model::ReducedSector;
 use crate::resolved::ResolvedSweep;
 use crate::result::{PointStress, Validity, ValidityCheck, ValidityLack, ValidityMeasure, ValidityVerdict};
@@ -21,6 +22,11 @@ const THINNEST: f64 = 1.0 / 500.0;
 const OVER_CHORD: Limits = (0.05, None);
 /// Limit of rotation, rad: small rotations add strains of φ²/2, 0.5 %, more than any elastic strain of a metal.
 const ROTATION: Limits = (0.1, None);
+/// Limit of rotation of blades that stiffen, rad: their energy is exact to the fourth order, and the next one is φ⁴ of it, 1 %.
+const ROTATION_OF_STIFFENING: Limits = (0.3, None);
+/// Limits of the share of the tips' motion that the coordinates of blades that bend far do not carry: forces of second and third order are off
+/// by about as much, and beyond a third the answer is mostly that of linear theory.
+const OUTSIDE_COORDINATES: Limits = (0.1, Some(1.0 / 3.0));
 /// Limits of stress over yield strength. Materials are linear up to about nine tenths of the yield strength, and not beyond it.
 const OVER_YIELD: Limits = (0.9, Some(1.0));
 /// Limits of the approach of neighbouring tips: at 1 they meet, and no contact between them is simulated.
@@ -51,8 +57,17 @@ pub(super) fn thickness(reduced: &ReducedSector, request: &ResolvedSweep) -> Opt
     request.blade_thickness.or(reduced.tip_thickness)
 }
 
-/// Whether geometry raises a doubt about a speed, or cannot say anything for want of a thickness.
-pub(super) fn is_open(validity: &Validity) -> bool {
+/// Whether geometry raises a doubt about a speed, or cannot say anything for want of a thickness: of a scene in which blades do not stiffen.
+pub(super) fn is_open(validity: &Validity, request: &ResolvedSweep) -> bool {
+    !stiffens(request) && has_doubt(validity)
+}
+
+/// Whether blades stiffen as they bend, so that what linear bending leaves out is simulated.
+fn stiffens(request: &ResolvedSweep) -> bool {
+    request.scene.geometric_nonlinearity.as_ref().is_some_and(|of| of.include == Bending::Full)
+}
+
+fn has_doubt(validity: &Validity) -> bool {
     geometric(validity).any(ValidityCheck::is_doubtful) || is_unseen(&validity.lacking)
 }
 
@@ -103,13 +118,20 @@ pub(super) fn judge(
     let period = request.scene.touched_shape().and_then(Shape::period_rad);
     let lobe = radius.zip(period).map(|(radius, period)| period * radius);
     let over = |value: f64, length: Option<f64>| length.filter(|&length| length > 0.0).map(|l| value / l);
+    let is_bent = stiffens(request);
     let thickness = thickness(reduced, request);
     let over_chord = over(excursion.displacement, chord);
+    let rotation_limit = if is_bent { ROTATION_OF_STIFFENING } else { ROTATION };
     let over_yield = stress.and_then(|stress| stress.largest_over_yield);
     let measured = [
-        (ValidityMeasure::DisplacementOverThickness, over(excursion.displacement, thickness), OVER_THICKNESS),
-        (ValidityMeasure::DisplacementOverChord, over_chord, OVER_CHORD),
-        (ValidityMeasure::Rotation, chord.map(|_| excursion.rotation), ROTATION),
+        (ValidityMeasure::OutsideCoordinates, excursion.outside_coordinates, OUTSIDE_COORDINATES),
+        (
+            ValidityMeasure::DisplacementOverThickness,
+            over(excursion.displacement, thickness).filter(|_| !is_bent),
+            OVER_THICKNESS,
+        ),
+        (ValidityMeasure::DisplacementOverChord, over_chord.filter(|_| !is_bent), OVER_CHORD),
+        (ValidityMeasure::Rotation, chord.map(|_| excursion.rotation), rotation_limit),
         (ValidityMeasure::StressOverYield, over_yield, OVER_YIELD),
         (
             ValidityMeasure::NeighbourApproach,
@@ -124,7 +146,7 @@ pub(super) fn judge(
     };
     let checks = measured.into_iter().filter_map(check).collect();
     let asked = request.stress_outside().is_some();
-    let thick_enough = thickness.is_some() || over_chord.is_some_and(is_slight);
+    let thick_enough = is_bent || thickness.is_some() || over_chord.is_some_and(is_slight);
     conclude(checks, lacking(thick_enough, chord, stress, asked))
 }
 

@@ -197,6 +197,7 @@ fn energies(energy: &EnergyHistory) -> [Vec<Curve<'_>>; 2] {
         ("lost to damping", &energy.damping_loss),
         ("work of engine orders", &energy.excitation_work),
         ("work of mistuning", &energy.mistuning_work),
+        ("work of stiffening blades", &energy.bending_work),
         ("work on the casing", &energy.casing_work),
         ("lost in the casing", &energy.casing_loss),
         ("heat of friction", &energy.friction_heat),

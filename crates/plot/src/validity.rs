@@ -70,6 +70,7 @@ pub(super) fn measure(what: ValidityMeasure) -> &'static str {
     match what {
         ValidityMeasure::ExcessEnergy => "excess energy of the bent blade over its linear energy",
         ValidityMeasure::SecondOrderGap => "second-order motion of a tip over its clearance",
+        ValidityMeasure::OutsideCoordinates => "share of the tips' motion outside the coordinates of bending",
         ValidityMeasure::DisplacementOverThickness => {
             "largest displacement of a tip over the blade's thickness"
         }
@@ -93,10 +94,13 @@ pub(super) fn reason(validity: &Validity) -> Option<String> {
         ValidityVerdict::Beyond => check.beyond_above?,
         _ => check.doubtful_above,
     };
+    let words = match check.what {
+        ValidityMeasure::OutsideCoordinates => "too few coordinates of bending",
+        _ => words(validity.verdict),
+    };
     let scaled = if check.scaled_from.is_some() { ", scaled from a larger motion" } else { "" };
     Some(format!(
-        "{}: {} is {}, above {}{scaled}",
-        words(validity.verdict),
+        "{words}: {} is {}, above {}{scaled}",
         measure(check.what),
         significant(check.value),
         significant(limit)

@@ -29,14 +29,26 @@ export const VALIDITY = {
   beyond: 'beyond linear theory',
 };
 
-const MEASURED = { excess_energy: 'excess energy', second_order_gap: 'second-order motion over clearance' };
+const BENDING = {
+  linear: 'within the theory of blades that bend far',
+  not_checked: 'bending not checked',
+  doubtful: 'bending is doubtful',
+  beyond: 'beyond the theory of blades that bend far',
+};
 
-/** Verdict on linear theory at a speed, with what was measured for it. */
+const MEASURED = {
+  excess_energy: 'excess energy',
+  second_order_gap: 'second-order motion over clearance',
+  outside_coordinates: 'motion outside the coordinates of bending',
+};
+
+/** Verdict on the theory at a speed, with what was measured for it. */
 export function validityWords(validity) {
   if (!validity) return null;
   const measured = validity.checks.filter((check) => check.what in MEASURED);
   const scaled = measured.some((check) => check.scaled_from !== undefined);
-  return [VALIDITY[validity.verdict], ...measured.map((check) => `${MEASURED[check.what]} ${percent(check.value)}`), scaled ? 'scaled from a larger motion' : null]
+  const words = measured.some((check) => check.what === 'outside_coordinates') ? BENDING : VALIDITY;
+  return [words[validity.verdict], ...measured.map((check) => `${MEASURED[check.what]} ${percent(check.value)}`), scaled ? 'scaled from a larger motion' : null]
     .filter(Boolean).join('; ');
 }
 

@@ -242,6 +242,34 @@ fn a_speed_is_measured_for_want_of_a_thickness() {
     assert_eq!(verdict(3.0 * seen, &given), Some(ValidityVerdict::Doubtful));
 }
 
+/// Blades that bend far are judged by the motion that their coordinates carry; what linear theory leaves out is asked where they do not stiffen.
+#[test]
+fn blades_that_bend_far_are_judged_by_their_coordinates() {
+    let reduced = &SMALL.reduced;
+    let positions: Vec<[f64; 3]> = reduced.wheel.contact.iter().map(|node| node.position).collect();
+    let far = 0.3 * arc_lengths(&positions).last().unwrap();
+    let judged = |include: Bending, outside: f64, rotation: f64| {
+        let mut request = SMALL.sweep(20_000.0);
+        request.scene.geometric_nonlinearity = Some(GeometricNonlinearity { include, coordinates: 4 });
+        let outside_coordinates = Some(outside);
+        let excursion =
+            Excursion { displacement: far, rotation, outside_coordinates, ..Excursion::default() };
+        let validity = Some(crate::validity::judge(&excursion, None, reduced, &request));
+        let point = Point { index: 0, validity, ..empty_point(reduced, &request, 0, 2000.0) };
+        let measured = speeds_to_measure(&request, reduced, std::slice::from_ref(&point));
+        (point.validity_verdict().unwrap(), measured.len())
+    };
+    for (outside, rotation, verdict) in [
+        (0.09, 0.2, ValidityVerdict::Linear),
+        (0.11, 0.2, ValidityVerdict::Doubtful),
+        (0.5, 0.2, ValidityVerdict::Beyond),
+        (0.09, 0.31, ValidityVerdict::Doubtful),
+    ] {
+        assert_eq!(judged(Bending::Full, outside, rotation), (verdict, 0), "{outside} {rotation}");
+    }
+    assert_eq!(judged(Bending::Kinematics, 0.09, 0.05), (ValidityVerdict::Doubtful, 1));
+}
+
 /// The largest motion of a sweep down is that of the run from the end of the speed above, in whose window it is.
 #[test]
 fn the_motion_of_a_sweep_down_is_led_from_the_speed_above() {

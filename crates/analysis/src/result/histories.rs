@@ -108,6 +108,9 @@ pub struct EnergyHistory {
     /// Work of mistuning: minus the change of the energy that the stiffness deviations store.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub mistuning_work: Vec<f64>,
+    /// Work of blades that stiffen as they bend: minus the change of their energy beyond the quadratic one.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub bending_work: Vec<f64>,
     /// Work of the contact forces on the elastic casing.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub casing_work: Vec<f64>,

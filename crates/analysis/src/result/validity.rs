@@ -93,6 +93,8 @@ pub enum ValidityMeasure {
     ExcessEnergy,
     /// Second-order change of a contact node's distance to the casing over its clearance, at the instant of `excess_energy`.
     SecondOrderGap,
+    /// Share of the linear motion of the contact nodes that the coordinates of blades that bend far do not carry, root mean square.
+    OutsideCoordinates,
     /// Largest displacement of a contact node, mean included, over the smallest thickness of the blade at its tip; of a model with a
     /// mesh.
     DisplacementOverThickness,

@@ -45,6 +45,11 @@ pub(super) fn sweep(map: &InteractionMap, critical: &[CriticalSpeeds]) -> Markup
             format!("kept to {:.0e} of the largest energy", largest(|point| point.energy_residual)),
         ),
     ];
+    let of_bending = |point: &Point| point.energy.as_ref()?.bending_residual;
+    if completed.iter().any(|point| of_bending(point).is_some()) {
+        let residual = format!("differ by {:.0e} of the largest energy", largest(of_bending));
+        facts.push(("work and energy of stiffening blades", residual));
+    }
     if let (Some(least), Some(most)) = (steps.clone().min(), steps.max()) {
         let schemes = schemes.into_iter().collect::<Vec<_>>().join(", ");
         facts.push(("time stepping", format!("{schemes}; {least} to {most} steps a revolution")));

@@ -57,6 +57,8 @@ struct SoFar {
     contact_steps: u64,
     largest_energy: f64,
     largest_energy_off: f64,
+    /// Largest difference between work and energy of blades that stiffen, where they do.
+    largest_bending_off: Option<f64>,
     stiffening_work: f64,
     transfer_loss: f64,
     largest_penetration: f64,
@@ -430,6 +432,7 @@ impl<'a> March<'a> {
             largest_angle_error_rad: done.iter().map(|segment| segment.off_rad).fold(0.0, f64::max),
             largest_energy: energy,
             energy_residual: of_energy(so_far.largest_energy_off),
+            bending_residual: so_far.largest_bending_off.map(of_energy),
             stiffening_work: so_far.stiffening_work,
             transfer_loss: of_energy(so_far.transfer_loss),
             contact_share: so_far.contact_steps as f64 / so_far.steps.max(1) as f64,
@@ -446,6 +449,9 @@ impl SoFar {
         self.largest_penetration = self.largest_penetration.max(statistics.largest_penetration);
         self.largest_energy = self.largest_energy.max(energy.largest_energy());
         self.largest_energy_off = self.largest_energy_off.max(energy.residual() * energy.largest_energy());
+        let bending_off = energy.stiffening_residual().map(|residual| residual * energy.largest_energy());
+        self.largest_bending_off =
+            bending_off.into_iter().chain(self.largest_bending_off).reduce(f64::max);
     }
 
     fn gather(&mut self, of_frame: &[LargestOfRun]) {

@@ -99,6 +99,10 @@ pub struct RunUpEnd {
     pub largest_energy: f64,
     /// Largest violation of the energy identity within a segment, relative to the largest energy.
     pub energy_residual: f64,
+    /// Largest difference between work and energy of blades that stiffen as they bend within a segment, relative to the largest energy; of second
+    /// order in the step.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bending_residual: Option<f64>,
     /// Work of the changing stiffness, force·length: energy that comes from the shaft.
     pub stiffening_work: f64,
     /// Energy lost where a segment hands its state on to the next, relative to the largest energy: that of modes that are not integrated at the next

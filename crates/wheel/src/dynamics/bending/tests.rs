@@ -334,6 +334,54 @@ fn a_small_motion_is_that_without_bending() {
 }
 
 #[test]
+fn motion_that_no_coordinate_carries_is_told() {
+    // Coordinates are the radial and the tangential displacement of the first node: they carry these two of six components.
+    let (wheel, nodes) = (wheel(3), nodes());
+    let still = BladeBending::alike(COORDINATES, NODES, Vec::new(), 0.0);
+    let carrying = Mat::from_fn(3 * NODES, COORDINATES, |row, j| if row == j { 1.0 } else { 0.0 });
+    let component = |row: usize| Direction {
+        node: row / 3,
+        components: std::array::from_fn(|d| f64::from(d == row % 3)),
+    };
+    let sensors: Vec<SensorRow> = (0..3)
+        .flat_map(|sector| (0..3 * NODES).map(move |row| SensorRow { direction: component(row), sector }))
+        .collect();
+    let outside = |linear: &Mat<f64>| {
+        let blade = BladeBending { linear: linear.clone(), ..still.clone() };
+        let run = Simulation {
+            wheel: &wheel,
+            contact_nodes: &nodes,
+            damping: None,
+            casing: None,
+            effects: Effects {
+                bending: Some(Bending { blade: &blade, first: 0, stiffens: false }),
+                ..Effects::default()
+            },
+            initial: &initial(3),
+            sensors: &sensors,
+            scheme: Scheme::ExactModal,
+            // As many as the instants at which tips are read.
+            steps_per_revolution: 128,
+            samples_per_revolution: 128,
+            revolutions: 2,
+            window_revolutions: 2,
+            repeats: None,
+            detail: None,
+            states: None,
+        }
+        .run(&|_| true);
+        let Outcome::Completed(history) = run.outcome else { panic!("it is bounded") };
+        let squares = |row: &Vec<f64>| row.iter().map(|u| u * u).sum::<f64>();
+        let all: Vec<f64> = history.displacement.iter().map(squares).collect();
+        let first: f64 = all.chunks(3 * NODES).map(|rows| rows[..2].iter().sum::<f64>()).sum();
+        (history.excursion.outside_coordinates.unwrap(), (1.0 - first / all.iter().sum::<f64>()).sqrt())
+    };
+    let (told, counted) = outside(&carrying);
+    assert!((told / counted - 1.0).abs() < 1e-9 && (0.1..0.99).contains(&told), "{told} {counted}");
+    assert_eq!(outside(&still.linear).0, 1.0);
+}
+
+#[test]
 fn the_highest_frequency_is_well_resolved() {
     let highest = wheel(4).largest_frequency() / 100.0;
     assert!(highest < HIGHEST, "{highest}");

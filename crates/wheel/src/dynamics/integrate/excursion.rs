@@ -19,6 +19,9 @@ pub struct Excursion {
     /// Approach of the same contact nodes of two neighbouring blades in the tangential direction, over the distance between them. 0 of a
     /// single blade.
     pub approach: f64,
+    /// Share of the linear motion of the contact nodes that the coordinates of blades that bend far do not carry, root mean square over the
+    /// window and all blades; none of a scene in which blades do not bend far.
+    pub outside_coordinates: Option<f64>,
 }
 
 /// Recorder of an [`Excursion`].

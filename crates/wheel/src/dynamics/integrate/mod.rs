@@ -1,6 +1,7 @@
 //! Time integration with contact (Eqs 8–10): inputs and results of a run. The loop is in `stepper`.
 
 mod bounds;
+mod carried;
 mod contact;
 mod decimation;
 mod detail;

@@ -6,6 +6,7 @@ use super::super::bending::Bending;
 use super::super::direction::{COMPONENTS, Direction};
 use super::super::oscillators::Oscillators;
 use super::super::oscillators::rows::Rows;
+use super::carried::Carried;
 use super::excursion::{Excursion, ExcursionTally};
 use super::residual::ResidualDisplacement;
 use super::second_order::SecondOrder;
@@ -32,7 +33,7 @@ pub(super) struct TipTally {
     components: usize,
     residual: ResidualDisplacement,
     /// Displacements of second order, of blades that bend far.
-    second_order: Option<SecondOrder>,
+    second_order: Option<(SecondOrder, Carried)>,
     harmonic: Vec<f64>,
     /// Number of samples from one reading to the next.
     every: usize,
@@ -64,7 +65,8 @@ impl TipTally {
             .flat_map(|node| (0..COMPONENTS).map(move |d| Direction { node, components: unit(d) }))
             .collect();
         let bending = simulation.effects.bending;
-        let second_order = bending.map(|bending| SecondOrder::along(bending, &directions));
+        let second_order =
+            bending.map(|bending| (SecondOrder::along(bending, &directions), Carried::new(bending.blade)));
         let read: Vec<_> =
             directions.iter().copied().chain(bending.iter().flat_map(Bending::directions)).collect();
         let rows = Rows::new(wheel, &read, |modes| scheme.integrated_modes(modes));
@@ -102,7 +104,8 @@ impl TipTally {
         if let Some(force) = force {
             self.residual.add(force, force.len() / fourier.sectors(), harmonic, rows.stride);
         }
-        if let Some(second_order) = &mut self.second_order {
+        if let Some((second_order, carried)) = &mut self.second_order {
+            carried.look(harmonic, rows.stride);
             second_order.add(fourier, harmonic);
         }
         let columns = harmonic.chunks_exact(rows.stride);
@@ -125,7 +128,8 @@ impl TipTally {
     }
 
     pub(super) fn excursion(&self) -> Excursion {
-        self.excursion.found()
+        let outside_coordinates = self.second_order.as_ref().map(|(_, carried)| carried.outside());
+        Excursion { outside_coordinates, ..self.excursion.found() }
     }
 }
 
