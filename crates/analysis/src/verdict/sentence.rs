@@ -1,5 +1,6 @@
 //! Verdicts in words.
 
+use crate::digits::{digits, grouped, percent};
 use crate::resolved::ResolvedSweep;
 use crate::result::{
     JudgedSpeed, JudgedValue, OpenKind, OpenQuestion, Position, RangeVerdict, SweepVerdict, VerdictWord,
@@ -174,31 +175,4 @@ pub(crate) fn rpm_number(speed_rad_s: f64) -> String {
         return digits(rpm);
     }
     grouped(rpm)
-}
-
-/// Whole number in groups of three digits.
-fn grouped(value: f64) -> String {
-    let whole = format!("{value:.0}");
-    let mut text = String::new();
-    for (place, digit) in whole.chars().enumerate() {
-        if place > 0 && (whole.len() - place).is_multiple_of(3) {
-            text.push(',');
-        }
-        text.push(digit);
-    }
-    text
-}
-
-/// Number with three significant digits.
-pub(crate) fn digits(value: f64) -> String {
-    let rounded: f64 = format!("{value:.2e}").parse().unwrap_or(value);
-    if rounded != 0.0 && !(1e-4..1e6).contains(&rounded.abs()) {
-        return format!("{rounded:e}");
-    }
-    rounded.to_string()
-}
-
-/// Share in per cent, with a decimal where it is small.
-fn percent(value: f64) -> String {
-    if value.abs() < 10.0 { format!("{value:.1} %") } else { format!("{} %", grouped(value)) }
 }
