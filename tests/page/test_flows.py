@@ -166,7 +166,12 @@ def test_a_sweep_opens_on_its_verdict_and_leads_on_from_the_worst_speeds(service
     assert {"operating range", "separation asked", "limit"} <= set(names)
     # Each worst speed says by how much the limit is passed.
     for card, worst in zip(cards.all(), verdict["worst"]):
-        assert f"{worst['limits'][0]['above_percent']:.2g}"[:1] in card.inner_text() and "tip motion" in card.inner_text()
+        judged = worst["limits"][0]
+        above, stands = judged["above_percent"], judged["standing"]
+        by = f"{abs(above):.1f} %" if abs(above) < 10 else f"{abs(above):,.0f} %"
+        beside = "above" if above > 0 else "left"
+        said = f"passed by {by}" if stands == "passed" else f"{'within the error' if stands == 'open' else 'kept'}, {by} {beside}"
+        assert said in card.inner_text() and "tip motion" in card.inner_text()
         value, error = worst["limits"][0]["value"], worst["limits"][0]["error"]
         assert f"({value / (1 + error / value):.3g} to {value * (1 + error / value):.3g}) mm" in card.inner_text()
     # The wheel is recorded and drawn in its place.

@@ -130,9 +130,7 @@ fn largest_share(range: &RangeVerdict) -> f64 {
 
 /// Value with its name, its error and their unit.
 fn value(judged: &JudgedValue, units: &Units) -> String {
-    let error = judged.error.map_or_else(String::new, |error| format!(" ± {}", digits(error)));
-    let text =
-        format!("{} of {}{error} {}", judged.limit.words(), digits(judged.value), judged.limit.unit(units));
+    let text = format!("{} of {} {}", judged.limit.words(), judged.known_words(), judged.limit.unit(units));
     text.trim_end().to_owned()
 }
 
