@@ -95,7 +95,7 @@ async fn conclude(
     let stored = engine.store.job(job.id).await?;
     if let Some(facts) = stored.as_ref().and_then(|job| job.facts.as_ref()) {
         let driven = tables.first().map(|table| &table.driven_crossings[..]);
-        let evidence = Evidence { points: &all, errors: errors.as_ref(), driven };
+        let evidence = Evidence { points: &all, errors: errors.as_ref(), driven, unfinished: false };
         let verdict = run::judge(request, &facts.units, evidence).verdict;
         patiently(&job.watch, || engine.store.record_verdict(job.id, verdict)).await?;
     }

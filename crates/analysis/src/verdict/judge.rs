@@ -24,12 +24,13 @@ const SAME_PEAK: f64 = 0.01;
 
 /// Judges the finished points of a sweep by the ranges and limits of its request.
 pub fn judge(request: &ResolvedSweep, units: &Units, evidence: Evidence<'_>) -> SweepVerdict {
-    let Evidence { points, errors, driven } = evidence;
+    let Evidence { points, errors, driven, unfinished } = evidence;
     let asked = Asked::of(request, errors);
     let peaks = wheel_peaks(request, points, errors);
     let finished = Finished::of(points);
     let maxima = maxima(request, &finished, &asked);
-    let seen = Seen { finished: &finished, peaks: &peaks, maxima: &maxima, driven, asked: &asked };
+    let seen =
+        Seen { finished: &finished, peaks: &peaks, maxima: &maxima, driven, unfinished, asked: &asked };
     let (ranges_given, spans) = Span::all(request);
     let judged: Vec<Judged> = spans.iter().map(|span| rule::judge(request, span, &seen)).collect();
     let named: &[Span] = if ranges_given { &spans } else { &[] };
@@ -55,7 +56,7 @@ pub fn judge(request: &ResolvedSweep, units: &Units, evidence: Evidence<'_>) -> 
         settings: request.clone().into(),
         version: VERSION.to_owned(),
     };
-    all.sentence = sentence::sentence(&all, request);
+    all.sentence = sentence::sentence(&all, request, unfinished);
     all
 }
 

@@ -13,9 +13,6 @@ use crate::result::{
 };
 use crate::span::Span;
 
-/// Remedy where results are still to come.
-const WAIT: &str = "wait until the job has ended; if it was cancelled or failed, post its request again";
-
 /// Range with everything by which its open questions are found.
 pub(super) struct RangeEvidence<'a> {
     pub(super) request: &'a ResolvedSweep,
@@ -70,7 +67,8 @@ impl RangeEvidence<'_> {
     }
 
     fn without_result(&self) -> impl Iterator<Item = OpenQuestion> {
-        let missing = self.about(OpenKind::SpeedsMissing, &self.range.missing, "without a result yet", WAIT);
+        let missing =
+            self.about(OpenKind::SpeedsMissing, &self.range.missing, "without a result yet", self.wait());
         let failed = self.about(
             OpenKind::SpeedsFailed,
             &self.range.failed,
@@ -79,13 +77,24 @@ impl RangeEvidence<'_> {
         );
         // Refinement, control runs and measured validity are still to come.
         let unended = (self.range.missing.is_empty() && self.seen.driven.is_none()).then(|| {
-            let finding = "the job has not ended: it may add speeds and tell errors".to_owned();
-            self.question(OpenKind::SpeedsMissing, Vec::new(), finding, WAIT)
+            let finding = match self.seen.unfinished {
+                true => "the job may still add speeds and tell errors",
+                false => "the job ended before it added speeds and told errors",
+            };
+            self.question(OpenKind::SpeedsMissing, Vec::new(), finding.to_owned(), self.wait())
         });
         missing.into_iter().chain(failed).chain(unended)
     }
 
     fn not_trusted(&self) -> impl Iterator<Item = OpenQuestion> {
+    /// Remedy where results are still to come.
+    fn wait(&self) -> &'static str {
+        match self.seen.unfinished {
+            true => "wait until the job is done",
+            false => "post its request again: the job was cancelled or failed",
+        }
+    }
+
         let unsettled = self.those(|point| {
             point.settling.as_ref().is_none_or(|settling| settling.verdict == Verdict::NotSettled)
         });
@@ -204,7 +213,7 @@ impl RangeEvidence<'_> {
         let unknown = self.those(|point| judged(point).is_none());
         let awaited = (self.seen.asked.awaits_errors(self.request, kind) && unsure.is_empty()).then(|| {
             let finding = format!("the control runs that tell the error of the {words} are not done");
-            self.question(OpenKind::ErrorUnknown, Vec::new(), finding, WAIT)
+            self.question(OpenKind::ErrorUnknown, Vec::new(), finding, self.wait())
         });
         [
             self.about(

@@ -11,8 +11,8 @@ use rubmap_wheel::dynamics::sector::Units;
 /// Most reasons that a sentence names.
 const MOST_REASONS: usize = 2;
 
-/// Sentence of a verdict.
-pub(super) fn sentence(all: &SweepVerdict, request: &ResolvedSweep) -> String {
+/// Sentence of a verdict; one on a job that is `unfinished` says so.
+pub(super) fn sentence(all: &SweepVerdict, request: &ResolvedSweep, unfinished: bool) -> String {
     let said = |range: &RangeVerdict| match all.verdict {
         VerdictWord::Act => act(range, all, request),
         VerdictWord::Undecided => undecided(range, all),
@@ -34,6 +34,9 @@ pub(super) fn sentence(all: &SweepVerdict, request: &ResolvedSweep) -> String {
             rpm(from),
             rpm(to)
         );
+    }
+    if unfinished {
+        text += " The job is not done yet.";
     }
     text
 }
