@@ -188,6 +188,24 @@ def test_a_sweep_opens_on_its_verdict_and_leads_on_from_the_worst_speeds(service
     assert index in [speed["index"] for speed in level["speeds"]]
 
 
+def test_a_remedy_switches_on_blades_that_bend_far(service, new_page):
+    page = new_page(f"{service.url}/#/jobs")
+    page.get_by_role("heading", name="Jobs").wait_for()
+
+    def mended(remedy, scene):
+        script = """async ([remedy, scene]) => {
+            const { mendable, mended } = await import('/page/views/request/mend.js');
+            const { inWords } = await import('/page/lib/form/named.js');
+            return [inWords(remedy), mended({ scene }, mendable(remedy), {}).scene];
+        }"""
+        return page.evaluate(script, [remedy, scene])
+
+    full = {"contact": {}, "geometric_nonlinearity": {"include": "full"}}
+    assert mended("a calculation: `scene.geometric_nonlinearity`", {"contact": {}}) == ["a calculation: “Blades that bend far”", full]
+    bent = {"contact": {}, "geometric_nonlinearity": {"include": "kinematics"}}
+    assert mended('`scene.geometric_nonlinearity.include` of "full"', bent) == ["“Included” set to “full”", full]
+
+
 def test_nothing_is_counted_before_a_speed_has_finished(service, swept, new_page):
     def emptied(route):
         answer = route.fetch()

@@ -5,11 +5,12 @@ use super::evidence::Seen;
 use super::hidden::{Maximum, wide_steps, widest_step};
 use super::points::indices;
 use super::sentence::{rpm, speeds as of_speeds};
+use crate::effects::geometric_nonlinearity::request::Bending;
 use crate::request::{AutoOr, SweepDirection};
 use crate::resolved::ResolvedSweep;
 use crate::result::{
     LimitKind, OpenKind, OpenQuestion, Point, RangeVerdict, Stability, Standing, StiffeningVerdict,
-    ValidityVerdict, Verdict,
+    ValidityMeasure, ValidityVerdict, Verdict,
 };
 use crate::span::Span;
 
@@ -86,7 +87,6 @@ impl RangeEvidence<'_> {
         missing.into_iter().chain(failed).chain(unended)
     }
 
-    fn not_trusted(&self) -> impl Iterator<Item = OpenQuestion> {
     /// Remedy where results are still to come.
     fn wait(&self) -> &'static str {
         match self.seen.unfinished {
@@ -95,6 +95,7 @@ impl RangeEvidence<'_> {
         }
     }
 
+    fn not_trusted(&self) -> impl Iterator<Item = OpenQuestion> {
         let unsettled = self.those(|point| {
             point.settling.as_ref().is_none_or(|settling| settling.verdict == Verdict::NotSettled)
         });
@@ -131,7 +132,7 @@ impl RangeEvidence<'_> {
                 OpenKind::BeyondLinearTheory,
                 &beyond,
                 "beyond linear theory",
-                "a geometrically non-linear calculation at these speeds, or a scene with smaller motions",
+                self.beyond_linear_theory(),
             ),
             self.about(
                 OpenKind::LinearTheoryNotChecked,
@@ -142,6 +143,32 @@ impl RangeEvidence<'_> {
         ]
         .into_iter()
         .flatten()
+    }
+
+    /// Remedy where linear theory ends. Blades that bend far help where their bending was measured, which takes a mesh.
+    fn beyond_linear_theory(&self) -> &'static str {
+        let is_bending = |point: &Point| {
+            let checks = point.validity.iter().flat_map(|validity| &validity.checks);
+            checks.filter(|check| check.verdict() == ValidityVerdict::Beyond).any(|check| {
+                matches!(check.what, ValidityMeasure::ExcessEnergy | ValidityMeasure::SecondOrderGap)
+            })
+        };
+        let scene = &self.request.scene;
+        match scene.geometric_nonlinearity.as_ref().map(|of| of.include) {
+            None if !self.completed.iter().any(|point| is_bending(point)) => "a scene with smaller motions",
+            None if scene.friction.is_some() => {
+                "a scene with smaller motions; beside friction, blades that bend far cannot be computed"
+            }
+            None => {
+                "a geometrically non-linear calculation: `scene.geometric_nonlinearity`; or a scene with smaller motions"
+            }
+            Some(Bending::Kinematics) => {
+                "stiffening of the blades, too: `scene.geometric_nonlinearity.include` of \"full\"; or a scene with smaller motions"
+            }
+            Some(Bending::Full) => {
+                "a comparison with more `scene.geometric_nonlinearity.coordinates`, or a scene with smaller motions"
+            }
+        }
     }
 
     /// Question about peaks whose top may lie in the range and is not resolved.

@@ -50,7 +50,14 @@ fn act(range: &RangeVerdict, all: &SweepVerdict, request: &ResolvedSweep) -> Str
     let Some(worst) = largest(range) else { return String::new() };
     let (value, limit) = (value(&worst.judged, &all.units), allowed(&worst.judged, &all.units));
     let above = percent(worst.judged.above_percent);
-    format!("Act: {place}at {} {value} passes its limit of {limit} by {above}.", rpm(worst.speed_rad_s))
+    let is_beyond = |open: &&OpenQuestion| {
+        open.what == OpenKind::BeyondLinearTheory
+            && open.range == range.name
+            && open.speeds.contains(&worst.index)
+    };
+    let theory = all.would_decide.iter().find(is_beyond).map_or("", |_| ", at a speed beyond linear theory");
+    let speed = rpm(worst.speed_rad_s);
+    format!("Act: {place}at {speed} {value} passes its limit of {limit} by {above}{theory}.")
 }
 
 fn undecided(range: &RangeVerdict, all: &SweepVerdict) -> String {

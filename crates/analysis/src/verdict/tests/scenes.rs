@@ -223,6 +223,52 @@ fn everything_that_could_hide_a_passed_limit_leaves_the_verdict_open() {
     assert_eq!(warned.word(), Clear);
 }
 
+/// Response whose bending was measured to be beyond linear theory.
+fn bent() -> Value {
+    let check = json!({"what": "excess_energy", "value": 0.2, "doubtful_above": 0.02, "beyond_above": 0.1});
+    json!({"verdict": "beyond", "checks": [check]})
+}
+
+#[test]
+fn blades_that_bend_far_are_proposed_where_they_help_and_are_not_computed_yet() {
+    let remedy = |scene: Value, validity: &Value| {
+        let found = Scene::flat(0.1).asking("scene", scene).with([10], "/validity", validity).verdict();
+        found.would_decide[0].remedy.clone()
+    };
+    let plain = json!({"contact": {}});
+    assert!(remedy(plain.clone(), &bent()).contains("calculation: `scene.geometric_nonlinearity`;"));
+    let unmeasured = json!({"verdict": "beyond", "checks": []});
+    assert_eq!(remedy(plain, &unmeasured), "a scene with smaller motions");
+    let with = |name: &str, value: Value| remedy(json!({"contact": {}, name: value}), &bent());
+    assert!(!with("friction", json!({"coefficient": 0.1})).contains('`'));
+    for (include, named) in [("full", "coordinates"), ("kinematics", "include")] {
+        let said = with("geometric_nonlinearity", json!({"include": include}));
+        assert!(said.contains(&format!("`scene.geometric_nonlinearity.{named}`")), "{said}");
+        assert!(!said.contains("`scene.geometric_nonlinearity`"), "{said}");
+    }
+}
+
+#[test]
+fn a_reason_to_act_beyond_linear_theory_says_so() {
+    let passed = Scene::flat(0.1).with([7], "/tip/half_peak_to_peak", &json!(1.5));
+    let sentence = |scene: Scene| scene.verdict().sentence;
+    assert!(sentence(passed.clone().with([8], "/validity", &bent())).ends_with("its limit of 1 mm by 50 %."));
+    let said = "its limit of 1 mm by 50 %, at a speed beyond linear theory.";
+    assert!(sentence(passed.with([7], "/validity", &bent())).ends_with(said));
+}
+
+#[test]
+fn the_verdict_on_a_job_that_runs_says_that_it_is_not_done() {
+    for scene in [Scene::flat(0.1), Scene::flat(0.1).with([10], "", &Value::Null)] {
+        let running = scene.clone().unfinished(true).verdict();
+        assert_eq!(running.would_decide[0].remedy, "wait until the job is done");
+        assert!(running.sentence.ends_with(" The job is not done yet."), "{}", running.sentence);
+        let cancelled = scene.unfinished(false).verdict();
+        assert!(cancelled.would_decide[0].remedy.starts_with("post its request again"));
+        assert!(!cancelled.sentence.contains("not done"), "{}", cancelled.sentence);
+    }
+}
+
 #[test]
 fn a_motion_that_diverges_in_a_range_is_reason_to_act() {
     let diverged = |index: usize| Scene::flat(0.1).with([index], "/status", &json!("diverged"));
