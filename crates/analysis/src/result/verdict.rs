@@ -24,8 +24,8 @@ pub struct SweepVerdict {
     pub ranges: Vec<RangeVerdict>,
     /// Critical speeds of the wheel (over all contact nodes, components and blades) against ranges and limits, the most severe first.
     pub critical_speeds: Vec<JudgedSpeed>,
-    /// The three worst speeds: of critical speeds and of those with the largest values inside a range, those closest to a limit or farthest above it;
-    /// without limits the most severe critical speeds.
+    /// The three worst speeds, of each peak one: of critical speeds and those with the largest values inside a range, those closest to a limit or
+    /// farthest above it; without limits the most severe critical speeds.
     #[cfg_attr(feature = "schema", schema(max_items = 3))]
     pub worst: Vec<JudgedSpeed>,
     /// Ways to turn an undecided verdict into a decision; also listed beside `act`, which stands without them.

@@ -385,6 +385,13 @@ fn the_three_worst_speeds_are_those_closest_to_a_limit() {
 fn the_worst_speeds_are_peaks_and_not_their_flanks() {
     let scene = Scene::peak(110.0, 0.9).limited(json!({"tip_motion": 1.0, "node_force": 100.0}));
     let scene = scene.with([11], "/contact/peak_node_force", &json!(20.0));
-    let indices: Vec<u32> = scene.verdict().worst.iter().map(|speed| speed.index).collect();
-    assert_eq!(indices, [10]);
+    let indices = |scene: Scene| scene.verdict().worst.iter().map(|speed| speed.index).collect::<Vec<u32>>();
+    assert_eq!(indices(scene.clone()), [10]);
+    // Farther off, too; where the value of a flank stands worse against its limit, the flank is named for its peak.
+    let far = scene.with([11], "/contact/peak_node_force", &json!(1.0));
+    let far = far.with([13], "/contact/peak_node_force", &json!(20.0));
+    assert_eq!(indices(far.clone()), [10]);
+    assert_eq!(indices(far.clone().limited(json!({"tip_motion": 1.0, "node_force": 15.0}))), [13]);
+    // Both flanks of a peak outside the range are one.
+    assert_eq!(indices(far.ranges(json!([range("run", 111.0, 120.0, 0.0)]))), [11]);
 }
