@@ -225,15 +225,13 @@ def test_progress_has_a_percentage_only_where_it_is_known(service, new_page):
     page.get_by_role("heading", name="Jobs").wait_for()
 
     def told(progress, total, finished, phase):
-        job = {"kind": "sweep", "progress": progress, "phase": phase, "posted": {"speeds": [{"from": 1, "to": 2, "count": 98}, {"values": [3, 4]}]}}
+        job = {"kind": "sweep", "progress": progress, "phase": phase}
         job |= {"speeds": {"total": total, "finished": finished, "diverged": 0, "failed": 0}}
         return page.evaluate("async (job) => Object.values((await import('/page/lib/progress.js')).progressOf(job))", job)
 
     assert told(55, 100, 50, "50 of 100 speeds finished") == ["55 % · 50 of 100 speeds finished", 55]
-    assert told(99, 123, 100, "100 of 123 speeds finished") == [
-        "all 100 speeds finished; refining: 23 added around peaks · 100 of 123 speeds finished",
-        100 * 100 / 123,
-    ]
+    added = "added around peaks: 0 of 23 speeds finished; control runs follow"
+    assert told(99, 123, 100, added) == [added, 100 * 100 / 123]
     assert told(99, 100, 100, "control runs: 1 of 5") == ["control runs: 1 of 5", None]
 
 
