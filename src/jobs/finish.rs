@@ -85,7 +85,7 @@ async fn conclude(
     let points = validity::measured(engine, job, request, &reduced, points).await?;
     let errors = control::errors(engine, job, request, &points).await?;
     if let Some(case) = run::histories_wanted(request, &points) {
-        histories::record(engine, job, &case, PhaseMonitor::uncounted(job.watch.clone())).await?;
+        histories::record(engine, job, &case, false, PhaseMonitor::uncounted(job.watch.clone())).await?;
     }
     let (settings, estimate) = (request.clone(), errors.clone());
     let monitor = PhaseMonitor::uncounted(job.watch.clone());
