@@ -146,7 +146,7 @@ def test_a_sweep_is_planned_asked_for_and_followed(service, model, swept, new_pa
     assert page.get_by_label("Number of speeds").input_value() == "9"
     page.go_back()
     page.get_by_role("link", name=re.compile("^Open the form with give “Limits”")).click()
-    page.get_by_label("Clearance consumption").wait_for()
+    page.get_by_text("Changed against that job: “Limits”").wait_for()
     assert page.get_by_label("Clearance consumption").input_value() == "0.9"
 
 
