@@ -101,11 +101,9 @@ impl ShownVerdict {
         }
         let line = |(nth, judged): (usize, &JudgedValue)| {
             let (rpm, place) = if nth == 0 { (rpm.clone(), place.clone()) } else { Default::default() };
-            let error = judged.error.map_or_else(String::new, |error| format!(" ± {}", number(error)));
             let (words, unit) = (judged.limit.words(), judged.limit.unit(&self.units));
-            let value =
-                format!("{words} {}{error} of {} {unit}", number(judged.value), number(judged.allowed));
-            [rpm, place, value.trim_end().to_owned(), format!("{:+.0} %", judged.above_percent)]
+            let value = format!("{words} {} of {} {unit}", judged.known_words(), number(judged.allowed));
+            [rpm, place, value.trim_end().to_owned(), judged.standing_words()]
         };
         speed.limits.iter().enumerate().map(line).collect()
     }

@@ -74,6 +74,7 @@ pub(super) struct Judged<'a> {
     points: Vec<Point>,
     errors: Option<ErrorEstimate>,
     driven: Option<Vec<DrivenCrossing>>,
+    unfinished: bool,
 }
 
 /// Linear critical speeds in the table of a sensor.
@@ -92,13 +93,18 @@ impl<'a> Judged<'a> {
         let text = store.document(job.id, Document::part(CRITICAL_SPEEDS, 0)).await?;
         let predicted: Option<Predicted> = text.map(|text| serde_json::from_str(&text)).transpose()?;
         let driven = predicted.map(|of| of.driven_crossings);
-        Ok(Some(Self { request, facts, points, errors, driven }))
+        let unfinished = !job.head.status.is_final();
+        Ok(Some(Self { request, facts, points, errors, driven, unfinished }))
     }
 
     /// Result that `judge` makes of the speeds.
     pub(super) fn by<T>(&self, judge: Judge<T>) -> T {
-        let evidence =
-            Evidence { points: &self.points, errors: self.errors.as_ref(), driven: self.driven.as_deref() };
+        let evidence = Evidence {
+            points: &self.points,
+            errors: self.errors.as_ref(),
+            driven: self.driven.as_deref(),
+            unfinished: self.unfinished,
+        };
         judge(self.request, &self.facts.units, evidence)
     }
 }

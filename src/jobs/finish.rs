@@ -85,7 +85,7 @@ async fn conclude(
     let points = validity::measured(engine, job, request, &reduced, points).await?;
     let errors = control::errors(engine, job, request, &points).await?;
     if let Some(case) = run::histories_wanted(request, &points) {
-        histories::record(engine, job, &case, PhaseMonitor::uncounted(job.watch.clone())).await?;
+        histories::record(engine, job, &case, false, PhaseMonitor::uncounted(job.watch.clone())).await?;
     }
     let (settings, estimate) = (request.clone(), errors.clone());
     let monitor = PhaseMonitor::uncounted(job.watch.clone());
@@ -95,7 +95,7 @@ async fn conclude(
     let stored = engine.store.job(job.id).await?;
     if let Some(facts) = stored.as_ref().and_then(|job| job.facts.as_ref()) {
         let driven = tables.first().map(|table| &table.driven_crossings[..]);
-        let evidence = Evidence { points: &all, errors: errors.as_ref(), driven };
+        let evidence = Evidence { points: &all, errors: errors.as_ref(), driven, unfinished: false };
         let verdict = run::judge(request, &facts.units, evidence).verdict;
         patiently(&job.watch, || engine.store.record_verdict(job.id, verdict)).await?;
     }

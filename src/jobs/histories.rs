@@ -16,16 +16,17 @@ use crate::analysis::run;
 use crate::store::states;
 
 /// Simulates the speeds of `case` side by side and stores the histories of each as soon as they are there; speeds whose histories are
-/// stored already are not computed again.
+/// stored already are not computed again. Runs of a job that is the case are counted by how they end (`is_counted`); those of a sweep are known.
 pub(super) async fn record(
     engine: &Engine,
     job: &Live,
     case: &ResolvedCaseStudy,
+    is_counted: bool,
     monitor: PhaseMonitor,
 ) -> Result<(), Interruption> {
     let total = case.speeds().len();
     let mut running = stream::iter(0..total)
-        .map(|place| record_one(engine, job, case, place))
+        .map(|place| record_one(engine, job, case, (place, is_counted)))
         .buffer_unordered(engine.computing.threads());
     let mut done = 0;
     while running.try_next().await?.is_some() {
@@ -40,7 +41,7 @@ async fn record_one(
     engine: &Engine,
     job: &Live,
     case: &ResolvedCaseStudy,
-    place: usize,
+    (place, is_counted): (usize, bool),
 ) -> Result<(), Interruption> {
     let case_speed = case.speeds()[place];
     let document = Document::part(HISTORIES, case_speed);
@@ -60,15 +61,16 @@ async fn record_one(
         let mut histories = run::speed_histories(&reduced, &case, place, &monitor)?;
         let states =
             histories.states.take().map(|states| states::pack(&states, &reduced.wheel)).transpose()?;
-        Ok::<_, Interruption>((serde_json::to_string(&histories)?, states))
+        Ok::<_, Interruption>((serde_json::to_string(&histories)?, states, histories.point.status))
     };
-    let (text, states) = engine.computing.run(&job.watch, compute).await??;
+    let (text, states, status) = engine.computing.run(&job.watch, compute).await??;
     // States go first, because stored histories tell that the speed is done.
     if let Some(states) = states {
         let document = Document::part(STATES, case_speed);
-        patiently(&job.watch, || engine.store.keep_document(job.id, document, &states)).await?;
+        patiently(&job.watch, || engine.store.keep_document(job.id, document, &states, None)).await?;
     }
-    patiently(&job.watch, || engine.store.keep_document(job.id, document, &text)).await?;
+    let ended = is_counted.then_some(status);
+    patiently(&job.watch, || engine.store.keep_document(job.id, document, &text, ended)).await?;
     engine.computing.acquit(job.id);
     Ok(())
 }

@@ -55,6 +55,12 @@ async fn prepare_speeds(engine: &Engine, job: &Live) -> Result<(), Interruption>
         reductions.push(reduced(engine, job, scene).await?);
     }
     plans::keep(engine, job, reductions).await?;
+    if let Work::Speeds(speeds) = Arc::clone(&job.request).work()
+        && let Some(sweep) = speeds.concluded()
+    {
+        let (asked, has_controls) = (sweep.speeds().asked() as u32, sweep.control_speeds() > 0);
+        job.watch.expect_phases(asked, speeds.may_grow(), has_controls);
+    }
 
     let finished = engine.store.finished_speeds(job.id).await?;
     let mut missing = job.chain.clone().unwrap_or_else(|| (0..job.speeds).collect());

@@ -77,6 +77,10 @@ struct Done {
     reported: (u8, String),
     speeds: u32,
     finished: u32,
+    /// Number of speeds that were asked for, once it is known: others are added around peaks.
+    asked: Option<u32>,
+    /// Phases that follow the speeds asked for, and those that follow the added speeds, in words.
+    follows: [String; 2],
     /// Finished fraction of each speed that is being computed.
     running: HashMap<u32, f64>,
     pace: Pace,
@@ -141,10 +145,25 @@ impl Watch {
         self.report_speeds(&mut done);
     }
 
+    /// Tells how many speeds were asked for, which may be joined by others, and whether control runs follow.
+    pub(super) fn expect_phases(&self, asked: u32, may_grow: bool, has_controls: bool) {
+        let mut done = self.done.lock().unwrap_or_else(PoisonError::into_inner);
+        done.asked = Some(asked);
+        let controls = has_controls.then_some("control runs");
+        let added = may_grow.then_some("speeds around peaks");
+        done.follows = [vec![added, controls], vec![controls]].map(|phases| {
+            let phases: Vec<&str> = phases.into_iter().flatten().collect();
+            if phases.is_empty() { String::new() } else { format!("; {} follow", phases.join(" and ")) }
+        });
+    }
+
     /// Raises the number of speeds that the job has.
     pub(super) fn expect_speeds(&self, speeds: u32) {
         let mut done = self.done.lock().unwrap_or_else(PoisonError::into_inner);
-        done.speeds = done.speeds.max(speeds);
+        if speeds > done.speeds {
+            done.speeds = speeds;
+            done.pace.reword();
+        }
         self.report_speeds(&mut done);
     }
 
@@ -158,7 +177,15 @@ impl Watch {
     fn report_speeds(&self, done: &mut Done) {
         let (speeds, all) = (done.speeds_done(), f64::from(done.speeds));
         let left = done.pace.words(Instant::now(), speeds, all);
-        let phase = format!("{} of {} speeds finished{left}", done.finished, done.speeds);
+        let phase = match done.asked {
+            Some(asked) if done.speeds > asked => format!(
+                "added around peaks: {} of {} speeds finished{left}{}",
+                done.finished.saturating_sub(asked),
+                done.speeds - asked,
+                done.follows[1]
+            ),
+            _ => format!("{} of {} speeds finished{left}{}", done.finished, done.speeds, done.follows[0]),
+        };
         self.report(done, &phase, done.percent_of_sweep());
     }
 
@@ -351,6 +378,22 @@ mod tests {
         watch.expect_speeds(3);
         watch.speeds_finished(3, Some(2));
         assert_eq!(told(&watch), Some((99, "3 of 4 speeds finished".to_owned())));
+    }
+
+    #[test]
+    fn a_phase_says_what_follows() {
+        let watch = watch(2);
+        watch.expect_phases(2, true, true);
+        watch.speeds_finished(1, None);
+        let follow = "; speeds around peaks and control runs follow";
+        assert_eq!(told(&watch).unwrap().1, format!("1 of 2 speeds finished{follow}"));
+        watch.expect_speeds(5);
+        watch.speeds_finished(3, None);
+        let added = "added around peaks: 1 of 3 speeds finished; control runs follow";
+        assert_eq!(told(&watch).unwrap().1, added);
+        watch.expect_phases(5, false, false);
+        watch.speeds_finished(4, None);
+        assert_eq!(told(&watch).unwrap().1, "4 of 5 speeds finished");
     }
 
     #[test]

@@ -8,6 +8,6 @@ use crate::analysis::resolved::ResolvedCaseStudy;
 
 /// Computes and stores the job.
 pub(super) async fn run(engine: &Engine, job: &Live, case: &ResolvedCaseStudy) -> Result<(), Interruption> {
-    histories::record(engine, job, case, PhaseMonitor::whole(job.watch.clone())).await?;
+    histories::record(engine, job, case, true, PhaseMonitor::whole(job.watch.clone())).await?;
     finish::complete(engine, job, &[], None).await
 }

@@ -36,6 +36,11 @@ impl Pace {
         self.begun.get_or_insert((now, done));
     }
 
+    /// Lets the next words be new, as there is more to do than before.
+    pub(super) fn reword(&mut self) {
+        self.worded = None;
+    }
+
     /// Words on the time left with `done` units of `all`, to be set behind the phase; empty before the pace is known.
     pub(super) fn words(&mut self, now: Instant, done: f64, all: f64) -> &str {
         if self.worded.is_none_or(|last| now.duration_since(last) >= BETWEEN) {
@@ -108,6 +113,8 @@ mod tests {
         let at = |seconds| begin + Duration::from_secs(seconds);
         assert_eq!(pace.words(at(10), 60.0, 100.0), ", about 40 s left");
         assert_eq!(pace.words(at(11), 61.0, 100.0), ", about 40 s left", "changes now and then only");
+        pace.reword();
+        assert_eq!(pace.words(at(11), 61.0, 100.0), ", about 39 s left");
         // As many again were added.
         assert_eq!(pace.words(at(50), 100.0, 200.0), ", about 1.7 min left");
     }

@@ -4,11 +4,10 @@ use super::dialect::Guarded;
 use super::error::StoreError;
 use super::handle::Store;
 use super::jobs::job::JobId;
-use super::results::{insert_document, keep_result};
+use super::results::{count_run, insert_document, keep_result};
 use super::sql::of;
 use crate::analysis::kinds::document::Document;
 use crate::analysis::kinds::kind::{Leg, LegNames};
-use crate::analysis::result::PointStatus;
 
 impl Store {
     /// Stores leg `index` of a job with the document beside it and the course after it, in place of the course before. An existing leg
@@ -27,14 +26,7 @@ impl Store {
                 keep_result(&mut transaction, job, Document::part(name, index), text).await?;
             }
             if let Some(status) = leg.ended {
-                sqlx::query(
-                    "update jobs set finished = finished + 1, diverged = diverged + $2, failed = failed + $3 where id = $1",
-                )
-                .bind(job.to_string())
-                .bind(i64::from(status == PointStatus::Diverged))
-                .bind(i64::from(status == PointStatus::Failed))
-                .execute(&mut *transaction)
-                .await?;
+                count_run(&mut transaction, job, status).await?;
             }
             let course = Document::only(names.course);
             sqlx::query("delete from documents where job = $1 and name = $2 and part = $3")

@@ -250,16 +250,21 @@ impl Store {
         Ok(found)
     }
 
-    /// Stores a document of a running job, in a transaction of its own. An existing document stays as it is; a deleted job stores nothing.
+    /// Stores a document of a running job, in a transaction of its own, and counts the run that it is of, if that `ended`. An existing document
+    /// stays as it is; a deleted job stores nothing.
     pub async fn keep_document(
         &self,
         job: JobId,
         document: Document<'_>,
         body: &str,
+        ended: Option<PointStatus>,
     ) -> Result<(), StoreError> {
         let mut transaction = self.write().await?;
         transaction.guard(Guarded::Job(job)).await?;
-        keep_result(&mut transaction, job, document, body).await?;
+        let is_new = keep_result(&mut transaction, job, document, body).await?;
+        if let Some(status) = ended.filter(|_| is_new) {
+            count_run(&mut transaction, job, status).await?;
+        }
         transaction.commit_job(job).await?;
         Ok(())
     }
@@ -356,6 +361,23 @@ pub(super) async fn keep_result(
             .await?;
     }
     Ok(inserted)
+}
+
+/// Counts a run of a job by the status with which it ended.
+pub(super) async fn count_run(
+    connection: &mut AnyConnection,
+    job: JobId,
+    status: PointStatus,
+) -> Result<(), StoreError> {
+    sqlx::query(
+        "update jobs set finished = finished + 1, diverged = diverged + $2, failed = failed + $3 where id = $1",
+    )
+    .bind(job.to_string())
+    .bind(i64::from(status == PointStatus::Diverged))
+    .bind(i64::from(status == PointStatus::Failed))
+    .execute(connection)
+    .await?;
+    Ok(())
 }
 
 fn contact(row: &AnyRow) -> Result<Option<ContactForces>, StoreError> {

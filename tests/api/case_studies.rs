@@ -44,6 +44,22 @@ fn happened(mut histories: Value) -> Value {
 }
 
 #[tokio::test]
+async fn a_case_study_that_diverges_is_counted_so() {
+    let app = TestApp::start().await;
+    let api = &app.api;
+    let mut request = case_of(&api.model(model::package(1.0)).await);
+    request["scene"]["engine_order_excitation"] =
+        json!([{"order": 1, "contact_nodes": [0], "component": "tangential", "amplitude": 1e12}]);
+    let id = api.post("/v1/case-studies", &request).await.text("/id").to_owned();
+    let job = api.finish(&id).await;
+    let counts = json!({"total": 1, "finished": 1, "diverged": 1, "failed": 0});
+    assert_eq!((&job["status"], &job["speeds"]), (&json!("successful"), &counts), "{job}");
+    let point = histories(api, &id, 0).await["point"].clone();
+    assert_eq!(point["status"], "diverged", "{point}");
+    app.stop().await;
+}
+
+#[tokio::test]
 async fn a_case_study_tells_what_happens_at_a_speed() {
     let app = TestApp::start().await;
     let api = &app.api;

@@ -81,6 +81,9 @@ async fn a_job_without_a_name_is_called_by_what_it_computes() {
         "contact": {},
     });
     let round = json!({"casing": {"clearance": {"values": [0.25, 0.25]}}, "contact": {}});
+    let mut rubbed = round.clone();
+    rubbed["friction"] = json!({"coefficient": 0.1});
+    rubbed["mistuning"] = json!({"spread": 0.01, "seed": 1});
     let gap = "clearance 0.3–0.221 mm, 2 lobes of 0.425 mm";
     let cases = [
         (
@@ -94,9 +97,14 @@ async fn a_job_without_a_name_is_called_by_what_it_computes() {
             "12,000 rpm, clearance 0.25 mm".to_owned(),
         ),
         (
+            "sweeps",
+            json!({"scene": rubbed, "speeds": {"values": [19125.0], "unit": "rpm"}}),
+            "19,125 rpm, clearance 0.25 mm, friction, mistuning".to_owned(),
+        ),
+        (
             "modal-analyses",
             json!({"speeds": {"from": 0.0, "to": 2000.0, "count": 3, "unit": "rad_s"}, "lobes": 2}),
-            "modal analysis, 0 to 19,100 rpm".to_owned(),
+            "modal analysis, 0 to 19,099 rpm".to_owned(),
         ),
         (
             "branches",

@@ -184,7 +184,10 @@ async fn a_verdict_can_be_read_while_the_job_runs_and_of_sweeps_only() {
     let kinds: Vec<&Value> =
         found["would_decide"].as_array().unwrap().iter().map(|open| &open["what"]).collect();
     assert!(kinds.contains(&&json!("speeds_missing")), "{kinds:?}");
+    assert!(found["sentence"].as_str().unwrap().ends_with(" The job is not done yet."), "{found}");
     api.delete(&format!("/v1/jobs/{running}")).await;
+    let cancelled = verdict(api, &running).await;
+    assert!(!cancelled["sentence"].as_str().unwrap().contains("not done yet"), "{cancelled}");
 
     let modal = api.post("/v1/modal-analyses", &modal_analysis_of(&model)).await.text("/id").to_owned();
     api.get(&format!("/v1/jobs/{modal}/verdict")).await.problem(409, "wrong-job-kind");

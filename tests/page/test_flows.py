@@ -146,7 +146,7 @@ def test_a_sweep_is_planned_asked_for_and_followed(service, model, swept, new_pa
     assert page.get_by_label("Number of speeds").input_value() == "9"
     page.go_back()
     page.get_by_role("link", name=re.compile("^Open the form with give “Limits”")).click()
-    page.get_by_label("Clearance consumption").wait_for()
+    page.get_by_text("Changed against that job: “Limits”").wait_for()
     assert page.get_by_label("Clearance consumption").input_value() == "0.9"
 
 
@@ -166,7 +166,12 @@ def test_a_sweep_opens_on_its_verdict_and_leads_on_from_the_worst_speeds(service
     assert {"operating range", "separation asked", "limit"} <= set(names)
     # Each worst speed says by how much the limit is passed.
     for card, worst in zip(cards.all(), verdict["worst"]):
-        assert f"{worst['limits'][0]['above_percent']:.2g}"[:1] in card.inner_text() and "tip motion" in card.inner_text()
+        judged = worst["limits"][0]
+        above, stands = judged["above_percent"], judged["standing"]
+        by = f"{abs(above):.1f} %" if abs(above) < 10 else f"{abs(above):,.0f} %"
+        beside = "above" if above > 0 else "left"
+        said = f"passed by {by}" if stands == "passed" else f"{'within the error' if stands == 'open' else 'kept'}, {by} {beside}"
+        assert said in card.inner_text() and "tip motion" in card.inner_text()
         value, error = worst["limits"][0]["value"], worst["limits"][0]["error"]
         assert f"({value / (1 + error / value):.3g} to {value * (1 + error / value):.3g}) mm" in card.inner_text()
     # The wheel is recorded and drawn in its place.
@@ -181,6 +186,24 @@ def test_a_sweep_opens_on_its_verdict_and_leads_on_from_the_worst_speeds(service
     rpm = level["verdict"]["worst"][0]["speed_rad_s"] * 9.549296585513721
     assert asked["speed"]["from"] < rpm < asked["speed"]["to"] and asked["scene"]["casing"]["lobes"]["count"] == 2
     assert index in [speed["index"] for speed in level["speeds"]]
+
+
+def test_a_remedy_switches_on_blades_that_bend_far(service, new_page):
+    page = new_page(f"{service.url}/#/jobs")
+    page.get_by_role("heading", name="Jobs").wait_for()
+
+    def mended(remedy, scene):
+        script = """async ([remedy, scene]) => {
+            const { mendable, mended } = await import('/page/views/request/mend.js');
+            const { inWords } = await import('/page/lib/form/named.js');
+            return [inWords(remedy), mended({ scene }, mendable(remedy), {}).scene];
+        }"""
+        return page.evaluate(script, [remedy, scene])
+
+    full = {"contact": {}, "geometric_nonlinearity": {"include": "full"}}
+    assert mended("a calculation: `scene.geometric_nonlinearity`", {"contact": {}}) == ["a calculation: “Blades that bend far”", full]
+    bent = {"contact": {}, "geometric_nonlinearity": {"include": "kinematics"}}
+    assert mended('`scene.geometric_nonlinearity.include` of "full"', bent) == ["“Included” set to “full”", full]
 
 
 def test_nothing_is_counted_before_a_speed_has_finished(service, swept, new_page):
@@ -202,15 +225,13 @@ def test_progress_has_a_percentage_only_where_it_is_known(service, new_page):
     page.get_by_role("heading", name="Jobs").wait_for()
 
     def told(progress, total, finished, phase):
-        job = {"kind": "sweep", "progress": progress, "phase": phase, "posted": {"speeds": [{"from": 1, "to": 2, "count": 98}, {"values": [3, 4]}]}}
+        job = {"kind": "sweep", "progress": progress, "phase": phase}
         job |= {"speeds": {"total": total, "finished": finished, "diverged": 0, "failed": 0}}
         return page.evaluate("async (job) => Object.values((await import('/page/lib/progress.js')).progressOf(job))", job)
 
     assert told(55, 100, 50, "50 of 100 speeds finished") == ["55 % · 50 of 100 speeds finished", 55]
-    assert told(99, 123, 100, "100 of 123 speeds finished") == [
-        "all 100 speeds finished; refining: 23 added around peaks · 100 of 123 speeds finished",
-        100 * 100 / 123,
-    ]
+    added = "added around peaks: 0 of 23 speeds finished; control runs follow"
+    assert told(99, 123, 100, added) == [added, 100 * 100 / 123]
     assert told(99, 100, 100, "control runs: 1 of 5") == ["control runs: 1 of 5", None]
 
 

@@ -52,9 +52,23 @@ def test_progress_where_nobody_watches_is_some_lines(
     said = capsys.readouterr().err.splitlines()
     assert [line.split("%")[0] for line in said] == [f"sweep: {done:3} " for done in range(0, 101, 10)]
     assert "speeds" in said[3] and "successful" in said[-1]
+    # Where the percentage stands still, a line for each phase.
+    with progress("sweep", True) as lines:
+        for phase in [
+            "40 of 40 speeds finished; speeds around peaks follow",
+            *(f"added around peaks: {n} of 9" for n in range(9)),
+            "control runs: 0 of 5",
+        ]:
+            lines.show({"progress": 99, "status": "running", "phase": phase})
+    said = capsys.readouterr().err.splitlines()
+    assert [line.split(", ")[1] for line in said] == [
+        "40 of 40 speeds finished; speeds around peaks follow",
+        "added around peaks: 0 of 9",
+        "control runs: 0 of 5",
+    ]
     client.sweep(sweep_of(model.id, record={})).submit().wait()
     said = capsys.readouterr().err.splitlines()
-    assert 1 <= len(said) <= 12 and all(line.startswith("sweep: ") for line in said), said
+    assert 1 <= len(said) <= 20 and all(line.startswith("sweep: ") for line in said), said
     with progress("sweep", False) as nothing:
         nothing.show({"progress": 1, "status": "running"})
     assert capsys.readouterr().err == ""

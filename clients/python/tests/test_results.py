@@ -96,6 +96,7 @@ def test_a_verdict_prints_as_a_table(client: rubmap.Client, model: rubmap.Model)
     assert lines[0] == found.sentence
     assert " ".join(lines[1].split()) == "worst (rpm) where value against its limit"
     assert len(lines) == 2 + len(found.worst) and " of 1e-06 mm " in lines[2] and "in cruise, -" in lines[2]
+    assert " passed by " in lines[2]
     assert found.settings["operation"] == operation and found.ranges[0]["name"] == "cruise"
     shown = found._repr_html_()
     assert ">act</span>" in shown and "(18,000 to 24,000 rpm)" in shown and shown.count("<tr>") == 1 + len(found.worst)

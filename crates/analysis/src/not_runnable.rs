@@ -1,5 +1,6 @@
 //! Reasons why a speed cannot be integrated.
 
+use crate::digits::short;
 use crate::request::auto_or::MOST_STEPS;
 use rubmap_wheel::dynamics::contact::coating::CoatingError;
 use rubmap_wheel::dynamics::contact::friction::FrictionError;
@@ -78,7 +79,8 @@ pub(crate) enum NotRunnable {
     FamilyFollows { family: u32, nodal_diameter: u32 },
     /// Initial mode that is too large.
     #[error(
-        "the initial mode stands inside the casing at rest: at this speed /scene/initial/amplitude is at most {largest:.6e}"
+        "the initial mode stands inside the casing at rest: at this speed /scene/initial/amplitude is at most {} in the model's unit of length",
+        short(0.9995 * largest)
     )]
     InsideCasing { largest: f64 },
     /// Initial state that belongs to another reduction.

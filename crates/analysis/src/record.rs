@@ -1,6 +1,7 @@
 //! Results of a run: credentials, spectra and steady response of one speed.
 
 use crate::contact::ContactOf;
+use crate::digits::digits;
 use crate::effects::casing::shape::Shape;
 use crate::effects::effect::Ran;
 use crate::effects::symmetry::repeats::repeats;
@@ -52,7 +53,7 @@ pub(super) fn record_run(
     point.contact_impulse = finite(parts * run.statistics.contact_impulse);
     point.largest_penetration = finite(run.statistics.largest_penetration);
     point.smallest_multiplier = run.statistics.smallest_multiplier.and_then(finite);
-    point.energy_residual = finite(run.energy.residual());
+    point.energy_residual = finite(run.energy.residual()).filter(|_| !overflowed(&run.outcome));
     point.energy = EnergyReport::of(&run.energy, parts);
     point.largest_energy = finite(parts * run.energy.largest_energy());
     let clearance = scene.lasting_clearance();
@@ -78,7 +79,7 @@ pub(super) fn record_run(
             Some(Recorded { spectra, contact: forces })
         }
         outcome => {
-            if let Some((status, message)) = cut_short(outcome) {
+            if let Some((status, message)) = cut_short(outcome, &sector.units.length) {
                 (point.status, point.message) = (status, Some(message));
             }
             None
@@ -115,10 +116,10 @@ fn contact(
     Some((of.summary(&forces), forces))
 }
 
-/// Status and message of a run that ended early; none for a complete or a cancelled run.
-pub(super) fn cut_short(outcome: &Outcome) -> Option<(PointStatus, String)> {
+/// Status and message, with the unit of `length`, of a run that ended early; none for a complete or a cancelled run.
+pub(super) fn cut_short(outcome: &Outcome, length: &str) -> Option<(PointStatus, String)> {
     match outcome {
-        Outcome::Diverged(divergence) => Some((PointStatus::Diverged, describe(divergence))),
+        Outcome::Diverged(divergence) => Some((PointStatus::Diverged, describe(divergence, length))),
         Outcome::ContactFailed { revolutions, error } => {
             Some((PointStatus::Failed, format!("after {revolutions:.4} revolutions {error}")))
         }
@@ -126,21 +127,28 @@ pub(super) fn cut_short(outcome: &Outcome) -> Option<(PointStatus, String)> {
     }
 }
 
-fn describe(divergence: &Divergence) -> String {
+/// Whether numbers overflowed, so that no sum over the run means anything.
+fn overflowed(outcome: &Outcome) -> bool {
+    let Outcome::Diverged(divergence) = outcome else { return false };
+    divergence.tip.is_none_or(|tip| !tip.displacement.is_finite())
+}
+
+fn describe(divergence: &Divergence, length: &str) -> String {
     let Divergence { revolutions, tip, energy_growth } = *divergence;
-    let growth = match energy_growth.filter(|growth| growth.is_finite()) {
-        Some(growth) => {
-            format!("; the energy was {growth:.3e} times that at the end of the last whole revolution")
-        }
-        None => String::new(),
-    };
+    // Of a motion that was thrown out at once the energy may have fallen since.
+    let growth = energy_growth.filter(|growth| growth.is_finite() && *growth > 1.0);
+    let energy = growth.map_or_else(String::new, |growth| {
+        format!("; the energy was {} times that at the end of the last whole revolution", digits(growth))
+    });
     match tip.filter(|tip| tip.displacement.is_finite()) {
         Some(TipDisplacement { displacement, contact_node, sector, component }) => format!(
-            "the response grew without bound: after {revolutions:.3} revolutions contact node {contact_node} of sector \
-             {sector} had moved {component} by {displacement:.3e}, more than a tenth of the wheel's radius{growth}"
+            "{}: after {revolutions:.3} revolutions contact node {contact_node} of sector {sector} had moved {component} by {} {length}, \
+             more than a tenth of the wheel's radius{energy}",
+            if growth.is_some() { "the response grew without bound" } else { "the motion left the bounds" },
+            digits(displacement),
         ),
         None => format!(
-            "the response grew without bound: numbers overflowed after {revolutions:.3} revolutions{growth}"
+            "the response grew without bound: numbers overflowed after {revolutions:.3} revolutions{energy}"
         ),
     }
 }
@@ -215,4 +223,29 @@ fn strongest_side_bands(responses: &[SensorResponse]) -> Option<&SideBands> {
 
 fn largest_bin(values: &[f64]) -> usize {
     values.iter().enumerate().fold(0, |best, (i, v)| if *v > values[best] { i } else { best })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rubmap_wheel::dynamics::integrate::TipComponent;
+
+    #[test]
+    fn a_divergence_is_told_as_people_do() {
+        let told = |displacement: f64, energy_growth: Option<f64>| {
+            let tip =
+                TipDisplacement { displacement, contact_node: 3, sector: 2, component: TipComponent::Radial };
+            describe(&Divergence { revolutions: 0.5, tip: Some(tip), energy_growth }, "mm")
+        };
+        let moved = "after 0.500 revolutions contact node 3 of sector 2 had moved radially by 13.1 mm, more than a tenth of the wheel's radius";
+        let grown = format!(
+            "the response grew without bound: {moved}; the energy was 3.21 times that at the end of the last whole revolution"
+        );
+        assert_eq!(told(13.06, Some(3.2123)), grown);
+        // Energy that has fallen, or that is not known, has not grown.
+        for energy in [Some(0.9157), None] {
+            assert_eq!(told(13.06, energy), format!("the motion left the bounds: {moved}"));
+        }
+        assert!(told(f64::NAN, None).contains("numbers overflowed after 0.500 revolutions"));
+    }
 }

@@ -188,7 +188,7 @@ const STANDINGS: [(Option<Standing>, &str, Symbol, &str); 5] = [
     (None, "no limit given", Symbol::Circle, "#0072b2"),
     (Some(Standing::Kept), "limit kept", Symbol::Circle, "#009e73"),
     (Some(Standing::Reached), "80 % of the limit reached", Symbol::Square, "#c98a00"),
-    (Some(Standing::Open), "limit within the error", Symbol::Diamond, "#7f8790"),
+    (Some(Standing::Open), "limit within the error, or error not known", Symbol::Diamond, "#7f8790"),
     (Some(Standing::Passed), "limit passed", Symbol::TriangleUp, "#c8311e"),
 ];
 
@@ -222,7 +222,12 @@ fn add_values(
                     format!(" ({} to {})", ends[0], ends[1])
                 });
                 let told = format!("{} rpm: {}{error} {unit}", label(speed_rpm, 0), significant(value.value));
-                let told = format!("{}, {words}", told.trim_end());
+                let stands = match (standing, value.error) {
+                    (Some(Standing::Open), Some(_)) => "limit within the error",
+                    (Some(Standing::Open), None) => "error not known",
+                    _ => words,
+                };
+                let told = format!("{}, {stands}", told.trim_end());
                 Mark { index: Some(speed.index as usize), ..Mark::new((speed_rpm, value.value), told) }
             };
             let look = if is_inside { Look::filled } else { Look::open };

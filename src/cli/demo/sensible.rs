@@ -14,8 +14,9 @@ use crate::analysis::run::ModelFacts;
 /// what machines have.
 const CLEARANCE: f64 = 0.002;
 
-/// Height of a lobe over the clearance: a tenth of the clearance stands inside the tips at rest, so that they touch twice a revolution.
-const LOBE: f64 = 1.1;
+/// Height of a lobe over the clearance, as in the form of the page: a twentieth of the clearance stands inside the tips at rest, so that they touch
+/// twice a revolution and are pushed by a little.
+const LOBE: f64 = 1.05;
 
 /// Number of lobes of an ovalised casing.
 const LOBES: u32 = 2;
@@ -72,7 +73,8 @@ pub(super) fn sweep(
     revolutions: AutoOr,
 ) -> (Value, String) {
     let clearance = round(CLEARANCE * radius);
-    let amplitude = round(LOBE * clearance);
+    // One digit more than the clearance has, so that the lobe is higher.
+    let amplitude = round_to(DIGITS + 1, LOBE * clearance);
     let [from, to] = [range.from_rad_s, range.to_rad_s].map(whole_rpm);
     let stiffening = facts.has_stiffening();
     let request = json!({
@@ -176,7 +178,7 @@ mod tests {
         assert_eq!((range.from_rad_s, range.to_rad_s), (1000.0, 3000.0));
         let (request, words) = sweep(&facts, 123.4, &range, 10, AutoOr::Fixed(20));
         assert_eq!(request["scene"]["casing"]["clearance"]["leading"], 0.25);
-        assert_eq!(request["scene"]["casing"]["lobes"]["amplitude"], 0.28);
+        assert_eq!(request["scene"]["casing"]["lobes"]["amplitude"], 0.263);
         assert!(words.contains("9549 to 28647 rpm") && words.contains("0.25 mm: 0.2 %"), "{words}");
         assert_eq!(lobes_of(&request), LOBES);
         assert_eq!(request["integration"]["revolutions"], 20);

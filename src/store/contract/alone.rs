@@ -294,8 +294,8 @@ async fn a_job_from_its_beginning_to_its_end() {
         store.revise_points(job, std::slice::from_ref(&revised)).await.unwrap();
         assert_eq!(store.points(job).await.unwrap(), [&points[..2], &[revised.clone()][..]].concat());
 
-        store.keep_document(job, Document::part(HISTORIES, 3), "[\"ü\"]").await.unwrap();
-        store.keep_document(job, Document::part(HISTORIES, 3), "[]").await.unwrap();
+        store.keep_document(job, Document::part(HISTORIES, 3), "[\"ü\"]", None).await.unwrap();
+        store.keep_document(job, Document::part(HISTORIES, 3), "[]", None).await.unwrap();
         let documents = [(ERRORS, "[1]".to_owned()), (Document::part(CRITICAL_SPEEDS, 1), "[2]".to_owned())];
         assert_eq!(store.job(job).await.unwrap().unwrap().verdict, None);
         store.record_verdict(job, VerdictWord::Undecided).await.unwrap();

@@ -17,7 +17,8 @@ export function fieldsIn(sentence) {
 
 /** A sentence with the fields that it names, and the values that they are to have, in words. */
 export function inWords(sentence) {
-  const valued = sentence.replace(/`([^`]+)` of (true|"auto")/g, (_, path, value) => (value === 'true'
-    ? `${fieldWords(path)} switched on` : `${fieldWords(path)} set to “${AUTO[path.split('.').at(-1)] ?? 'auto'}”`));
+  const word = (path, value) => (value === 'auto' && AUTO[path.split('.').at(-1)]) || value;
+  const valued = sentence.replace(/`([^`]+)` of (true|"(\w+)")/g, (_, path, value, quoted) => (value === 'true'
+    ? `${fieldWords(path)} switched on` : `${fieldWords(path)} set to “${word(path, quoted)}”`));
   return valued.split('`').map((part, k) => (k % 2 === 1 ? fieldWords(part) : part)).join('');
 }

@@ -154,10 +154,10 @@ coriolis|Coriolis forces||Forward and backward waves get frequencies of their ow
 # scene
 mistuning|Mistuning||Sectors that differ in stiffness.
 # scene
-geometric_nonlinearity|Blades that bend far||Off: linear theory. Needs a mesh.
+geometric_nonlinearity|Blades that bend far||Off: linear theory. Needs a mesh; not with friction.
 # geometric_nonlinearity
-include|Included
-coordinates|Coordinates of a blade
+include|Included||Full: tips draw back as blades bend, and blades stiffen. Kinematics: tips draw back, stiffness stays linear; takes less time.
+coordinates|Coordinates of a blade||Shapes in which a blade bends far: compare runs with 4, 6 and 8.
 # mistuning
 spread|Standard deviation|of the stiffness
 deviations|Deviations|of the stiffness

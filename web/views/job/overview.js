@@ -28,15 +28,19 @@ function quantityUnit(name, units) {
   return /^[LF]$/.test(code) ? ` ${unitIn(code, units)}` : '';
 }
 
-/** Looks and words of a value against its limit. */
-const STANDINGS = {
-  kept: ['good', 'kept'],
-  reached: ['warn', '80 % reached'],
-  open: ['quiet', 'within the error'],
-  passed: ['bad', 'passed'],
-};
+/** Looks of a value against its limit. */
+const STANDINGS = { kept: 'good', reached: 'warn', open: 'quiet', passed: 'bad' };
 
-/** Questions that are open at a speed, in a few words. */
+/** How a value stands against its limit: `kept, 20 % left`, `passed by 36 %`. */
+function standingWords({ standing, error, above_percent: above }) {
+  const size = Math.abs(above);
+  const by = `${size < 10 ? size.toFixed(1) : number(Math.round(size))} %`;
+  if (standing === 'passed') return `passed by ${by}`;
+  const open = error === undefined ? 'error not known' : 'within the error';
+  return `${standing === 'open' ? open : 'kept'}, ${by} ${above > 0 ? 'above' : 'left'}`;
+}
+
+/** Questions that are open at a speed, in a few words; those of errors are told beside the limit. */
 const QUESTIONS = {
   speeds_missing: 'no result yet',
   speeds_failed: 'not computed',
@@ -44,8 +48,8 @@ const QUESTIONS = {
   unsound_stiffness: 'stiffness at speed unsound',
   beyond_linear_theory: 'beyond linear theory',
   linear_theory_not_checked: 'linear theory not checked',
-  error_across_limit: 'limit within the error',
-  error_unknown: 'error not known',
+  error_across_limit: null,
+  error_unknown: null,
   value_unknown: 'value not known',
   peak_unresolved: 'peak not resolved',
 };
@@ -134,20 +138,22 @@ function responseWords({ critical: isPeak, resolved, engine_order: order, nodal_
 
 /** Value v with its unit and where it may lie: an error e, which the service gives as v e, leaves v/(1 + e) to v (1 + e). */
 function valueWords({ limit, value, error }, units) {
-  const ends = error > 0 ? ` (${number(value * value / (value + error), 3)} to ${number(value + error, 3)})` : '';
-  return `${number(value, 3)}${ends}${quantityUnit(limit, units)}`;
+  const [shown, below, above] = [value, value * value / (value + error), value + error].map((each) => number(each, 3));
+  const ends = error > 0 && (below !== shown || above !== shown) ? ` (${below} to ${above})` : '';
+  return `${shown}${ends}${quantityUnit(limit, units)}`;
 }
 
 /** The worst speeds as cards: what, where, which limit by how much, what would decide, and the wheel. */
 function worst(verdict, recorded, context, signal) {
   if (verdict.worst.length === 0) return null;
   const card = (one) => {
-    const open = verdict.would_decide.filter((question) => (question.speeds ?? []).includes(one.index));
+    const asked = verdict.would_decide.filter((question) => (question.speeds ?? []).includes(one.index));
+    const open = [...new Set(asked.map(({ what, finding }) => (what in QUESTIONS ? QUESTIONS[what] : inWords(finding))).filter(Boolean))];
     return h('li', { class: 'card' },
       h('h3', {}, h('a', { href: context.address({ view: 'point', speed: one.index }) }, speed(one.speed_rad_s))),
       h('p', { class: 'small' }, [responseWords(one), verdict.ranges_given ? positionWords(one.ranges) : null].filter(Boolean).join('; ')),
       one.limits.length > 0 ? limits(one, verdict.units) : tipWords(one, verdict.units),
-      open.length > 0 ? h('p', { class: 'small' }, 'Undecided here: ', open.map((question, k) => [k > 0 ? '; ' : null, QUESTIONS[question.what] ?? inWords(question.finding)])) : null,
+      open.length > 0 ? h('p', { class: 'small' }, `Open here: ${open.join('; ')}`) : null,
       wheelPicture(context, one, recorded, signal),
       fromHere(context.job, one.speed_rad_s, signal));
   };
@@ -161,9 +167,7 @@ function tipWords({ tip }, { length }) {
 function limits(one, units) {
   const sorted = [...one.limits].sort((a, b) => b.value / b.allowed - a.value / a.allowed);
   return h('ul', { class: 'plain small' }, sorted.map((judged) => {
-    const [look, words] = STANDINGS[judged.standing];
-    const by = `${judged.above_percent > 0 ? '+' : ''}${number(judged.above_percent, 2)} %`;
-    return h('li', {}, `${quantityWords(judged.limit)} ${valueWords(judged, units)}, limit ${number(judged.allowed)}: `, h('strong', { class: look }, `${words} (${by})`));
+    return h('li', {}, `${quantityWords(judged.limit)} ${valueWords(judged, units)}, limit ${number(judged.allowed)}: `, h('strong', { class: STANDINGS[judged.standing] }, standingWords(judged)));
   }));
 }
 
@@ -185,7 +189,7 @@ function critical({ critical_speeds: all, ranges_given: given, units, settings }
     name: wordsOf(`/limits/${name}`)[0], number: true, sort: (one) => of(one, name)?.value,
     cell: (one) => {
       const judged = of(one, name);
-      return judged ? h('span', { class: STANDINGS[judged.standing][0], title: `${STANDINGS[judged.standing][1]}; limit ${number(judged.allowed)}` }, valueWords(judged, units)) : '–';
+      return judged ? h('span', { class: STANDINGS[judged.standing], title: `${standingWords(judged)}; limit ${number(judged.allowed)}` }, valueWords(judged, units)) : '–';
     },
   });
   return [

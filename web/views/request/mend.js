@@ -22,6 +22,8 @@ const MENDS = {
     const ends = endsOver(model, request, endsOf(request.speeds));
     return ends ? { ...request, speeds: { ...request.speeds, ...ends } } : request;
   },
+  'scene.geometric_nonlinearity': (request, model) => ({ ...request, scene: { ...request.scene, geometric_nonlinearity: beginning('/scene/geometric_nonlinearity', model) } }),
+  'scene.geometric_nonlinearity.include': (request) => ({ ...request, scene: { ...request.scene, geometric_nonlinearity: { ...request.scene.geometric_nonlinearity, include: 'full' } } }),
   'integration.revolutions': (request) => integrated(request, { revolutions: 'auto' }),
   'integration.steady': (request) => integrated(request, { steady: 'auto' }),
   'integration.most_revolutions': (request) => integrated(request, { most_revolutions: LONGER * (request.integration?.most_revolutions ?? MOST_REVOLUTIONS) }),

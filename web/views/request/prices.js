@@ -71,6 +71,7 @@ function changed(request, { name, on }, model) {
   }
   if ((NEEDS[name] ?? []).some((needed) => !scene[needed])) return null;
   if (name === 'coriolis' && !model.gyroscopic) return null;
+  if (name === 'geometric_nonlinearity' && (!model.mesh || scene.friction)) return null;
   if (name === 'centrifugal_stiffening' && model.speeds_rad_s.length < 2) return null;
   const begun = ['coriolis', 'centrifugal_stiffening'].includes(name) ? true : beginning(`/scene/${name}`, model);
   if (begun === undefined) return null;

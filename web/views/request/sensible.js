@@ -55,6 +55,7 @@ export function beginning(pointer, model, request = {}) {
     '/scene/damping': scene.damping,
     '/limits': { clearance_consumption: 0.9, ...((model.mesh?.sets ?? []).some((set) => set.ultimate && set.fatigue) && { utilisation: 1 }) },
     '/scene/friction': { coefficient: 0.15 },
+    '/scene/geometric_nonlinearity': { include: 'full' },
     '/scene/casing/single_lobes/-': { angle_rad: 0, amplitude: scene.casing.lobes.amplitude, width_rad: 0.35 },
     '/scene/casing/waves/-': { order: 2, amplitude: round(0.5 * scene.casing.lobes.amplitude) },
     '/scene/casing/tilt': { angle_rad: 1e-4 },

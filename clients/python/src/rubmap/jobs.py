@@ -118,7 +118,8 @@ class Job:
         """Waits until it has its result.
 
         Args:
-            progress: whether a bar shows how far it is; where there is no terminal and no notebook, a line for every tenth of the work.
+            progress: whether a bar shows how far it is; where there is no terminal and no notebook, a line for every tenth of the work
+                and for every phase.
             timeout: seconds after which waiting ends.
 
         Raises:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import sys
 import time
 from collections.abc import Mapping
@@ -49,12 +50,13 @@ class _Bar:
 
 
 class _Lines:
-    """A line at the start, after every tenth of the work, and at the end."""
+    """A line at the start, after every tenth of the work, when another phase begins, and at the end."""
 
     def __init__(self, kind: str) -> None:
         self._kind = kind
         self._begin = time.monotonic()
         self._next = 0
+        self._phases: set[str] = set()
 
     def __enter__(self) -> Self:
         return self
@@ -65,8 +67,11 @@ class _Lines:
     def show(self, state: Mapping[str, Any]) -> None:
         done, status = int(state["progress"]), state["status"]
         ended = status in ("successful", "failed", "dismissed")
-        if done < self._next and not ended:
+        # A phase counts on before its first comma, and says behind it what follows.
+        phase = re.sub(r"\d+", "", re.split("[,;]", str(state.get("phase") or ""))[0])
+        if done < self._next and phase in self._phases and not ended:
             return
+        self._phases.add(phase)
         self._next = _STEP * (done // _STEP + 1)
         took = time.monotonic() - self._begin
         print(f"{self._kind}: {done:3} %, {state.get('phase') or status}, {took:.0f} s", file=sys.stderr, flush=True)

@@ -80,12 +80,33 @@ class Verdict:
         for judged in speed["limits"]:
             words, of = _LIMITS[judged["limit"]]
             unit = "" if of is None else f" {self.units[of]}"
-            error = f" ± {judged['error']:.3g}" if "error" in judged else ""
-            value = f"{words} {judged['value']:.3g}{error} of {judged['allowed']:.3g}{unit}"
-            yield rpm, place, value, f"{judged['above_percent']:+.0f} %"
+            value = f"{words} {_known(judged)} of {judged['allowed']:.3g}{unit}"
+            yield rpm, place, value, _standing(judged)
             rpm, place = "", ""
         if not speed["limits"]:
             tip = speed.get("tip")
             motion = tip.get("largest_half_peak_to_peak", tip["half_peak_to_peak"]) if tip else None
             value = "" if motion is None else f"tip motion {motion:.3g} {self.units['length']}"
             yield rpm, place, value, "no limit"
+
+
+def _known(judged: Mapping[str, Any]) -> str:
+    """A value with the bounds that its error leaves it: an error e, given as v e, leaves v/(1 + e) to v (1 + e)."""
+    value, error = judged["value"], judged.get("error")
+    if error is None or value <= 0:
+        return f"{value:.3g}"
+    factor = 1 + error / value
+    shown, below, above = (f"{each:.3g}" for each in (value, value / factor, value * factor))
+    return shown if shown == below == above else f"{shown} ({below} to {above})"
+
+
+def _standing(judged: Mapping[str, Any]) -> str:
+    """How a value stands against its limit: ``kept, 20 % left``, ``passed by 36 %``."""
+    above = judged["above_percent"]
+    by = f"{abs(above):.1f} %" if abs(above) < 10 else f"{abs(above):,.0f} %"
+    if judged["standing"] == "passed":
+        return f"passed by {by}"
+    words = "kept"
+    if judged["standing"] == "open":
+        words = "within the error" if "error" in judged else "error not known"
+    return f"{words}, {by} {'above' if above > 0 else 'left'}"

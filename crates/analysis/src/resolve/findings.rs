@@ -43,8 +43,8 @@ pub(crate) fn check_reach(found: &mut Findings, length: f64, pointer: &str, fact
         !limits::LENGTH.contains(&length) || length <= reach,
         pointer,
         format!(
-            "{length} is out of proportion to this wheel, whose tips lie at a radius of up to {radius}: a tip that moves by more than \
-             a tenth of that, {reach}, ends a run as diverged; check the number and its unit"
+            "{length} is out of proportion to this wheel, whose tips lie at a radius of up to {radius}: at most a tenth of that, {reach}, \
+             is accepted; check the number and its unit"
         ),
     );
 }

@@ -66,7 +66,7 @@ impl ResolvedSpeeds {
     }
 
     /// Number of speeds that were asked for, without those that rounds of `refine` have added.
-    pub(crate) fn asked(&self) -> usize {
+    pub fn asked(&self) -> usize {
         self.counts[..self.counts.len() - self.rounds as usize].iter().sum()
     }
 

@@ -37,7 +37,7 @@ pub struct LevelValue {
     pub quantity: LimitKind,
     /// Value at the speed.
     pub value: f64,
-    /// Error bar: the value is known to ± this; absent where no control run gives an error.
+    /// Relative error e times the value v, which is one of v/(1 + e) to v (1 + e); absent where no control run gives an error.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub error: Option<f64>,
     /// Standing against the limit of the request; absent where it gives none.

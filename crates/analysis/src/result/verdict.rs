@@ -5,6 +5,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
+use crate::digits::{digits, percent};
 use crate::request::{Limits, SweepRequest};
 use crate::result::tip::TipResponse;
 use rubmap_wheel::dynamics::sector::Units;
@@ -23,8 +24,8 @@ pub struct SweepVerdict {
     pub ranges: Vec<RangeVerdict>,
     /// Critical speeds of the wheel (over all contact nodes, components and blades) against ranges and limits, the most severe first.
     pub critical_speeds: Vec<JudgedSpeed>,
-    /// The three worst speeds: of critical speeds and of those with the largest values inside a range, those closest to a limit or farthest above it;
-    /// without limits the most severe critical speeds.
+    /// The three worst speeds, of each peak one: of critical speeds and those with the largest values inside a range, those closest to a limit or
+    /// farthest above it; without limits the most severe critical speeds.
     #[cfg_attr(feature = "schema", schema(max_items = 3))]
     pub worst: Vec<JudgedSpeed>,
     /// Ways to turn an undecided verdict into a decision; also listed beside `act`, which stands without them.
@@ -126,7 +127,7 @@ pub struct JudgedValue {
     pub limit: LimitKind,
     /// Value at the speed.
     pub value: f64,
-    /// Error bar: the value is known to ± this; absent where no control run gives an error.
+    /// Relative error e times the value v, which is one of v/(1 + e) to v (1 + e); absent where no control run gives an error.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub error: Option<f64>,
     /// Limit of the request.
@@ -141,6 +142,26 @@ impl JudgedValue {
     /// Share of the limit that the value takes.
     pub(crate) fn share(&self) -> f64 {
         self.value / self.allowed
+    }
+
+    /// Value with the bounds that its error leaves it, where they are told apart by three digits: `1.45 (1.26 to 1.66)`.
+    pub fn known_words(&self) -> String {
+        let Some(error) = self.error.filter(|_| self.value > 0.0) else { return digits(self.value) };
+        let factor = 1.0 + error / self.value;
+        let [value, below, above] = [self.value, self.value / factor, self.value * factor].map(digits);
+        if below == value && above == value { value } else { format!("{value} ({below} to {above})") }
+    }
+
+    /// Standing of the value in words: `kept, 20 % left`, `passed by 36 %`.
+    pub fn standing_words(&self) -> String {
+        let by = percent(self.above_percent.abs());
+        let standing = match (self.standing, self.error) {
+            (Standing::Passed, _) => return format!("passed by {by}"),
+            (Standing::Kept | Standing::Reached, _) => "kept",
+            (Standing::Open, Some(_)) => "within the error",
+            (Standing::Open, None) => "error not known",
+        };
+        format!("{standing}, {by} {}", if self.above_percent > 0.0 { "above" } else { "left" })
     }
 
     /// Order of concern: by standing, then by share of the limit.
@@ -329,4 +350,36 @@ pub enum OpenKind {
     PeakUnresolved,
     /// Nothing touches, and nothing else moves the wheel.
     NothingTouches,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_value_is_told_with_its_bounds_and_its_standing() {
+        let of = |value: f64, error: Option<f64>, standing: Standing| {
+            let judged = JudgedValue {
+                limit: LimitKind::TipMotion,
+                value,
+                error,
+                allowed: 1.25,
+                above_percent: 100.0 * (value / 1.25 - 1.0),
+                standing,
+            };
+            (judged.known_words(), judged.standing_words())
+        };
+        let told = |value: &str, standing: &str| (value.to_owned(), standing.to_owned());
+        assert_eq!(of(1.0, None, Standing::Kept), told("1", "kept, 20 % left"));
+        assert_eq!(of(1.2, Some(0.001), Standing::Reached), told("1.2", "kept, 4.0 % left"));
+        // A seventh: 1.45 is one of 1.27 to 1.66.
+        let error = Some(1.45 / 7.0);
+        assert_eq!(of(1.45, error, Standing::Passed), told("1.45 (1.27 to 1.66)", "passed by 16 %"));
+        assert_eq!(
+            of(1.3, Some(0.13), Standing::Open),
+            told("1.3 (1.18 to 1.43)", "within the error, 4.0 % above")
+        );
+        assert_eq!(of(1.2, None, Standing::Open).1, "error not known, 4.0 % left");
+        assert_eq!(of(0.0, Some(0.0), Standing::Kept), told("0", "kept, 100 % left"));
+    }
 }

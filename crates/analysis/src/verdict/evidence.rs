@@ -13,8 +13,10 @@ pub struct Evidence<'a> {
     pub points: &'a [Point],
     /// Errors of the speeds, once control runs have told them.
     pub errors: Option<&'a ErrorEstimate>,
-    /// Linear critical speeds that the scene can drive, once the sweep has ended: speeds may be added until then.
+    /// Linear critical speeds that the scene can drive, once the sweep has succeeded: speeds may be added until then.
     pub driven: Option<&'a [DrivenCrossing]>,
+    /// Whether the job still works on the sweep: it is neither successful nor cancelled nor failed.
+    pub unfinished: bool,
 }
 
 /// Sweep as it is seen by all its ranges.
@@ -23,7 +25,8 @@ pub(super) struct Seen<'a> {
     pub(super) peaks: &'a [WheelCriticalSpeed],
     /// Maxima that are not resolved.
     pub(super) maxima: &'a [Maximum],
-    /// Linear critical speeds that the scene can drive; none before the sweep has ended.
+    /// Linear critical speeds that the scene can drive; none before the sweep has succeeded.
     pub(super) driven: Option<&'a [DrivenCrossing]>,
+    pub(super) unfinished: bool,
     pub(super) asked: &'a Asked,
 }

@@ -19,17 +19,18 @@ use rubmap_wheel::revision::VERSION;
 /// Number of speeds that are named as the worst.
 const WORST: usize = 3;
 
-/// Relative distance within which a speed counts as a flank of a worse one, whose peak is named already.
+/// Relative distance within which two speeds belong to one peak, however rough its top is.
 const SAME_PEAK: f64 = 0.01;
 
 /// Judges the finished points of a sweep by the ranges and limits of its request.
 pub fn judge(request: &ResolvedSweep, units: &Units, evidence: Evidence<'_>) -> SweepVerdict {
-    let Evidence { points, errors, driven } = evidence;
+    let Evidence { points, errors, driven, unfinished } = evidence;
     let asked = Asked::of(request, errors);
     let peaks = wheel_peaks(request, points, errors);
     let finished = Finished::of(points);
     let maxima = maxima(request, &finished, &asked);
-    let seen = Seen { finished: &finished, peaks: &peaks, maxima: &maxima, driven, asked: &asked };
+    let seen =
+        Seen { finished: &finished, peaks: &peaks, maxima: &maxima, driven, unfinished, asked: &asked };
     let (ranges_given, spans) = Span::all(request);
     let judged: Vec<Judged> = spans.iter().map(|span| rule::judge(request, span, &seen)).collect();
     let named: &[Span] = if ranges_given { &spans } else { &[] };
@@ -37,7 +38,7 @@ pub fn judge(request: &ResolvedSweep, units: &Units, evidence: Evidence<'_>) -> 
     let of_index = |index: u32| points.iter().find(|point| point.index == index);
     let critical_speeds: Vec<JudgedSpeed> =
         peaks.iter().filter_map(|peak| of_index(peak.index)).map(speed).collect();
-    let worst = worst(&judged, &critical_speeds, &spans, |index| of_index(index).map(speed));
+    let worst = worst(&judged, &critical_speeds, &spans, &finished, |index| of_index(index).map(speed));
     let mut would_decide = Vec::new();
     would_decide.extend(asked.none_given());
     would_decide.extend(judged.iter().flat_map(|of| of.open.iter().cloned()));
@@ -55,7 +56,7 @@ pub fn judge(request: &ResolvedSweep, units: &Units, evidence: Evidence<'_>) -> 
         settings: request.clone().into(),
         version: VERSION.to_owned(),
     };
-    all.sentence = sentence::sentence(&all, request);
+    all.sentence = sentence::sentence(&all, request, unfinished);
     all
 }
 
@@ -83,12 +84,13 @@ fn judged_speed(point: &Point, spans: &[Span], peaks: &[WheelCriticalSpeed], ask
     }
 }
 
-/// Worst speeds: among the critical speeds in a range and the speeds with the largest values there; where there are none, the critical speeds
-/// outside.
+/// Worst speeds, of each peak one: among the critical speeds in a range and the speeds with the largest values there; where there are none, the
+/// critical speeds outside.
 fn worst(
     judged: &[Judged],
     critical: &[JudgedSpeed],
     spans: &[Span],
+    finished: &Finished,
     speed: impl Fn(u32) -> Option<JudgedSpeed>,
 ) -> Vec<JudgedSpeed> {
     let is_near =
@@ -104,13 +106,18 @@ fn worst(
         all = critical.to_vec();
     }
     // The order of critical speeds, by severity, decides between equal ones.
-    all.sort_by(|a, b| share(b).total_cmp(&share(a)));
+    all.sort_by(|a, b| match (worst_value(a), worst_value(b)) {
+        (Some(a), Some(b)) => b.concern(a),
+        (a, b) => b.is_some().cmp(&a.is_some()),
+    });
     let mut apart: Vec<JudgedSpeed> = Vec::new();
     for speed in all {
-        let is_near = |other: &JudgedSpeed| {
-            (other.speed_rad_s - speed.speed_rad_s).abs() < SAME_PEAK * speed.speed_rad_s
+        let is_same_peak = |other: &JudgedSpeed| {
+            let near = (other.speed_rad_s - speed.speed_rad_s).abs() < SAME_PEAK * speed.speed_rad_s;
+            let both_critical = speed.critical && other.critical;
+            !both_critical && (near || finished.summit(speed.index) == finished.summit(other.index))
         };
-        if speed.critical || !apart.iter().any(is_near) {
+        if !apart.iter().any(is_same_peak) {
             apart.push(speed);
         }
     }
@@ -118,7 +125,7 @@ fn worst(
     apart
 }
 
-/// Largest value of a speed over its limit; 0 where none is known.
-fn share(speed: &JudgedSpeed) -> f64 {
-    speed.limits.iter().map(JudgedValue::share).fold(0.0, f64::max)
+/// Worst value of a speed against its limit, as sentences order them; none where no value is known.
+fn worst_value(speed: &JudgedSpeed) -> Option<&JudgedValue> {
+    speed.limits.iter().max_by(|a, b| a.concern(b))
 }

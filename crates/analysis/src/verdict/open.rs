@@ -5,16 +5,14 @@ use super::evidence::Seen;
 use super::hidden::{Maximum, wide_steps, widest_step};
 use super::points::indices;
 use super::sentence::{rpm, speeds as of_speeds};
+use crate::effects::geometric_nonlinearity::request::Bending;
 use crate::request::{AutoOr, SweepDirection};
 use crate::resolved::ResolvedSweep;
 use crate::result::{
     LimitKind, OpenKind, OpenQuestion, Point, RangeVerdict, Stability, Standing, StiffeningVerdict,
-    ValidityVerdict, Verdict,
+    ValidityMeasure, ValidityVerdict, Verdict,
 };
 use crate::span::Span;
-
-/// Remedy where results are still to come.
-const WAIT: &str = "wait until the job has ended; if it was cancelled or failed, post its request again";
 
 /// Range with everything by which its open questions are found.
 pub(super) struct RangeEvidence<'a> {
@@ -70,7 +68,8 @@ impl RangeEvidence<'_> {
     }
 
     fn without_result(&self) -> impl Iterator<Item = OpenQuestion> {
-        let missing = self.about(OpenKind::SpeedsMissing, &self.range.missing, "without a result yet", WAIT);
+        let missing =
+            self.about(OpenKind::SpeedsMissing, &self.range.missing, "without a result yet", self.wait());
         let failed = self.about(
             OpenKind::SpeedsFailed,
             &self.range.failed,
@@ -79,10 +78,21 @@ impl RangeEvidence<'_> {
         );
         // Refinement, control runs and measured validity are still to come.
         let unended = (self.range.missing.is_empty() && self.seen.driven.is_none()).then(|| {
-            let finding = "the job has not ended: it may add speeds and tell errors".to_owned();
-            self.question(OpenKind::SpeedsMissing, Vec::new(), finding, WAIT)
+            let finding = match self.seen.unfinished {
+                true => "the job may still add speeds and tell errors",
+                false => "the job ended before it added speeds and told errors",
+            };
+            self.question(OpenKind::SpeedsMissing, Vec::new(), finding.to_owned(), self.wait())
         });
         missing.into_iter().chain(failed).chain(unended)
+    }
+
+    /// Remedy where results are still to come.
+    fn wait(&self) -> &'static str {
+        match self.seen.unfinished {
+            true => "wait until the job is done",
+            false => "post its request again: the job was cancelled or failed",
+        }
     }
 
     fn not_trusted(&self) -> impl Iterator<Item = OpenQuestion> {
@@ -122,7 +132,7 @@ impl RangeEvidence<'_> {
                 OpenKind::BeyondLinearTheory,
                 &beyond,
                 "beyond linear theory",
-                "a geometrically non-linear calculation at these speeds, or a scene with smaller motions",
+                self.beyond_linear_theory(),
             ),
             self.about(
                 OpenKind::LinearTheoryNotChecked,
@@ -133,6 +143,32 @@ impl RangeEvidence<'_> {
         ]
         .into_iter()
         .flatten()
+    }
+
+    /// Remedy where linear theory ends. Blades that bend far help where their bending was measured, which takes a mesh.
+    fn beyond_linear_theory(&self) -> &'static str {
+        let is_bending = |point: &Point| {
+            let checks = point.validity.iter().flat_map(|validity| &validity.checks);
+            checks.filter(|check| check.verdict() == ValidityVerdict::Beyond).any(|check| {
+                matches!(check.what, ValidityMeasure::ExcessEnergy | ValidityMeasure::SecondOrderGap)
+            })
+        };
+        let scene = &self.request.scene;
+        match scene.geometric_nonlinearity.as_ref().map(|of| of.include) {
+            None if !self.completed.iter().any(|point| is_bending(point)) => "a scene with smaller motions",
+            None if scene.friction.is_some() => {
+                "a scene with smaller motions; beside friction, blades that bend far cannot be computed"
+            }
+            None => {
+                "a geometrically non-linear calculation: `scene.geometric_nonlinearity`; or a scene with smaller motions"
+            }
+            Some(Bending::Kinematics) => {
+                "stiffening of the blades, too: `scene.geometric_nonlinearity.include` of \"full\"; or a scene with smaller motions"
+            }
+            Some(Bending::Full) => {
+                "a comparison with more `scene.geometric_nonlinearity.coordinates`, or a scene with smaller motions"
+            }
+        }
     }
 
     /// Question about peaks whose top may lie in the range and is not resolved.
@@ -204,7 +240,7 @@ impl RangeEvidence<'_> {
         let unknown = self.those(|point| judged(point).is_none());
         let awaited = (self.seen.asked.awaits_errors(self.request, kind) && unsure.is_empty()).then(|| {
             let finding = format!("the control runs that tell the error of the {words} are not done");
-            self.question(OpenKind::ErrorUnknown, Vec::new(), finding, WAIT)
+            self.question(OpenKind::ErrorUnknown, Vec::new(), finding, self.wait())
         });
         [
             self.about(

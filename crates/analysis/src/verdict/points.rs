@@ -20,6 +20,23 @@ impl<'a> Finished<'a> {
         Self { points, indices: points.iter().map(|point| point.index).collect(), ascending }
     }
 
+    /// Index of the speed at the top of the peak to which a completed speed belongs; its own where the level rises to both sides.
+    pub(super) fn summit(&self, index: u32) -> u32 {
+        let level = |place: usize| self.ascending[place].tip.map_or(0.0, |tip| tip.rms);
+        let higher = |place: usize| {
+            let beside = [place.checked_sub(1), Some(place + 1).filter(|&next| next < self.ascending.len())];
+            beside.into_iter().flatten().filter(move |&next| level(next) > level(place))
+        };
+        let Some(mut at) = self.ascending.iter().position(|point| point.index == index) else { return index };
+        if higher(at).count() == 2 {
+            return index;
+        }
+        while let Some(next) = higher(at).max_by(|&a, &b| level(a).total_cmp(&level(b))) {
+            at = next;
+        }
+        self.ascending[at].index
+    }
+
     /// Completed speeds next to a speed, below and above it.
     pub(super) fn beside(&self, speed: f64) -> [Option<&'a Point>; 2] {
         let below = self.ascending.partition_point(|point| point.speed_rad_s < speed);

@@ -1,5 +1,6 @@
 //! Verdicts in words.
 
+use crate::digits::{digits, grouped, percent};
 use crate::resolved::ResolvedSweep;
 use crate::result::{
     JudgedSpeed, JudgedValue, OpenKind, OpenQuestion, Position, RangeVerdict, SweepVerdict, VerdictWord,
@@ -10,8 +11,8 @@ use rubmap_wheel::dynamics::sector::Units;
 /// Most reasons that a sentence names.
 const MOST_REASONS: usize = 2;
 
-/// Sentence of a verdict.
-pub(super) fn sentence(all: &SweepVerdict, request: &ResolvedSweep) -> String {
+/// Sentence of a verdict; one on a job that is `unfinished` says so.
+pub(super) fn sentence(all: &SweepVerdict, request: &ResolvedSweep, unfinished: bool) -> String {
     let said = |range: &RangeVerdict| match all.verdict {
         VerdictWord::Act => act(range, all, request),
         VerdictWord::Undecided => undecided(range, all),
@@ -34,6 +35,9 @@ pub(super) fn sentence(all: &SweepVerdict, request: &ResolvedSweep) -> String {
             rpm(to)
         );
     }
+    if unfinished {
+        text += " The job is not done yet.";
+    }
     text
 }
 
@@ -46,7 +50,14 @@ fn act(range: &RangeVerdict, all: &SweepVerdict, request: &ResolvedSweep) -> Str
     let Some(worst) = largest(range) else { return String::new() };
     let (value, limit) = (value(&worst.judged, &all.units), allowed(&worst.judged, &all.units));
     let above = percent(worst.judged.above_percent);
-    format!("Act: {place}at {} {value} passes its limit of {limit} by {above}.", rpm(worst.speed_rad_s))
+    let is_beyond = |open: &&OpenQuestion| {
+        open.what == OpenKind::BeyondLinearTheory
+            && open.range == range.name
+            && open.speeds.contains(&worst.index)
+    };
+    let theory = all.would_decide.iter().find(is_beyond).map_or("", |_| ", at a speed beyond linear theory");
+    let speed = rpm(worst.speed_rad_s);
+    format!("Act: {place}at {speed} {value} passes its limit of {limit} by {above}{theory}.")
 }
 
 fn undecided(range: &RangeVerdict, all: &SweepVerdict) -> String {
@@ -129,9 +140,7 @@ fn largest_share(range: &RangeVerdict) -> f64 {
 
 /// Value with its name, its error and their unit.
 fn value(judged: &JudgedValue, units: &Units) -> String {
-    let error = judged.error.map_or_else(String::new, |error| format!(" ± {}", digits(error)));
-    let text =
-        format!("{} of {}{error} {}", judged.limit.words(), digits(judged.value), judged.limit.unit(units));
+    let text = format!("{} of {} {}", judged.limit.words(), judged.known_words(), judged.limit.unit(units));
     text.trim_end().to_owned()
 }
 
@@ -174,31 +183,4 @@ pub(crate) fn rpm_number(speed_rad_s: f64) -> String {
         return digits(rpm);
     }
     grouped(rpm)
-}
-
-/// Whole number in groups of three digits.
-fn grouped(value: f64) -> String {
-    let whole = format!("{value:.0}");
-    let mut text = String::new();
-    for (place, digit) in whole.chars().enumerate() {
-        if place > 0 && (whole.len() - place).is_multiple_of(3) {
-            text.push(',');
-        }
-        text.push(digit);
-    }
-    text
-}
-
-/// Number with three significant digits.
-pub(crate) fn digits(value: f64) -> String {
-    let rounded: f64 = format!("{value:.2e}").parse().unwrap_or(value);
-    if rounded != 0.0 && !(1e-4..1e6).contains(&rounded.abs()) {
-        return format!("{rounded:e}");
-    }
-    rounded.to_string()
-}
-
-/// Share in per cent, with a decimal where it is small.
-fn percent(value: f64) -> String {
-    if value.abs() < 10.0 { format!("{value:.1} %") } else { format!("{} %", grouped(value)) }
 }

@@ -23,7 +23,7 @@ p.verdict { border-left: 6px solid; padding: .4em .8em; background: #f4f4f4; fon
 p.act { border-color: #b01f20 } p.undecided { border-color: #6b6b6b } p.watch { border-color: #c07800 } p.clear { border-color: #17693c }
 pre { white-space: pre-wrap; overflow-wrap: break-word; font-size: .8em } .notes { white-space: pre-wrap }
 .sheet table { margin: .3em 0 } .sheet th, .sheet td { padding: .1em .6em .1em 0 } .sheet table.facts th { width: 11em }
-table.worst td, table.worst th { white-space: nowrap } table.worst td.words { white-space: normal; min-width: 14em }
+table.worst td, table.worst th { white-space: nowrap } table.worst td.words { white-space: normal; min-width: 14em } table.worst td.standing { white-space: normal }
 @media print {
   body { font-size: 9.5pt; margin: 0; padding: 0; max-width: none } pre { font-size: 7pt } table.numbers { font-size: 7pt }
   h1 { font-size: 13pt; margin: 0 } .sheet { font-size: 8pt; line-height: 1.3; break-after: page } .sheet figure { margin: 0 } .sheet svg { width: 100%; max-height: 100mm }

@@ -42,7 +42,7 @@ fn worst(level: &SweepLevel) -> Markup {
     html! {
         @if !verdict.worst.is_empty() {
             table class="worst" {
-                tr { th { "Worst speeds" } th { "Response" } th { "Where" } th { "Value" } th { "Limit" } th { "Passed by" } }
+                tr { th { "Worst speeds" } th { "Response" } th { "Where" } th { "Value" } th { "Limit" } th { "Against the limit" } }
                 @for speed in &verdict.worst {
                     @let values = most(speed);
                     @let rows = values.len().max(1).to_string();
@@ -75,11 +75,10 @@ fn most(speed: &JudgedSpeed) -> Vec<JudgedValue> {
 
 fn cells(value: &JudgedValue, level: &SweepLevel) -> Markup {
     let unit = value.limit.unit(&level.verdict.units);
-    let error = value.error.map_or_else(String::new, |error| format!(" ± {}", significant(error)));
     html! {
-        td { (value.limit.words()) " " (significant(value.value)) (error) " " (unit) }
+        td { (value.limit.words()) " " (value.known_words()) " " (unit) }
         td { (significant(value.allowed)) " " (unit) }
-        td { (format!("{:+.0} %", value.above_percent)) }
+        td.standing { (value.standing_words()) }
     }
 }
 

@@ -93,8 +93,8 @@ fn row(peak: &CriticalSpeed, used: bool, judged: bool) -> Markup {
         tr {
             td { (format!("{:.*}", decimals(peak), rpm(peak.speed_rad_s))) }
             td { (format!("{:.*}", decimals(peak), rpm(peak.speed_error_rad_s))) }
-            td { (format!("{:.3e}", peak.rms)) }
-            td { (format!("{:.3e}", peak.half_peak_to_peak)) }
+            td { (significant(peak.rms)) }
+            td { (significant(peak.half_peak_to_peak)) }
             td { (or_none(peak.dominant_engine_order)) }
             td { (or_none(peak.dominant_nodal_diameter)) }
             td { (verdict(peak.settling)) }
@@ -153,9 +153,9 @@ pub(super) fn largest_responses(map: &InteractionMap) -> Markup {
                 tr {
                     td { (format!("{:.0}", rpm(point.speed_rad_s))) }
                     td { (response.sensor.to_string()) }
-                    td { (format!("{:.3e}", response.half_peak_to_peak)) }
-                    td { (format!("{:.3e}", response.rms)) }
-                    td { (format!("{:.3e}", response.mean)) }
+                    td { (significant(response.half_peak_to_peak)) }
+                    td { (significant(response.rms)) }
+                    td { (significant(response.mean)) }
                     td { (or_none(response.dominant_engine_order)) }
                     td { (or_none(response.dominant_nodal_diameter)) }
                     td { (format!("{:.1} %", 100.0 * point.contact_share)) }

@@ -12,12 +12,13 @@ pub(super) fn check(found: &mut Findings, request: &ResolvedSweep, facts: &Model
     found.require(
         facts.mesh.is_some(),
         AT,
-        "the model has no mesh, from which the bending of second order is made: upload a package with elements, or leave this away",
+        "this effect is computed from the mesh of the model, which has none: upload a package with elements, or remove `geometric_nonlinearity` from the \
+         scene",
     );
     found.require(
         request.fields() != Some(false),
         "/fields",
-        "the bending of second order is made from the rows of the basis: let them be stored",
+        "`scene.geometric_nonlinearity` needs the fields of the whole wheel: remove `fields` or set it to true, or remove the effect from the scene",
     );
     found.require(
         (1..=MOST_COORDINATES as u32).contains(&asked.coordinates),
@@ -27,7 +28,7 @@ pub(super) fn check(found: &mut Findings, request: &ResolvedSweep, facts: &Model
     found.require(
         request.scene.friction.is_none(),
         "/scene/friction",
-        "friction on blades that bend far is not known: leave it or `geometric_nonlinearity` away",
+        "friction cannot be combined with blades that bend far: remove `friction` or `geometric_nonlinearity` from the scene",
     );
 }
 

@@ -170,7 +170,7 @@ pub(crate) fn changed(
                 Value::from(after as u64)
             } else {
                 let message = format!(
-                    "{pointer} is counted in whole numbers, and {after} is none: let the parameter be `whole`"
+                    "{pointer} is counted in whole numbers, and {after} is none: give the parameter \"distribution\": \"whole\""
                 );
                 return Err(refused(format!("/parameters/{index}"), message));
             };

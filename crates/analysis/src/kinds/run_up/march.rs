@@ -258,7 +258,7 @@ impl<'a> March<'a> {
                         so_far.steps += stretch.statistics.steps;
                         so_far.gather(&reached(segment, &stretch, &self.profile));
                         so_far.contact_steps += stretch.statistics.contact_steps;
-                        match stretch.ended.as_ref().map(cut_short) {
+                        match stretch.ended.as_ref().map(|outcome| cut_short(outcome, &sector.units.length)) {
                             None => Ok((scene, stretch)),
                             Some(None) => return Err(AnalysisError::Cancelled),
                             Some(Some(reason)) => Err(reason),

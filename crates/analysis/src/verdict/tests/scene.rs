@@ -26,6 +26,8 @@ pub(super) struct Scene {
     pub(super) request: Vec<(&'static str, Value)>,
     /// Linear critical speeds; none before the sweep has ended.
     pub(super) driven: Option<Vec<DrivenCrossing>>,
+    /// Whether the job still runs.
+    pub(super) unfinished: bool,
 }
 
 /// Finished point at `speed` with tip motion `tip`, a clearance of 1, and a force of 10 times the motion.
@@ -55,6 +57,7 @@ impl Scene {
             controls: Vec::new(),
             request: Vec::new(),
             driven: Some(Vec::new()),
+            unfinished: false,
         }
     }
 
@@ -95,6 +98,11 @@ impl Scene {
         }
         self.controls = controls.to_vec();
         self
+    }
+
+    /// Scene of a job that still runs, or else was cancelled.
+    pub(super) fn unfinished(self, is_running: bool) -> Self {
+        Self { driven: None, unfinished: is_running, ..self }
     }
 
     pub(super) fn without_errors(mut self) -> Self {
@@ -171,7 +179,12 @@ impl Scene {
         judge(
             &request,
             &units,
-            Evidence { points: &points, errors: errors.as_ref(), driven: self.driven.as_deref() },
+            Evidence {
+                points: &points,
+                errors: errors.as_ref(),
+                driven: self.driven.as_deref(),
+                unfinished: self.unfinished,
+            },
         )
     }
 

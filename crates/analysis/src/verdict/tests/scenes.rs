@@ -128,7 +128,7 @@ fn only_what_lies_in_a_range_or_its_separation_counts() {
     let found = several.verdict();
     assert_eq!(found.ranges.iter().map(|range| range.verdict).collect::<Vec<_>>(), [Act, Clear]);
     assert!(
-        found.sentence.starts_with("Act: in range \"low\" (964 to 993 rpm) at 993 rpm tip motion of 2 ± 0.02 mm passes its limit of 1 mm by 100 %."),
+        found.sentence.starts_with("Act: in range \"low\" (964 to 993 rpm) at 993 rpm tip motion of 2 (1.98 to 2.02) mm passes its limit of 1 mm by 100 %."),
         "{}",
         found.sentence
     );
@@ -153,7 +153,7 @@ fn critical_speeds_stand_inside_within_the_separation_or_outside() {
     assert_eq!(
         found.sentence,
         "Watch: in range \"run\" (1,003 to 1,098 rpm) every limit is kept, a critical speed (1,050 rpm) lies inside; closest is tip \
-         motion of 0.5 ± 0.005 mm at 1,050 rpm, 50 % below its limit of 1 mm."
+         motion of 0.5 (0.495 to 0.505) mm at 1,050 rpm, 50 % below its limit of 1 mm."
     );
 }
 
@@ -221,6 +221,52 @@ fn everything_that_could_hide_a_passed_limit_leaves_the_verdict_open() {
     let warned =
         Scene::flat(0.1).adding([10], "stiffening", &json!("suspect")).with([10], "/validity", &doubtful);
     assert_eq!(warned.word(), Clear);
+}
+
+/// Response whose bending was measured to be beyond linear theory.
+fn bent() -> Value {
+    let check = json!({"what": "excess_energy", "value": 0.2, "doubtful_above": 0.02, "beyond_above": 0.1});
+    json!({"verdict": "beyond", "checks": [check]})
+}
+
+#[test]
+fn blades_that_bend_far_are_proposed_where_they_help_and_are_not_computed_yet() {
+    let remedy = |scene: Value, validity: &Value| {
+        let found = Scene::flat(0.1).asking("scene", scene).with([10], "/validity", validity).verdict();
+        found.would_decide[0].remedy.clone()
+    };
+    let plain = json!({"contact": {}});
+    assert!(remedy(plain.clone(), &bent()).contains("calculation: `scene.geometric_nonlinearity`;"));
+    let unmeasured = json!({"verdict": "beyond", "checks": []});
+    assert_eq!(remedy(plain, &unmeasured), "a scene with smaller motions");
+    let with = |name: &str, value: Value| remedy(json!({"contact": {}, name: value}), &bent());
+    assert!(!with("friction", json!({"coefficient": 0.1})).contains('`'));
+    for (include, named) in [("full", "coordinates"), ("kinematics", "include")] {
+        let said = with("geometric_nonlinearity", json!({"include": include}));
+        assert!(said.contains(&format!("`scene.geometric_nonlinearity.{named}`")), "{said}");
+        assert!(!said.contains("`scene.geometric_nonlinearity`"), "{said}");
+    }
+}
+
+#[test]
+fn a_reason_to_act_beyond_linear_theory_says_so() {
+    let passed = Scene::flat(0.1).with([7], "/tip/half_peak_to_peak", &json!(1.5));
+    let sentence = |scene: Scene| scene.verdict().sentence;
+    assert!(sentence(passed.clone().with([8], "/validity", &bent())).ends_with("its limit of 1 mm by 50 %."));
+    let said = "its limit of 1 mm by 50 %, at a speed beyond linear theory.";
+    assert!(sentence(passed.with([7], "/validity", &bent())).ends_with(said));
+}
+
+#[test]
+fn the_verdict_on_a_job_that_runs_says_that_it_is_not_done() {
+    for scene in [Scene::flat(0.1), Scene::flat(0.1).with([10], "", &Value::Null)] {
+        let running = scene.clone().unfinished(true).verdict();
+        assert_eq!(running.would_decide[0].remedy, "wait until the job is done");
+        assert!(running.sentence.ends_with(" The job is not done yet."), "{}", running.sentence);
+        let cancelled = scene.unfinished(false).verdict();
+        assert!(cancelled.would_decide[0].remedy.starts_with("post its request again"));
+        assert!(!cancelled.sentence.contains("not done"), "{}", cancelled.sentence);
+    }
 }
 
 #[test]
@@ -339,6 +385,13 @@ fn the_three_worst_speeds_are_those_closest_to_a_limit() {
 fn the_worst_speeds_are_peaks_and_not_their_flanks() {
     let scene = Scene::peak(110.0, 0.9).limited(json!({"tip_motion": 1.0, "node_force": 100.0}));
     let scene = scene.with([11], "/contact/peak_node_force", &json!(20.0));
-    let indices: Vec<u32> = scene.verdict().worst.iter().map(|speed| speed.index).collect();
-    assert_eq!(indices, [10]);
+    let indices = |scene: Scene| scene.verdict().worst.iter().map(|speed| speed.index).collect::<Vec<u32>>();
+    assert_eq!(indices(scene.clone()), [10]);
+    // Farther off, too; where the value of a flank stands worse against its limit, the flank is named for its peak.
+    let far = scene.with([11], "/contact/peak_node_force", &json!(1.0));
+    let far = far.with([13], "/contact/peak_node_force", &json!(20.0));
+    assert_eq!(indices(far.clone()), [10]);
+    assert_eq!(indices(far.clone().limited(json!({"tip_motion": 1.0, "node_force": 15.0}))), [13]);
+    // Both flanks of a peak outside the range are one.
+    assert_eq!(indices(far.ranges(json!([range("run", 111.0, 120.0, 0.0)]))), [11]);
 }
