@@ -131,7 +131,11 @@ impl RangeEvidence<'_> {
             self.about(
                 OpenKind::BeyondLinearTheory,
                 &beyond,
-                "beyond linear theory",
+                if self.request.scene.geometric_nonlinearity.is_some() {
+                    "beyond what the scene simulates"
+                } else {
+                    "beyond linear theory"
+                },
                 self.beyond_linear_theory(),
             ),
             self.about(

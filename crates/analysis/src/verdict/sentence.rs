@@ -55,7 +55,13 @@ fn act(range: &RangeVerdict, all: &SweepVerdict, request: &ResolvedSweep) -> Str
             && open.range == range.name
             && open.speeds.contains(&worst.index)
     };
-    let theory = all.would_decide.iter().find(is_beyond).map_or("", |_| ", at a speed beyond linear theory");
+    let theory = match all.would_decide.iter().any(|open| is_beyond(&open)) {
+        true if request.scene.geometric_nonlinearity.is_some() => {
+            ", at a speed beyond what the scene simulates"
+        }
+        true => ", at a speed beyond linear theory",
+        false => "",
+    };
     let speed = rpm(worst.speed_rad_s);
     format!("Act: {place}at {speed} {value} passes its limit of {limit} by {above}{theory}.")
 }

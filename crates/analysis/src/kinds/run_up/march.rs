@@ -450,8 +450,7 @@ impl SoFar {
         self.largest_energy = self.largest_energy.max(energy.largest_energy());
         self.largest_energy_off = self.largest_energy_off.max(energy.residual() * energy.largest_energy());
         let bending_off = energy.stiffening_residual().map(|residual| residual * energy.largest_energy());
-        self.largest_bending_off =
-            bending_off.into_iter().chain(self.largest_bending_off).reduce(f64::max);
+        self.largest_bending_off = bending_off.into_iter().chain(self.largest_bending_off).reduce(f64::max);
     }
 
     fn gather(&mut self, of_frame: &[LargestOfRun]) {
