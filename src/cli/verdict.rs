@@ -69,7 +69,7 @@ impl fmt::Display for ShownVerdict {
             lines.insert(0, ["worst (rpm)", "where", "value", "against its limit"].map(str::to_owned));
         }
         for [speed, place, value, limit] in lines {
-            write!(f, "\n{}", format!("{speed:>12}  {place:<28}  {value:<44}  {limit}").trim_end())?;
+            write!(f, "\n{}", format!("{speed:>12}  {place:<28}  {value:<56}  {limit}").trim_end())?;
         }
         for open in self.would_decide.iter().filter(|_| self.verdict == VerdictWord::Undecided) {
             write!(f, "\nto decide: {} ({})", open.remedy, open.finding)?;

@@ -54,7 +54,7 @@ class Verdict:
         rows = [row for speed in self.worst for row in self._rows(speed)]
         if rows:
             rows.insert(0, _HEAD)
-        lines += [f"{rpm:>12}  {place:<28}  {value:<44}  {limit}".rstrip() for rpm, place, value, limit in rows]
+        lines += [f"{rpm:>12}  {place:<28}  {value:<56}  {limit}".rstrip() for rpm, place, value, limit in rows]
         return "\n".join(lines + self._remedies())
 
     def _repr_html_(self) -> str:
