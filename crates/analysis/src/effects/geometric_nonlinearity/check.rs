@@ -9,25 +9,35 @@ const AT: &str = "/scene/geometric_nonlinearity";
 
 pub(super) fn check(found: &mut Findings, request: &ResolvedSweep, facts: &ModelFacts) {
     let Some(asked) = &request.scene.geometric_nonlinearity else { return };
-    found.require(
-        facts.mesh.is_some(),
-        AT,
-        "the model has no mesh, from which the bending of second order is made: upload a package with elements, or leave this away",
-    );
-    found.require(
-        request.fields() != Some(false),
-        "/fields",
-        "the bending of second order is made from the rows of the basis: let them be stored",
-    );
-    found.require(
-        (1..=MOST_COORDINATES as u32).contains(&asked.coordinates),
-        &format!("{AT}/coordinates"),
-        format!("between 1 and {MOST_COORDINATES} coordinates"),
-    );
+    check_bending(found, (asked.coordinates, AT), request.fields(), facts);
     found.require(
         request.scene.friction.is_none(),
         "/scene/friction",
         "friction on blades that bend far is not known: leave it or `geometric_nonlinearity` away",
+    );
+}
+
+/// Checks the bending of second order in so many coordinates, asked for at a pointer.
+pub(crate) fn check_bending(
+    found: &mut Findings,
+    (coordinates, at): (u32, &str),
+    fields: Option<bool>,
+    facts: &ModelFacts,
+) {
+    found.require(
+        facts.mesh.is_some(),
+        at,
+        "the model has no mesh, from which the bending of second order is made: upload a package with elements, or leave this away",
+    );
+    found.require(
+        fields != Some(false),
+        "/fields",
+        "the bending of second order is made from the rows of the basis: let them be stored",
+    );
+    found.require(
+        (1..=MOST_COORDINATES as u32).contains(&coordinates),
+        &format!("{at}/coordinates"),
+        format!("between 1 and {MOST_COORDINATES} coordinates"),
     );
 }
 
