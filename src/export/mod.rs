@@ -2,6 +2,7 @@
 //! with names, by which they are put into other units.
 
 mod array;
+mod backbones;
 mod branches;
 mod campaign;
 mod campbell;

@@ -132,8 +132,8 @@ pub(super) struct Link {
     href: String,
     /// Relation of the linked thing: `self`, `interaction-map`, `critical-speeds`, `wheel-critical-speeds`, `verdict`, `level`, `forces`, `spectra`
     /// (with a `{index}` to fill in), `campbell`, `interference`, `branches`, `run-ups`, `spectrogram` (of the first run), `campaign`,
-    /// `work-precision`, `histories`, `report`, `archive` or `model`; where it is recorded, and not in lists of jobs, `stress` and
-    /// `fields`.
+    /// `work-precision`, `histories`, `report`, `archive` or `model`; where it is recorded, and not in lists of jobs, `stress`,
+    /// `fields` and `backbones`.
     rel: &'static str,
 }
 
@@ -185,7 +185,11 @@ impl JobDetail {
 
 /// Links of a job, including those of what it `records` beside the results of its kind.
 pub(super) fn links(id: JobId, kind: JobKind, model: Option<&str>, records: Recorded) -> Vec<Link> {
-    let recorded = [(records.stress, ("stress", "/stress")), (records.states, ("fields", "/fields"))];
+    let recorded = [
+        (records.stress, ("stress", "/stress")),
+        (records.states, ("fields", "/fields")),
+        (records.backbones, ("backbones", "/backbones")),
+    ];
     let recorded = recorded.iter().filter(|(wanted, _)| *wanted).map(|(_, link)| link);
     let model = model.map(|model| Link { href: format!("/v1/models/{model}"), rel: "model" });
     [("self", "")]

@@ -2,6 +2,7 @@
 
 mod access;
 pub mod archive;
+mod backbones;
 mod body;
 mod branches;
 mod campaigns;

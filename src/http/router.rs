@@ -19,10 +19,10 @@ use utoipa_axum::routes;
 
 use super::state::AppState;
 use super::{
-    access, archive, body, branches, campaigns, casings, contract, cross_site, events, extract, fields,
-    forces, health, histories, host, interference, jobs, kinds, level, looks, maps, mesh, metrics, models,
-    modes, openapi, principal, problem, report, results, run_ups, section, spectra, stream, stress, studies,
-    verdict, version, web, wheel,
+    access, archive, backbones, body, branches, campaigns, casings, contract, cross_site, events, extract,
+    fields, forces, health, histories, host, interference, jobs, kinds, level, looks, maps, mesh, metrics,
+    models, modes, openapi, principal, problem, report, results, run_ups, section, spectra, stream, stress,
+    studies, verdict, version, web, wheel,
 };
 
 /// Routes with their descriptions.
@@ -44,6 +44,7 @@ pub(super) fn routes() -> OpenApiRouter<AppState> {
         .routes(routes!(report::get_report))
         .routes(routes!(results::get_campbell))
         .routes(routes!(interference::get_interference))
+        .routes(routes!(backbones::get_backbones))
         .routes(routes!(maps::get_interaction_map))
         .routes(routes!(spectra::get_spectra))
         .routes(routes!(spectra::get_wear))

@@ -6,13 +6,12 @@ use super::engine::{Engine, Live};
 use super::error::Interruption;
 use super::finish;
 use super::progress::PhaseMonitor;
-use crate::analysis::kinds::kind::{Once, Reduction};
+use crate::analysis::kinds::kind::Once;
 
 /// Computes and stores the job.
 pub(super) async fn run(engine: &Engine, job: &Live, once: Arc<dyn Once>) -> Result<(), Interruption> {
-    let Reduction { model, modes_per_speed, fields } = once.reduction();
     let monitor = PhaseMonitor::reduction_of_once(job.watch.clone());
-    let reduced = engine.reductions.get((model, modes_per_speed), fields, monitor).await?;
+    let reduced = engine.reductions.of_once(once.reduction(), monitor).await?;
     let monitor = PhaseMonitor::after_reduction(job.watch.clone());
     let compute = {
         let once = Arc::clone(&once);

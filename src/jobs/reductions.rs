@@ -12,6 +12,7 @@ use super::progress::PhaseMonitor;
 use super::static_wheel::{self, StaticWheelError};
 use super::stress::Making;
 use crate::analysis::error::AnalysisError;
+use crate::analysis::kinds::kind::Reduction;
 use crate::analysis::monitor::Monitor;
 use crate::analysis::resolved::ResolvedSweep;
 use crate::analysis::run::{self, ReducedSector};
@@ -96,6 +97,16 @@ impl Reductions {
         monitor: PhaseMonitor,
     ) -> Result<Arc<ReducedSector>, Interruption> {
         self.reading(model, modes_per_speed, &Beside { fields, ..Beside::default() }, monitor).await
+    }
+
+    /// Reduction that a job of one computation rests on, with the bending of second order where that is wanted.
+    pub(super) async fn of_once(
+        &self,
+        wanted: Reduction<'_>,
+        monitor: PhaseMonitor,
+    ) -> Result<Arc<ReducedSector>, Interruption> {
+        let Reduction { model, modes_per_speed, fields, bending } = wanted;
+        self.reading(model, modes_per_speed, &Beside { fields, bending, ..Beside::default() }, monitor).await
     }
 
     /// Reduction that `sweep` runs on, with rows of its basis at the nodes of its sensors and the stress that it records.

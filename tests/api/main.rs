@@ -3,6 +3,7 @@
 mod accuracy;
 mod app;
 mod archive;
+mod backbones;
 mod bending;
 mod beside;
 mod bodies;

@@ -98,6 +98,7 @@ async fn what_belongs_to_one_owner_is_not_there_for_another() {
         "",
         "/events",
         "/campbell",
+        "/backbones",
         "/interaction-map",
         "/spectra/0",
         "/critical-speeds",

@@ -20,6 +20,7 @@ VIEWS = {
     "point": "#/jobs/{swept}?view=point&speed=4",
     "campbell": "#/jobs/{swept}?view=campbell",
     "modal-analysis": "#/jobs/{modal}",
+    "backbones": "#/jobs/{modal}?view=backbones",
     "interference": "#/jobs/{modal}?view=interference&speed=20000&lobes=2&from=18000&to=22000",
     "critical": "#/jobs/{swept}?view=critical",
     "critical-sensor": "#/jobs/{swept}?view=critical&of=sensor",
@@ -67,7 +68,7 @@ def places(service, model, swept):
     parameter = {"name": "damping", "at": ["/scene/damping/modal_ratio"], "from": 0.005, "to": 0.02, "levels": 2}
     campaign = case | {"speeds": again["speeds"], "parameters": [parameter], "design": {"kind": "grid"}, "limit": 0.5}
     del campaign["speed"], campaign["record"]
-    modal = {"model": model, "modes_per_speed": 3, "speeds": {"from": 0, "to": 26000, "count": 9, "unit": "rpm"}}
+    modal = {"model": model, "modes_per_speed": 3, "speeds": {"from": 0, "to": 26000, "count": 9, "unit": "rpm"}, "backbones": {"nodal_diameters": [0, 1, 2]}}
     asked = (
         ("modal", "/v1/modal-analyses", modal),
         ("study", "/v1/studies", study),

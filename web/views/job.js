@@ -35,6 +35,7 @@ const TABS = {
   modal_analysis: [
     ['campbell', 'Campbell', () => import('./job/campbell.js')],
     ['interference', 'Interference', () => import('./job/interference.js')],
+    ['backbones', 'Backbone curves', () => import('./job/backbones.js')],
   ],
   model_generation: [],
   study: [
@@ -68,7 +69,8 @@ function hasResults(job) {
 
 export async function show(main, { id, query }, signal) {
   const job = await readJob(id, signal);
-  const tabs = [...(TABS[job.kind] ?? []), ...FOR_ALL].filter(([name]) => name !== 'forces' || job.request.scene.contact);
+  const has = { forces: () => job.request.scene.contact, backbones: () => job.request.backbones };
+  const tabs = [...(TABS[job.kind] ?? []), ...FOR_ALL].filter(([name]) => !has[name] || has[name]());
   const tab = tabs.find(([name]) => name === query.get('view')) ?? tabs[0];
   const first = h('div');
   const state = h('div');

@@ -167,6 +167,7 @@ def test_modes_and_campbell_agree(client: rubmap.Client, swept: rubmap.Sweep, mo
         "modes_per_speed": 3,
         "speeds": {"from": 0, "to": 26000, "count": 5, "unit": "rpm"},
         "lobes": 2,
+        "backbones": {"nodal_diameters": [1]},
     }
     analysis = client.modal_analysis(request).submit().wait(progress=False)  # type: ignore[arg-type]
     campbell = analysis.campbell()
@@ -186,6 +187,12 @@ def test_modes_and_campbell_agree(client: rubmap.Client, swept: rubmap.Sweep, mo
     np.testing.assert_allclose(interference.attrs["speed_rpm"], 26000)
     assert interference.attrs["engine_orders"]["nodal_diameter"][:2] == [1, 2]
     plot.interference(interference)
+    backbones = analysis.backbones()
+    assert set(backbones["family"]) == {1, 2} and set(backbones["nodal_diameter"]) == {1}
+    begin = backbones[backbones["amplitude_mm"] == 0.0]["frequency_hz"]
+    np.testing.assert_allclose(begin, top.sel(nodal_diameter=1), rtol=1e-9)
+    assert len(backbones.attrs["ends"]["end"]) == 2
+    plot.backbones(backbones)
     assert 3 in {reduction["modes_per_speed"] for reduction in model.reductions}
     mesh = model.mesh(sector=0)
     assert mesh["position"].shape == (len(mesh["node"]), 3) and (mesh["contact"] > 0).sum() == 10

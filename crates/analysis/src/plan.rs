@@ -12,9 +12,10 @@ use crate::effects::casing::convert::{clearance_given, running_clearance};
 use crate::effects::symmetry::repeats::repeats;
 use crate::effects::symmetry::request::Symmetry;
 use crate::effects::table::planned;
+use crate::kinds::modal_analysis::backbones::curve_seconds;
 use crate::measured;
 use crate::model::{ModelFacts, ReducedSector};
-use crate::nonlinear::with_bending_cost;
+use crate::nonlinear::{bending_seconds, with_bending_cost};
 use crate::refine::most_added;
 use crate::request::{FamiliesBy, HistorySpeeds, Recorded, SweepDirection};
 use crate::resolve::recorded::{lines, revolutions};
@@ -145,6 +146,10 @@ pub(crate) fn plan_modal_analysis(
         coriolis: request.coriolis,
         ..Scene::default()
     };
+    let curves = request.backbones.as_ref().map_or(0.0, |asked| {
+        let count = asked.nodal_diameters.len() * request.families as usize;
+        bending_seconds(asked.coordinates, facts) + count as f64 * curve_seconds(asked.coordinates)
+    });
     let mut effects = planned(&scene);
     effects.retain(|effect| ["centrifugal_stiffening", "coriolis"].contains(&effect.name.as_str()));
     ModalAnalysisPlan {
@@ -154,7 +159,7 @@ pub(crate) fn plan_modal_analysis(
         basis_bytes_at_most: basis_bytes(facts, reduced, request.modes_per_speed(), request.fields()),
         speeds: speeds.len() as u32,
         nodal_diameters: harmonic_count(facts.sectors as usize) as u32,
-        computing_time_s: reduced.and_then(one),
+        computing_time_s: reduced.and_then(one).map(|frequencies| frequencies + curves),
         choice: None,
         warnings: warnings(&scene, facts, reduced),
         settings: request.clone().into(),

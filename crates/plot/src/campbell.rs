@@ -115,7 +115,7 @@ pub(super) fn name_families(families: usize, panel: &mut Panel) {
 }
 
 /// Adds a pen to the key of the drawing, and to the legend of the figure by a curve without points.
-fn explained(panel: &mut Panel, pen: Pen, words: &str) {
+pub(super) fn explained(panel: &mut Panel, pen: Pen, words: &str) {
     panel.sample(pen.sample(), words);
     panel.push(Curve::new(words, [None, None], pen));
 }

@@ -32,6 +32,7 @@
 
 mod around;
 mod axis;
+mod backbones;
 mod branch_line;
 mod branches;
 mod campaign;
@@ -101,6 +102,7 @@ mod window;
 mod work_precision;
 
 pub use around::around;
+pub use backbones::backbones;
 pub use branches::branches;
 pub use campaign::campaign;
 pub use campbell::campbell;

@@ -30,8 +30,8 @@ pub(in crate::cli) struct GetArgs {
     /// Job, or model for its mesh, modes and section: an id, the beginning of it, or a name
     #[arg(value_name = "JOB")]
     whose: String,
-    /// Result, as its path ends: verdict, level, interaction-map, critical-speeds, critical-speeds/wheel, spectra/20, campbell, interference, forces, stress, histories,
-    /// fields, wear/0, work-precision, casing (around the circumference), report, archive; of a model mesh, modes, section
+    /// Result, as its path ends: verdict, level, interaction-map, critical-speeds, critical-speeds/wheel, spectra/20, campbell, interference, backbones, forces, stress,
+    /// histories, fields, wear/0, work-precision, casing (around the circumference), report, archive; of a model mesh, modes, section
     #[arg(value_parser = result)]
     result: String,
     /// Parameters of the result, such as sensor=1 or units=rpm; all are in openapi.yaml

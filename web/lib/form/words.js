@@ -76,6 +76,12 @@ lobes|Lobes of the casing||Whose harmonics may drive the wheel.
 superharmonics|Harmonics of the lobes||Of the linear criterion, a list.
 families|Families of modes||Frequencies per nodal diameter.
 families_by|Families told by||Shape: a family keeps its shape over speed. Rank: by frequency at each speed.
+backbones|Backbone curves||Frequency of free vibration over its amplitude, at the highest speed. Needs a mesh.
+# backbones
+coordinates|Coordinates of a blade||
+nodal_diameters|Nodal diameters||Left out: all.
+largest_amplitude|Largest amplitude|L|Left out: twice the thickness of the blade at its tip.
+#
 operation|Operating ranges||Speeds at which the machine runs: the verdict is about them. Off: all speeds are judged.
 # operation
 ranges|Range||

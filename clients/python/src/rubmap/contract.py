@@ -40,6 +40,19 @@ class AssemblyPrice(TypedDict):
 AutoOr: TypeAlias = Literal["auto"] | int
 
 
+class BackbonePoint(TypedDict):
+    amplitude: float
+    change_percent: float
+    frequency_hz: float
+    harmonics_percent: float
+
+
+class BackbonesRequest(TypedDict, closed=True):
+    coordinates: NotRequired[int]
+    largest_amplitude: NotRequired[float | None]
+    nodal_diameters: NotRequired[list[int]]
+
+
 Bending: TypeAlias = Literal["kinematics", "full"]
 
 
@@ -1105,6 +1118,26 @@ Along = TypedDict(
 )
 
 
+class BackboneCurve(TypedDict):
+    complete: bool
+    component: Component
+    contact_node: int
+    end: str
+    family: int
+    nodal_diameter: int
+    passed: NotRequired[list[str]]
+    points: list[BackbonePoint]
+
+
+class Backbones(TypedDict):
+    coordinates: int
+    curves: list[BackboneCurve]
+    model: str
+    speed_rad_s: float
+    units: Units
+    version: str
+
+
 class Bifurcation(TypedDict):
     error: float
     half_peak_to_peak: list[float]
@@ -1875,6 +1908,7 @@ class MeshLook(TypedDict):
 
 class ModalAnalysisRequest(TypedDict, closed=True):
     accuracy: NotRequired[Accuracy | None]
+    backbones: NotRequired[BackbonesRequest | None]
     budget: NotRequired[Budget | None]
     coriolis: NotRequired[bool]
     families: NotRequired[int]

@@ -15,6 +15,7 @@ from matplotlib.colors import LogNorm, Normalize
 from .tables import RPM
 
 __all__ = [
+    "backbones",
     "branches",
     "campbell",
     "casing",
@@ -188,6 +189,21 @@ def casing(found: pd.DataFrame, ax: Axes | None = None) -> Axes:
     ax.set_xlabel(f"x, {length}")
     ax.set_ylabel(f"y, {length}")
     ax.set_title(f"contact node {found.columns[node]}, distance drawn {times:,.0f} times as large")
+    ax.legend(fontsize="small")
+    return ax
+
+
+def backbones(found: pd.DataFrame, ax: Axes | None = None) -> Axes:
+    """Amplitude over the change of the frequency, of :meth:`ModalAnalysis.backbones`: families in colours, nodal diameters by dashes."""
+    ax = _axes(ax)
+    column = next(name for name in found.columns if name.startswith("amplitude_"))
+    families = int(found["family"].max())
+    for _, curve in found.groupby(["nodal_diameter", "family"]):
+        diameter, family = int(curve["nodal_diameter"].iloc[0]), int(curve["family"].iloc[0])
+        look = {"color": _of_family(family, families), "linestyle": _DASHES[diameter % len(_DASHES)]}
+        ax.plot(curve["change_percent"], curve[column], label=f"family {family}, nodal diameter {diameter}", **look)
+    ax.set_xlabel("change of the natural frequency, %")
+    ax.set_ylabel(f"amplitude, {column.removeprefix('amplitude_')}")
     ax.legend(fontsize="small")
     return ax
 

@@ -259,6 +259,19 @@ class ModalAnalysis(Job):
         frame.attrs["engine_orders"] = pd.DataFrame(orders).to_dict("list")
         return frame
 
+    def backbones(self) -> pd.DataFrame:
+        """Backbone curves, a row for each point: frequency of free vibration over the amplitude at the contact node that moves most, in the unit that
+        ends its column's name.
+
+        Requests with ``backbones`` have them. ``attrs["ends"]`` says of every curve whether it reached the largest amplitude, or why not.
+        """
+        found = self.arrays("backbones")
+        of_points = {name: values for name, values in found.items() if not name.startswith("curves_")}
+        frame = table(of_points, "nodal_diameter")
+        ends = {name.removeprefix("curves_"): of for name, of in found.items() if name.startswith("curves_")}
+        frame.attrs["ends"] = pd.DataFrame(ends).to_dict("list")
+        return frame
+
     def crossings(self) -> pd.DataFrame:
         """Where superharmonics of the lobes cross natural frequencies: the linear criterion's critical speeds."""
         found = self.arrays("campbell")

@@ -248,6 +248,8 @@ pub struct Recorded {
     pub stress: bool,
     /// States of the whole wheel.
     pub states: bool,
+    /// Backbone curves.
+    pub backbones: bool,
 }
 
 /// Job: a request that was checked against its models, with every default filled in.
@@ -399,6 +401,8 @@ pub struct Reduction<'a> {
     pub modes_per_speed: u32,
     /// Whether the rows of its basis must be stored, must not, or are stored where the job reduces.
     pub fields: Option<bool>,
+    /// Number of coordinates in which second-order bending is wanted.
+    pub bending: Option<u32>,
 }
 
 /// Job that is one computation.

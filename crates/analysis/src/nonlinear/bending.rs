@@ -93,12 +93,17 @@ fn fields_at_once(sectors: usize, coordinates: usize) -> usize {
     2 * coordinates * (sectors / 2 + 1) + 2 * products(coordinates).count()
 }
 
-/// Cost of a sweep with that of making the bending of second order, if its scene has it: a factor, and a solution for each product and coordinate.
+/// Seconds that making the bending in so many coordinates takes: a factor, and a solution for each product and coordinate.
+pub(crate) fn bending_seconds(coordinates: u32, facts: &ModelFacts) -> f64 {
+    let solutions = f64::from(coordinates) + products(coordinates as usize).count() as f64;
+    relaxing_seconds(facts.own_dofs, 0) * (1.0 + solutions / SOLUTIONS_PER_FACTOR)
+}
+
+/// Cost of a sweep with that of making the bending of second order, if its scene has it.
 pub(crate) fn with_bending_cost(all: Estimate, request: &ResolvedSweep, facts: &ModelFacts) -> Estimate {
     let (Some(mesh), Some(coordinates)) = (&facts.mesh, request.bending_coordinates()) else { return all };
+    let seconds = bending_seconds(coordinates, facts);
     let coordinates = coordinates as usize;
-    let solutions = (coordinates + products(coordinates).count()) as f64;
-    let seconds = relaxing_seconds(facts.own_dofs, 0) * (1.0 + solutions / SOLUTIONS_PER_FACTOR);
     let once = CostRange { free: seconds, contact: seconds };
     let (dofs, fields) = (facts.own_dofs as usize, fields_at_once(facts.sectors as usize, coordinates));
     all.followed_by(Estimate {

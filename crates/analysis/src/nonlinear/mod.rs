@@ -11,8 +11,8 @@ mod quartic;
 mod relax;
 mod sector;
 
-pub(crate) use bending::with_bending_cost;
 pub use bending::{BasisProjection, bending_bytes, blade_bending};
+pub(crate) use bending::{bending_seconds, with_bending_cost};
 pub use measure::{LargestMotion, MeasuredMotion, NotMeasured, measure, measuring_bytes};
 pub(crate) use measure::{Neglected, PHASE, expected_bytes, relaxing_seconds};
 

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use faer::linalg::solvers::Solve;
-use faer::{Col, Mat};
+use faer::{Col, Mat, c64};
 use nalgebra::Vector3;
 
 use super::condense::{Condensed, condense, held};
@@ -14,6 +14,7 @@ use rubmap_solid::green_lagrange::BUBBLES;
 use rubmap_solid::material::Material;
 use rubmap_solid::mesh::{Element, ElementSet, SectorMesh};
 use rubmap_solid::topology::Topology;
+use rubmap_wheel::dynamics::bending::backbone::{BackboneEnd, FreeMode, FreeModes, FreeWheel};
 use rubmap_wheel::dynamics::nodes::{NodeDof, SectorNode};
 
 const YOUNG: f64 = 100e3;
@@ -232,13 +233,8 @@ fn a_cantilever_stays_linear_and_draws_its_tip_back() {
     assert!((back / -drawn - 1.0).abs() < 0.02, "{back} {drawn}");
 }
 
-#[test]
-fn a_strip_clamped_at_both_ends_stiffens_as_its_closed_form() {
-    let (length, thickness) = (100.0, 1.0);
-    let (mesh, nodes) = strip(ElementKind::C3D20, [length, 2.0, thickness], 16, true);
-    let sector = HeldSector::new(&mesh, &nodes).unwrap();
-    let relaxation = Relaxation::new(&sector).unwrap();
-    let bending = out_of_plane(&sector, &relaxation);
+/// Energy of the membrane over that of bending in the lowest mode of a clamped–clamped beam, at a displacement of 1 in its middle.
+fn clamped_beam(length: f64, thickness: f64) -> f64 {
     // Clamped–clamped beam: cosh βx − cos βx − σ (sinh βx − sin βx).
     let (beta, sigma) = (4.730_040_744_862_704 / length, 0.982_502_214_576_238);
     let [slope, curvature] = [
@@ -255,13 +251,23 @@ fn a_strip_clamped_at_both_ends_stiffens_as_its_closed_form() {
         (0..points).map(|k| at(k).powi(2)).sum::<f64>() * length / points as f64
     };
     let (slope, curvature) = (squared(slope), squared(curvature));
+    // Half EI ∫w″² of bending, EA/(8L) (∫w′²)² of the membrane.
+    let bent = 0.5 * thickness.powi(3) / 12.0 * curvature;
+    thickness / (8.0 * length) * slope * slope / bent
+}
+
+#[test]
+fn a_strip_clamped_at_both_ends_stiffens_as_its_closed_form() {
+    let (length, thickness) = (100.0, 1.0);
+    let (mesh, nodes) = strip(ElementKind::C3D20, [length, 2.0, thickness], 16, true);
+    let sector = HeldSector::new(&mesh, &nodes).unwrap();
+    let relaxation = Relaxation::new(&sector).unwrap();
+    let bending = out_of_plane(&sector, &relaxation);
+    let beam = clamped_beam(length, thickness);
     for amplitude in [0.25, 0.5, 1.0, 2.0] {
-        // Half EI ∫w″² of bending, EA/(8L) (∫w′²)² of the membrane.
-        let bent = 0.5 * thickness.powi(3) / 12.0 * curvature * amplitude * amplitude;
-        let membrane = thickness / (8.0 * length) * (slope * amplitude * amplitude).powi(2);
         let field = mode(&sector, &relaxation, bending[0], amplitude);
         let found = relaxation.relax(&field).unwrap();
-        let (excess, expected) = (found.relaxed / found.linear - 1.0, membrane / bent);
+        let (excess, expected) = (found.relaxed / found.linear - 1.0, beam * amplitude * amplitude);
         println!(
             "strip {amplitude}: raw {} κ {excess} closed {expected}, {} steps",
             found.raw / found.linear,
@@ -317,6 +323,31 @@ fn condensed_energy_is_that_of_the_relaxed_field_and_of_the_closed_form() {
     };
     let drawn = 0.5 * (0..points).map(|k| slope(k).powi(2)).sum::<f64>() * tip / points as f64;
     assert!((back / -drawn - 1.0).abs() < 0.02, "{back} {drawn}");
+}
+
+#[test]
+fn the_backbone_of_a_strip_clamped_at_both_ends_is_its_closed_form() {
+    let (length, thickness) = (100.0, 1.0);
+    let (condensed, linear, _) = condensed_mode(true, [length, thickness], 1.0);
+    // The shape has a displacement of 1: its coordinate is that of the middle, and its modal mass follows from ½ω²m = `linear`.
+    let omega = 3.0;
+    let row = Mat::from_fn(1, 1, |_, _| c64::new(omega / (2.0 * linear).sqrt(), 0.0));
+    let modes = FreeModes { omega: vec![omega], rows: row.clone(), contact: row };
+    let wheel = FreeWheel { sectors: 1, modes: vec![modes], potential: &condensed.potential };
+    let curve = wheel.backbone(FreeMode { nodal_diameter: 0, rank: 0 }, 2.0 * thickness);
+    assert_eq!(curve.end, BackboneEnd::LargestAmplitude);
+    let beam = clamped_beam(length, thickness);
+    for point in &curve.points[4..] {
+        let squared = (point.omega / omega).powi(2);
+        // A cubic force alone, ε = 2κ, x = a cos ωt + b cos 3ωt: b (1 − 9ω²) + ε/4 (a³ + 6a²b) = 0 and ω² = 1 + ¾ε (a² + ab + 2b²).
+        let (a, epsilon) = (point.amplitude, 2.0 * beam);
+        let third = 0.25 * epsilon * a.powi(3) / (9.0 * squared - 1.0 - 1.5 * epsilon * a * a);
+        let expected = 0.75 * epsilon * (a * a + a * third + 2.0 * third * third);
+        let off = (squared - 1.0) / expected - 1.0;
+        assert!(off.abs() < 0.01, "{a}: {squared} {expected} {off}");
+    }
+    let last = curve.points.last().unwrap();
+    assert!(last.omega > 1.6 * omega, "{last:?}");
 }
 
 #[test]

@@ -19,7 +19,7 @@ pub use crate::kinds::campaign::request::{
     Threshold,
 };
 pub use crate::kinds::case_study::request::{CaseSpeed, CaseStudyRequest, CaseStudySettings};
-pub use crate::kinds::modal_analysis::request::ModalAnalysisRequest;
+pub use crate::kinds::modal_analysis::request::{BackbonesRequest, ModalAnalysisRequest};
 pub use crate::kinds::run_up::request::{
     RunUpIntegration, RunUpRequest, RunUpSettings, RunUpSpeed, SpeedCourse, SpeedPoint,
 };

@@ -6,6 +6,7 @@ use crate::discretisation::most_samples;
 use crate::effects::casing::check::{check_lobe_count, check_ramp, check_steps};
 use crate::effects::coriolis;
 use crate::error::Violation;
+use crate::kinds::modal_analysis::backbones;
 use crate::model::ModelFacts;
 use crate::request::auto_or::MOST_STEPS;
 use crate::request::{
@@ -80,7 +81,7 @@ pub fn resolve_modal_analysis(
         "/accuracy/of",
         "a modal analysis has no stress: its error is that of its frequencies, so leave this away",
     );
-    let request = ResolvedModalAnalysis::of(request, &mut |violation| found.0.push(violation));
+    let mut request = ResolvedModalAnalysis::of(request, &mut |violation| found.0.push(violation));
     check_modes(&mut found, request.modes_per_speed());
     check_speeds(&mut found, &request.speeds, facts, facts.has_stiffening(), true);
     let families = 1..=limits::FAMILIES;
@@ -113,6 +114,10 @@ pub fn resolve_modal_analysis(
     }
     check_lobe_count(&mut found, request.lobes, "/lobes");
     coriolis::check::check(&mut found, request.coriolis, "/coriolis", facts);
+    let fields = request.fields;
+    if let Some(asked) = &mut request.backbones {
+        backbones::resolve(&mut found, asked, fields, facts);
+    }
     found.finish(request)
 }
 

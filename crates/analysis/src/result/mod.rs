@@ -30,6 +30,7 @@ pub use crate::kinds::campaign::result::{
     DifferenceVerdict, LimitsMet, ParameterSensitivity, Sensitivities, ThresholdShare, severity_column,
     severity_unit,
 };
+pub use crate::kinds::modal_analysis::backbone_curves::{BackboneCurve, BackbonePoint, Backbones};
 pub use crate::kinds::modal_analysis::interference::{
     AskedInterference, FoldedOrder, Interference, InterferingMode, NearestOrder,
 };

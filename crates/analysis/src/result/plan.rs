@@ -255,7 +255,7 @@ pub struct ModalAnalysisPlan {
     pub speeds: u32,
     /// Eigenproblems solved at each speed, one a nodal diameter.
     pub nodal_diameters: u32,
-    /// Computing time of the frequencies, s, from those of one speed; crossings cost a few more. Absent while the reduction is
+    /// Computing time of the frequencies, s, from those of one speed, and of backbone curves; crossings cost a few more. Absent while the reduction is
     /// to be computed or where that speed has none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub computing_time_s: Option<f64>,

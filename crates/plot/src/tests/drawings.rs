@@ -10,9 +10,9 @@ use super::fixtures::{contact, recorded, sector, spectra, worn};
 use super::impeller::{SECTORS, impeller};
 use super::passed::{many_rates, passed, stayed, through_points};
 use super::pens::svg::{
-    around, branches, campbell, campbell_fixed_frame, critical_speeds, error_over_step, fixed_frame_map,
-    force_map, haigh, histories, interaction_map, map_sheet, run_ups, section, spectrogram, spectrum,
-    speed_histories, trajectories, wear_map, work_precision,
+    around, backbones, branches, campbell, campbell_fixed_frame, critical_speeds, error_over_step,
+    fixed_frame_map, force_map, haigh, histories, interaction_map, map_sheet, run_ups, section, spectrogram,
+    spectrum, speed_histories, trajectories, wear_map, work_precision,
 };
 use super::stresses::{of_sweep, stressed_critical, stressed_map};
 use super::studies::{RUNS, first_revolutions, study};
@@ -103,6 +103,11 @@ fn all() -> Vec<Drawing> {
             campbell_fixed_frame(&modes()),
             "Campbell diagram in the fixed frame",
             &["rotational speed Ω, rpm", "frequency in the fixed frame, Hz"],
+        ),
+        (
+            backbones(&super::backbones()),
+            "Backbone curves at 14,000 rpm",
+            &["change of the natural frequency, %", "amplitude where the mode moves most, mm"],
         ),
         (
             critical_speeds(&critical()),

@@ -37,6 +37,7 @@ pub(super) fn all() -> Vec<(String, Figure)> {
     }
     all.push(("campbell".to_owned(), figure::campbell(&modes())));
     all.push(("interference".to_owned(), figure::interference(&super::interference::of(&modes(), 4))));
+    all.push(("backbones".to_owned(), figure::backbones(&super::backbones())));
     all.push(("campbell-waves".to_owned(), figure::campbell(&waves())));
     all.push(("critical-speeds".to_owned(), figure::critical_speeds(&critical())));
     all.push(("critical-speeds-validity".to_owned(), figure::critical_speeds(&stressed_critical())));

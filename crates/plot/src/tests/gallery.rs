@@ -10,9 +10,9 @@ use super::fixtures::{contact, recorded, sector, spectra, worn};
 use super::impeller::{SECTORS, impeller};
 use super::passed::{many_rates, passed, stayed, through_points};
 use super::pens::svg::{
-    branches, campbell, campbell_fixed_frame, critical_speeds, error_over_step, force_map, haigh, histories,
-    interaction_map, interference, map_sheet, run_ups, section, spectrogram, spectrum, speed_histories,
-    trajectories, wear_map, work_precision,
+    backbones, branches, campbell, campbell_fixed_frame, critical_speeds, error_over_step, force_map, haigh,
+    histories, interaction_map, interference, map_sheet, run_ups, section, spectrogram, spectrum,
+    speed_histories, trajectories, wear_map, work_precision,
 };
 use super::stresses::{of_sweep, stressed_critical, stressed_map};
 use super::studies::{RUNS, first_revolutions, study};
@@ -77,6 +77,7 @@ fn gallery() {
     save(&folder, "map-window", &zoomed);
     save(&folder, "campbell", &campbell(&modes));
     save(&folder, "interference", &interference(&super::interference::of(&super::modes(), 4)));
+    save(&folder, "backbones", &backbones(&super::backbones()));
     save(&folder, "interference-waves", &interference(&super::interference::of(&super::waves(), 5)));
     save(&folder, "campbell-fixed-frame", &campbell_fixed_frame(&modes));
     save(&folder, "critical-speeds", &critical_speeds(&critical));

@@ -26,7 +26,7 @@ use serde_json::{Value, json};
 
 use super::{LevelColour, VerticalAxis, Window};
 use pens::svg::{campbell, interaction_map};
-use rubmap_analysis::result::{Campbell, CriticalSpeeds, InteractionMap, WaveTables};
+use rubmap_analysis::result::{Backbones, Campbell, CriticalSpeeds, InteractionMap, WaveTables};
 
 fn rad_s(rpm: f64) -> f64 {
     rpm * TAU / 60.0
@@ -115,6 +115,26 @@ fn modes() -> Campbell {
         "settings": {"model": "0123456789abcdef", "speeds": {"values": SPEEDS_RPM, "unit": "rpm"}},
         "wall_time_s": 0.0, "version": "0",
     }))
+    .unwrap()
+}
+
+/// Curves of three modes, one of which hardens, one softens, and one ends at half the amplitude.
+fn backbones() -> Backbones {
+    let point = |step: u32, change: f64| {
+        let amplitude = 0.1 * f64::from(step);
+        let change = change * amplitude * amplitude;
+        json!({"amplitude": amplitude, "frequency_hz": 400.0 + 4.0 * change, "change_percent": change, "harmonics_percent": 1e-7})
+    };
+    let curve = |(i, family, change, last): (u32, u32, f64, u32)| {
+        let end = if last == 12 { "the largest amplitude is reached" } else { "no larger motion was found" };
+        json!({"nodal_diameter": i, "family": family, "contact_node": 0, "component": "tangential", "complete": last == 12, "end": end,
+            "points": (0..=last).map(|step| point(step, change)).collect::<Vec<_>>()})
+    };
+    let curves = [(1, 1, 4.0, 12), (1, 2, -1.5, 12), (2, 1, 6.0, 6)].map(curve);
+    serde_json::from_value(
+        json!({"speed_rad_s": rad_s(14_000.0), "coordinates": 4, "curves": curves, "units": units(),
+        "model": "0123456789abcdef", "version": "0"}),
+    )
     .unwrap()
 }
 

@@ -5,8 +5,9 @@ use crate::{
     VerticalAxis, Window,
 };
 use rubmap_analysis::result::{
-    Branches, Campaign, Campbell, CriticalSpeeds, ForceMap, InteractionMap, Interference, LimitKind, Point,
-    Quantity, RunUps, SectorGeometry, SpeedHistories, SpeedSpectra, SweepLevel, SweepStress, WearMap,
+    Backbones, Branches, Campaign, Campbell, CriticalSpeeds, ForceMap, InteractionMap, Interference,
+    LimitKind, Point, Quantity, RunUps, SectorGeometry, SpeedHistories, SpeedSpectra, SweepLevel,
+    SweepStress, WearMap,
 };
 use rubmap_analysis::run::{Histories, WorkPrecision};
 use rubmap_wheel::dynamics::sector::Units;
@@ -55,6 +56,7 @@ macro_rules! maps {
 
 pens! {
     crate::around => around(of: &SectorGeometry);
+    crate::backbones => backbones(of: &Backbones);
     crate::branches => branches(of: &Branches, sensor: usize, marched: &[Point]);
     crate::campaign => campaign(of: &Campaign, parameter: usize);
     crate::campbell => campbell(of: &Campbell);

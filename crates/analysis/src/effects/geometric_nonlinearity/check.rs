@@ -9,26 +9,38 @@ const AT: &str = "/scene/geometric_nonlinearity";
 
 pub(super) fn check(found: &mut Findings, request: &ResolvedSweep, facts: &ModelFacts) {
     let Some(asked) = &request.scene.geometric_nonlinearity else { return };
-    found.require(
-        facts.mesh.is_some(),
-        AT,
-        "this effect is computed from the mesh of the model, which has none: upload a package with elements, or remove `geometric_nonlinearity` from the \
-         scene",
-    );
-    found.require(
-        request.fields() != Some(false),
-        "/fields",
-        "`scene.geometric_nonlinearity` needs the fields of the whole wheel: remove `fields` or set it to true, or remove the effect from the scene",
-    );
-    found.require(
-        (1..=MOST_COORDINATES as u32).contains(&asked.coordinates),
-        &format!("{AT}/coordinates"),
-        format!("between 1 and {MOST_COORDINATES} coordinates"),
-    );
+    check_bending(found, (asked.coordinates, AT), request.fields(), facts);
     found.require(
         request.scene.friction.is_none(),
         "/scene/friction",
         "friction cannot be combined with blades that bend far: remove `friction` or `geometric_nonlinearity` from the scene",
+    );
+}
+
+/// Checks the bending of second order in so many coordinates, asked for at a pointer.
+pub(crate) fn check_bending(
+    found: &mut Findings,
+    (coordinates, at): (u32, &str),
+    fields: Option<bool>,
+    facts: &ModelFacts,
+) {
+    found.require(
+        facts.mesh.is_some(),
+        at,
+        "the bending of blades is computed from the mesh of the model, which has none: upload a package with elements, or remove this",
+    );
+    found.require(
+        fields != Some(false),
+        "/fields",
+        format!(
+            "`{}` needs the fields of the whole wheel: remove `fields` or set it to true",
+            at[1..].replace('/', ".")
+        ),
+    );
+    found.require(
+        (1..=MOST_COORDINATES as u32).contains(&coordinates),
+        &format!("{at}/coordinates"),
+        format!("between 1 and {MOST_COORDINATES} coordinates"),
     );
 }
 

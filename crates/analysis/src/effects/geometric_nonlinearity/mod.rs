@@ -2,7 +2,7 @@
 
 use crate::effects::effect::{Acts, Chain, Check, Effect, Repeats};
 
-mod check;
+pub(crate) mod check;
 mod convert;
 mod price;
 mod record;

@@ -114,7 +114,7 @@ impl ResolvedJob for ResolvedCaseStudy {
     }
 
     fn records(&self) -> Recorded {
-        Recorded { stress: false, states: self.records_states() }
+        Recorded { states: self.records_states(), ..Recorded::default() }
     }
 
     fn plan(&self, grounds: &Grounds) -> serde_json::Result<Plan> {

@@ -7,8 +7,9 @@ use crate::kinds::document::Document;
 #[cfg(feature = "schema")]
 use crate::kinds::kind::Shape;
 use crate::kinds::kind::{
-    self, GivenModel, Kind, OfOneModel, Once, Reduction, ResolvedJob, ToChoose, Units, Words, Work,
+    self, GivenModel, Kind, OfOneModel, Once, Recorded, Reduction, ResolvedJob, ToChoose, Units, Words, Work,
 };
+use crate::kinds::modal_analysis::backbones::backbones;
 use crate::kinds::modal_analysis::compute::modal_analysis;
 use crate::kinds::plan::{Grounds, Plan};
 use crate::model::ReducedSector;
@@ -45,6 +46,9 @@ pub static MODAL_ANALYSIS: Kind = Kind {
 
 /// Campbell diagram.
 pub const CAMPBELL: Document<'static> = Document::only("campbell");
+
+/// Backbone curves, where they are asked for.
+pub const BACKBONES: Document<'static> = Document::only("backbones");
 
 impl OfOneModel for ModalAnalysisRequest {
     const KIND: &'static Kind = &MODAL_ANALYSIS;
@@ -93,6 +97,10 @@ impl ResolvedJob for ResolvedModalAnalysis {
         self.is_sought().then_some(ToChoose::Modes(self))
     }
 
+    fn records(&self) -> Recorded {
+        Recorded { backbones: self.backbones.is_some(), ..Recorded::default() }
+    }
+
     fn plan(&self, grounds: &Grounds) -> serde_json::Result<Plan> {
         let model = &grounds.models[0];
         let plan = plan_modal_analysis(self, &model.facts, model.reduced.as_deref());
@@ -110,7 +118,12 @@ impl ResolvedJob for ResolvedModalAnalysis {
 
 impl Once for ResolvedModalAnalysis {
     fn reduction(&self) -> Reduction<'_> {
-        Reduction { model: self.model(), modes_per_speed: self.modes_per_speed(), fields: self.fields() }
+        Reduction {
+            model: self.model(),
+            modes_per_speed: self.modes_per_speed(),
+            fields: self.fields(),
+            bending: self.bending_coordinates(),
+        }
     }
 
     fn compute(
@@ -119,6 +132,9 @@ impl Once for ResolvedModalAnalysis {
         monitor: &dyn Monitor,
     ) -> Result<serde_json::Result<Vec<(Document<'static>, String)>>, AnalysisError> {
         let campbell = modal_analysis(reduced, self, monitor)?;
-        Ok(kind::text(&campbell).map(|text| vec![(CAMPBELL, text)]))
+        let curves = backbones(reduced, self, &campbell, monitor)?;
+        let curves = curves.map(|curves| kind::text(&curves).map(|text| (BACKBONES, text)));
+        let all = [Some(kind::text(&campbell).map(|text| (CAMPBELL, text))), curves];
+        Ok(all.into_iter().flatten().collect())
     }
 }

@@ -1,5 +1,7 @@
 //! Modal analyses: natural frequencies over speed, and the linear interaction criterion.
 
+pub mod backbone_curves;
+pub(crate) mod backbones;
 pub(crate) mod compute;
 pub mod interference;
 pub(crate) mod kind;
@@ -7,4 +9,4 @@ pub mod request;
 pub mod resolved;
 pub mod result;
 
-pub use kind::{CAMPBELL, MODAL_ANALYSIS};
+pub use kind::{BACKBONES, CAMPBELL, MODAL_ANALYSIS};

@@ -46,6 +46,9 @@ pub struct ModalAnalysisRequest {
     pub coriolis: bool,
     /// Speeds of the Campbell diagram: every range and list ascends, several are merged.
     pub speeds: Speeds,
+    /// Backbone curves.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub backbones: Option<BackbonesRequest>,
     /// Accuracy to reach, in place of `modes_per_speed`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub accuracy: Option<Accuracy>,
@@ -55,6 +58,28 @@ pub struct ModalAnalysisRequest {
     /// Whether the rows of the reduction's basis are stored, as in a sweep.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fields: Option<bool>,
+}
+
+/// Backbone curves: frequency of free vibration over its amplitude at the highest speed of the analysis, with the bending of second order of
+/// `geometric_nonlinearity`. For models with a mesh.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[serde(deny_unknown_fields)]
+pub struct BackbonesRequest {
+    /// Number of coordinates of a blade, 1 to 8, as in `geometric_nonlinearity`.
+    #[serde(default = "default_coordinates")]
+    #[cfg_attr(feature = "schema", schema(minimum = 1, maximum = 8, default = 4))]
+    pub coordinates: u32,
+    /// Nodal diameters; all without them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub nodal_diameters: Vec<u32>,
+    /// Amplitude at which curves end, a length of the model; default twice the thickness of the blade at its tip.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub largest_amplitude: Option<f64>,
+}
+
+fn default_coordinates() -> u32 {
+    4
 }
 
 fn default_families() -> u32 {

@@ -3,8 +3,8 @@
 use serde::Serialize;
 
 use crate::error::Violation;
-use crate::request::ModalAnalysisRequest;
 use crate::request::families::FamiliesBy;
+use crate::request::{BackbonesRequest, ModalAnalysisRequest};
 use crate::resolved::knobs::Modes;
 use crate::resolved::speeds::ResolvedSpeeds;
 
@@ -21,6 +21,7 @@ pub struct ResolvedModalAnalysis {
     pub(crate) max_engine_order: u32,
     pub(crate) coriolis: bool,
     pub(crate) speeds: ResolvedSpeeds,
+    pub(crate) backbones: Option<BackbonesRequest>,
     pub(crate) fields: Option<bool>,
 }
 
@@ -41,6 +42,7 @@ impl ResolvedModalAnalysis {
             max_engine_order: asked.max_engine_order,
             coriolis: asked.coriolis,
             speeds,
+            backbones: asked.backbones,
             fields: asked.fields,
         }
     }
@@ -80,6 +82,11 @@ impl ResolvedModalAnalysis {
         &self.speeds
     }
 
+    /// Number of coordinates in which blades bend far; none without backbone curves.
+    pub fn bending_coordinates(&self) -> Option<u32> {
+        self.backbones.as_ref().map(|asked| asked.coordinates)
+    }
+
     /// Whether the rows of the reduction's basis must be stored, must not, or are stored where the analysis reduces.
     pub fn fields(&self) -> Option<bool> {
         self.fields
@@ -104,6 +111,7 @@ impl From<ResolvedModalAnalysis> for ModalAnalysisRequest {
             max_engine_order: analysis.max_engine_order,
             coriolis: analysis.coriolis,
             speeds: analysis.speeds.lists().clone(),
+            backbones: analysis.backbones,
             accuracy,
             budget,
             fields: analysis.fields,

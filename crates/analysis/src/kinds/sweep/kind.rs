@@ -132,7 +132,8 @@ impl ResolvedJob for ResolvedSweep {
     }
 
     fn records(&self) -> Recorded {
-        Recorded { stress: self.stress_outside().is_some(), states: self.records_states() }
+        let (stress, states) = (self.stress_outside().is_some(), self.records_states());
+        Recorded { stress, states, ..Recorded::default() }
     }
 
     fn plan(&self, grounds: &Grounds) -> serde_json::Result<Plan> {

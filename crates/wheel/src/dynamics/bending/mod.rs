@@ -8,6 +8,7 @@
 //!
 //! V is what remains of the cubic and the quartic part of the strain energy once everything that carries no motion has followed statically.
 
+pub mod backbone;
 mod potential;
 
 use faer::{Mat, c64};

@@ -50,6 +50,43 @@ impl Potential {
         self.energies(pulp::Scalar, &padded(p))
     }
 
+    /// Force −∂V/∂p at `p`.
+    pub fn force(&self, p: &[f64]) -> Vec<f64> {
+        self.forces(pulp::Scalar, &padded(p))[..self.coordinates].to_vec()
+    }
+
+    /// Stiffness ∂²V/∂p² at `p`.
+    pub fn stiffness(&self, p: &[f64]) -> Mat<f64> {
+        let (m, count) = (self.coordinates, self.products.len());
+        let q = self.products_of(pulp::Scalar, &padded(p));
+        let mut stiffness = Mat::zeros(m, m);
+        // ∂q_a/∂p has two entries, or one twice.
+        let slopes = |a: usize| {
+            let (j, k) = self.products[a];
+            [(j, p[k]), (k, p[j])]
+        };
+        for (a, &(j, k)) in self.products.iter().enumerate() {
+            let cubic = &self.cubic[a * m..][..m];
+            let quartic = &self.quartic[a * count..][..count];
+            let of_cubic: f64 = cubic.iter().zip(p).map(|(b, p)| b * p).sum();
+            let slope = of_cubic + quartic.iter().zip(&q).map(|(a, q)| a * q).sum::<f64>();
+            stiffness[(j, k)] += slope;
+            stiffness[(k, j)] += slope;
+            for (row, by) in slopes(a) {
+                for (column, &cubic) in cubic.iter().enumerate() {
+                    stiffness[(row, column)] += by * cubic;
+                    stiffness[(column, row)] += by * cubic;
+                }
+                for (b, &quartic) in quartic.iter().enumerate() {
+                    for (column, other) in slopes(b) {
+                        stiffness[(row, column)] += by * quartic * other;
+                    }
+                }
+            }
+        }
+        stiffness
+    }
+
     /// Energy V of each lane of the coordinates `p`.
     #[inline(always)]
     pub(crate) fn energies<S: Simd>(&self, simd: S, p: &[S::f64s; MOST_COORDINATES]) -> S::f64s {
@@ -117,7 +154,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn force_is_the_derivative_of_the_energy() {
+    fn force_and_stiffness_are_derivatives_of_the_energy() {
         let noise = |seed: usize| (seed as f64 * 12.9898).sin();
         for m in 1..5 {
             let of_products = products(m).count();
@@ -137,6 +174,20 @@ mod tests {
                 let h = 0.1;
                 let slope = (8.0 * (at(h) - at(-h)) - (at(2.0 * h) - at(-2.0 * h))) / (12.0 * h);
                 assert!((force[j] + slope).abs() < 1e-12, "{m} {j}: {} {slope}", force[j]);
+            }
+            let stiffness = potential.stiffness(&p);
+            for column in 0..m {
+                let at = |by: f64| {
+                    let mut moved = p.clone();
+                    moved[column] += by;
+                    potential.force(&moved)
+                };
+                let h = 0.1;
+                let [a, b, c, d] = [-2.0, -1.0, 1.0, 2.0].map(|steps| at(steps * h));
+                for row in 0..m {
+                    let slope = (8.0 * (c[row] - b[row]) - (d[row] - a[row])) / (12.0 * h);
+                    assert!((stiffness[(row, column)] + slope).abs() < 1e-11, "{m} {row} {column}");
+                }
             }
         }
     }

@@ -1,0 +1,331 @@
+//! Balance of the harmonics of a free motion, by Newton's method.
+
+use std::f64::consts::TAU;
+
+use faer::linalg::solvers::Solve;
+use faer::{Mat, c64};
+
+use super::end::{BackboneEnd, Resonance};
+use super::free_wheel::{FreeMode, FreeModes, FreeWheel};
+
+/// Step of Newton's method, relative, at which a motion is found: its error is of the order of the square.
+const CONVERGED: f64 = 1e-9;
+
+/// Number of steps after which Newton's method is given up: from a neighbour it takes three or four.
+const ITERATIONS: usize = 12;
+
+/// Amplitude of a mode over that of the curve above which a harmonic that passes its frequency is told.
+const TAKES_PART: f64 = 1e-3;
+
+/// Distance of a harmonic from the frequency of a mode, relative, within which they are said to be in resonance.
+const NEAR: f64 = 0.05;
+
+/// Motion of a sector: harmonics P_h of its coordinates, and ω².
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Series {
+    /// P_h, `[harmonic][coordinate]`, h from 0 on.
+    pub(super) harmonics: Vec<Vec<c64>>,
+    /// Square of the angular frequency.
+    pub(super) omega_squared: f64,
+}
+
+impl Series {
+    /// Motion with harmonics up to `count`: cut, or zero above.
+    pub(super) fn of(&self, count: usize) -> Self {
+        let mut harmonics = self.harmonics.clone();
+        let coordinates = harmonics[0].len();
+        harmonics.resize(count + 1, vec![c64::ZERO; coordinates]);
+        Self { harmonics, ..*self }
+    }
+
+    /// Motion that lies `share` of the way from `before` to here beyond this one.
+    pub(super) fn extrapolated(&self, before: &Self, share: f64) -> Self {
+        let mut next = self.clone();
+        for (h, harmonic) in next.harmonics.iter_mut().enumerate() {
+            let Some(before) = before.harmonics.get(h) else { continue };
+            harmonic.iter_mut().zip(before).for_each(|(p, b)| *p += (*p - *b) * share);
+        }
+        next.omega_squared += share * (self.omega_squared - before.omega_squared);
+        next
+    }
+
+    /// Coordinates at the phase ωt.
+    pub(super) fn at(&self, phase: f64) -> Vec<f64> {
+        let mut p = vec![0.0; self.harmonics[0].len()];
+        for (h, harmonic) in self.harmonics.iter().enumerate() {
+            let turn = turn(h as f64 * phase);
+            p.iter_mut().zip(harmonic).for_each(|(p, part)| *p += (part * turn).re);
+        }
+        p
+    }
+}
+
+fn turn(angle: f64) -> c64 {
+    c64::new(angle.cos(), angle.sin())
+}
+
+/// Equations of a free motion that begins with a mode.
+#[derive(Debug)]
+pub(super) struct Balance<'a> {
+    pub(super) wheel: &'a FreeWheel<'a>,
+    mode: FreeMode,
+    /// Column R_t of the mode.
+    column: Vec<c64>,
+    /// ω_t².
+    linear: f64,
+}
+
+/// Modes that a harmonic moves.
+pub(super) struct Moved<'a> {
+    pub(super) nodal_diameter: usize,
+    pub(super) modes: &'a FreeModes,
+    pub(super) conjugate: bool,
+    /// Mode whose amplitude is given.
+    pub(super) left_out: Option<usize>,
+}
+
+impl Moved<'_> {
+    fn row(&self, coordinate: usize, mode: usize) -> c64 {
+        let row = self.modes.rows[(coordinate, mode)];
+        if self.conjugate { row.conj() } else { row }
+    }
+
+    /// Modal force r_mᴴ F.
+    pub(super) fn force(&self, mode: usize, force: &[c64]) -> c64 {
+        force.iter().enumerate().map(|(j, f)| self.row(j, mode).conj() * f).sum()
+    }
+
+    /// Modes that follow the forces.
+    fn following(&self) -> impl Iterator<Item = usize> {
+        (0..self.modes.omega.len()).filter(|&mode| Some(mode) != self.left_out)
+    }
+
+    /// R (Λ − h²λ)⁻¹ Rᴴ and its derivative by λ = ω².
+    fn compliance(&self, h: usize, lambda: f64) -> [Mat<c64>; 2] {
+        let m = self.modes.rows.nrows();
+        let squared = (h * h) as f64;
+        let mut both = [Mat::zeros(m, m), Mat::zeros(m, m)];
+        for mode in self.following() {
+            let gain = 1.0 / (self.modes.omega[mode].powi(2) - squared * lambda);
+            for (of, gain) in both.iter_mut().zip([gain, squared * gain * gain]) {
+                for k in 0..m {
+                    let right = self.row(k, mode).conj() * gain;
+                    (0..m).for_each(|j| of[(j, k)] += self.row(j, mode) * right);
+                }
+            }
+        }
+        both
+    }
+}
+
+/// Harmonics of the forces, and of the stiffness of V.
+pub(super) struct Forces {
+    /// F_h.
+    pub(super) force: Vec<Vec<c64>>,
+    /// K_c of ∂²V/∂p² = Σ_c K_c e^{jcωt}, c from 0 to twice the harmonics; K_−c is the conjugate.
+    stiffness: Vec<Mat<c64>>,
+}
+
+impl<'a> Balance<'a> {
+    pub(super) fn new(wheel: &'a FreeWheel<'a>, mode: FreeMode) -> Self {
+        let modes = &wheel.modes[mode.nodal_diameter];
+        let column = modes.rows.col(mode.rank).iter().copied().collect();
+        Self { wheel, mode, column, linear: modes.omega[mode.rank].powi(2) }
+    }
+
+    pub(super) fn at_rest(&self, harmonics: usize) -> Series {
+        self.linear(harmonics, 0.0)
+    }
+
+    /// Linear motion of amplitude a.
+    pub(super) fn linear(&self, harmonics: usize, amplitude: f64) -> Series {
+        let mut motion = vec![vec![c64::ZERO; self.column.len()]; harmonics + 1];
+        motion[1] = self.column.iter().map(|&row| row * amplitude).collect();
+        Series { harmonics: motion, omega_squared: self.linear }
+    }
+
+    pub(super) fn moved(&self, h: usize) -> Moved<'_> {
+        let sectors = self.wheel.sectors;
+        let turns = h * self.mode.nodal_diameter % sectors;
+        let conjugate = 2 * turns > sectors;
+        let nodal_diameter = if conjugate { sectors - turns } else { turns };
+        let left_out = (h == 1).then_some(self.mode.rank);
+        Moved { nodal_diameter, modes: &self.wheel.modes[nodal_diameter], conjugate, left_out }
+    }
+
+    /// Forces of a motion. V is of fourth order: of so many instants none takes a harmonic for another.
+    pub(super) fn forces(&self, motion: &Series) -> Forces {
+        let (m, most) = (self.column.len(), motion.harmonics.len() - 1);
+        let instants = 4 * most + 1;
+        let mut force = vec![vec![c64::ZERO; m]; most + 1];
+        let mut stiffness = vec![Mat::<c64>::zeros(m, m); 2 * most + 1];
+        for instant in 0..instants {
+            let angle = |h: usize| TAU * ((h * instant) % instants) as f64 / instants as f64;
+            let p = motion.at(angle(1));
+            let (f, k) = (self.wheel.potential.force(&p), self.wheel.potential.stiffness(&p));
+            for (h, of) in force.iter_mut().enumerate() {
+                let weight = if h == 0 { 1.0 } else { 2.0 } / instants as f64;
+                let weight = turn(-angle(h)) * weight;
+                of.iter_mut().zip(&f).for_each(|(of, f)| *of += weight * f);
+            }
+            for (c, of) in stiffness.iter_mut().enumerate() {
+                let weight = turn(-angle(c)) * (1.0 / instants as f64);
+                for column in 0..m {
+                    (0..m).for_each(|row| of[(row, column)] += weight * k[(row, column)]);
+                }
+            }
+        }
+        Forces { force, stiffness }
+    }
+
+    /// Motion of amplitude a near `guess`, if Newton's method finds one.
+    pub(super) fn solve(&self, guess: Series, amplitude: f64) -> Option<Series> {
+        let (m, most) = (self.column.len(), guess.harmonics.len() - 1);
+        let scale = amplitude * self.column.iter().map(|row| row.norm_sqr()).sum::<f64>().sqrt();
+        let mut motion = guess;
+        for _ in 0..ITERATIONS {
+            let (tangent, residual) = self.equations(&motion, amplitude, scale);
+            let step = tangent.partial_piv_lu().solve(&residual);
+            let mut size = 0.0f64;
+            for (h, harmonic) in motion.harmonics.iter_mut().enumerate() {
+                for (j, p) in harmonic.iter_mut().enumerate() {
+                    let [re, im] = place(m, h, j).map(|at| at.map_or(0.0, |at| step[(at, 0)]));
+                    *p -= c64::new(re, im) * scale;
+                    size = size.max(re.abs()).max(im.abs());
+                }
+            }
+            let change = step[(m * (2 * most + 1), 0)];
+            motion.omega_squared -= change * self.linear;
+            size = size.max(change.abs());
+            if !size.is_finite() {
+                return None;
+            }
+            if size < CONVERGED {
+                return Some(motion);
+            }
+        }
+        None
+    }
+
+    /// Tangent and residual: P_h over `scale`, h = 0 real, and ω² over ω_t² are the unknowns.
+    fn equations(&self, motion: &Series, amplitude: f64, scale: f64) -> (Mat<f64>, Mat<f64>) {
+        let (m, most) = (self.column.len(), motion.harmonics.len() - 1);
+        let size = m * (2 * most + 1) + 1;
+        let of_omega = size - 1;
+        let Forces { force, stiffness } = self.forces(motion);
+        let coefficient = |c: isize, row: usize, column: usize| {
+            let k = stiffness[c.unsigned_abs()][(row, column)];
+            if c < 0 { k.conj() } else { k }
+        };
+        let mut tangent = Mat::<f64>::identity(size, size);
+        let mut residual = Mat::<f64>::zeros(size, 1);
+        // Entries of a row of the equations that has −`unit` times `by` F_h.
+        let without_force =
+            |tangent: &mut Mat<f64>, h: usize, by: &[c64], rows: [Option<usize>; 2], unit: f64| {
+                for l in 0..=most {
+                    let (h, l_signed) = (h as isize, l as isize);
+                    for column in 0..m {
+                        let sum = |c: isize| -> c64 {
+                            by.iter().enumerate().map(|(k, by)| by * coefficient(c, k, column)).sum::<c64>()
+                                * unit
+                        };
+                        let [re, im] = place(m, l, column);
+                        // δF_h = −K_{h−l} δP_l − K_{h+l} conj δP_l, half of it for h = 0; −2 K_h δP_0.
+                        let half = if h == 0 { 0.5 } else { 1.0 };
+                        let (first, second) = match l {
+                            0 => (sum(h) * (2.0 * half), c64::ZERO),
+                            _ => (sum(h - l_signed) * half, sum(h + l_signed) * half),
+                        };
+                        let (plus, minus) = (first + second, first - second);
+                        for (row, parts) in rows.iter().zip([[plus.re, -minus.im], [plus.im, minus.re]]) {
+                            let Some(row) = *row else { continue };
+                            for (column, part) in [re, im].iter().zip(parts) {
+                                if let Some(column) = *column {
+                                    tangent[(row, column)] += part;
+                                }
+                            }
+                        }
+                    }
+                }
+            };
+        for h in 0..=most {
+            let [compliance, slope] = self.moved(h).compliance(h, motion.omega_squared);
+            for j in 0..m {
+                let by: Vec<c64> = (0..m).map(|k| compliance[(j, k)]).collect();
+                let response: c64 = by.iter().zip(&force[h]).map(|(by, f)| by * f).sum();
+                let faster: c64 = (0..m).map(|k| slope[(j, k)] * force[h][k]).sum();
+                let given = if h == 1 { self.column[j] * amplitude } else { c64::ZERO };
+                let off = (motion.harmonics[h][j] - response - given) * (1.0 / scale);
+                let rows = place(m, h, j);
+                for ((row, off), faster) in rows.iter().zip([off.re, off.im]).zip([faster.re, faster.im]) {
+                    let Some(row) = *row else { continue };
+                    residual[(row, 0)] = off;
+                    tangent[(row, of_omega)] = -faster * self.linear / scale;
+                }
+                without_force(&mut tangent, h, &by, rows, 1.0);
+            }
+        }
+        // ω² − ω_t² + Re(R_tᴴ F_1)/a, over ω_t².
+        let column: Vec<c64> = self.column.iter().map(|row| row.conj()).collect();
+        let modal: c64 = column.iter().zip(&force[1]).map(|(by, f)| by * f).sum();
+        residual[(of_omega, 0)] =
+            motion.omega_squared / self.linear - 1.0 + modal.re / (amplitude * self.linear);
+        // The force counts with the other sign than in P_h − R… F_h.
+        without_force(&mut tangent, 1, &column, [Some(of_omega), None], -scale / (amplitude * self.linear));
+        (tangent, residual)
+    }
+
+    /// Amplitudes of the modes that follow, over a, and the distances of their frequencies from the harmonics that move them.
+    fn modes(&self, motion: &Series, amplitude: f64) -> Vec<(Resonance, f64, f64)> {
+        let Forces { force, .. } = self.forces(motion);
+        let omega = motion.omega_squared.sqrt();
+        let mut found = Vec::new();
+        for (h, force) in force.iter().enumerate().skip(1) {
+            let moved = self.moved(h);
+            for rank in moved.following() {
+                let own = moved.modes.omega[rank];
+                let gain = 1.0 / (own * own - (h * h) as f64 * motion.omega_squared);
+                let size = (moved.force(rank, force) * gain).norm() / amplitude;
+                let of = Resonance { harmonic: h, nodal_diameter: moved.nodal_diameter, rank };
+                found.push((of, size, own / (h as f64 * omega) - 1.0));
+            }
+        }
+        found
+    }
+
+    /// Reason why nothing was found beyond a motion: the nearest resonance that takes part, if there is one.
+    pub(super) fn nearest(&self, motion: &Series, amplitude: f64) -> BackboneEnd {
+        if amplitude == 0.0 {
+            return BackboneEnd::NotFound;
+        }
+        let modes = self.modes(motion, amplitude).into_iter();
+        let near = modes.filter(|(_, size, distance)| *size > TAKES_PART && distance.abs() < NEAR);
+        let nearest = near.max_by(|a, b| a.1.total_cmp(&b.1));
+        nearest.map_or(BackboneEnd::NotFound, |(resonance, ..)| BackboneEnd::AtResonance(resonance))
+    }
+
+    /// Resonances that lie between two motions and take part in one of them.
+    pub(super) fn passed(&self, before: (&Series, f64), after: (&Series, f64)) -> Vec<Resonance> {
+        if before.1 == 0.0 {
+            return Vec::new();
+        }
+        let [before, after] = [before, after].map(|(motion, amplitude)| self.modes(motion, amplitude));
+        let both = after.into_iter().filter_map(|(resonance, size, distance)| {
+            let (_, size_before, distance_before) = before.iter().find(|(of, ..)| *of == resonance)?;
+            let passes = distance * distance_before < 0.0 && size.max(*size_before) > TAKES_PART;
+            passes.then_some(resonance)
+        });
+        both.collect()
+    }
+}
+
+/// Places of the real and the imaginary part of an unknown: that of harmonic 0 is real.
+fn place(coordinates: usize, h: usize, coordinate: usize) -> [Option<usize>; 2] {
+    match h {
+        0 => [Some(coordinate), None],
+        _ => {
+            let first = coordinates * (2 * h - 1) + coordinate;
+            [Some(first), Some(first + coordinates)]
+        }
+    }
+}
