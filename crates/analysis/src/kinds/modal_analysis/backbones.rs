@@ -28,7 +28,7 @@ const BEFORE: f64 = 0.5;
 /// Thicknesses of the blade at its tip to which curves go, unless they are asked to go elsewhere.
 const TIP_THICKNESSES: f64 = 2.0;
 
-/// Seconds that a curve in four coordinates took on the machine of docs/performance.md.
+/// Seconds that a curve in four coordinates takes, about.
 const SECONDS: f64 = 0.3;
 
 /// Checks backbone curves and fills in what was not given.

@@ -248,12 +248,12 @@ impl<'a> Balance<'a> {
                     }
                 }
             };
-        for h in 0..=most {
+        for (h, of_h) in force.iter().enumerate() {
             let [compliance, slope] = self.moved(h).compliance(h, motion.omega_squared);
             for j in 0..m {
                 let by: Vec<c64> = (0..m).map(|k| compliance[(j, k)]).collect();
-                let response: c64 = by.iter().zip(&force[h]).map(|(by, f)| by * f).sum();
-                let faster: c64 = (0..m).map(|k| slope[(j, k)] * force[h][k]).sum();
+                let response: c64 = by.iter().zip(of_h).map(|(by, f)| by * f).sum();
+                let faster: c64 = (0..m).map(|k| slope[(j, k)] * of_h[k]).sum();
                 let given = if h == 1 { self.column[j] * amplitude } else { c64::ZERO };
                 let off = (motion.harmonics[h][j] - response - given) * (1.0 / scale);
                 let rows = place(m, h, j);
