@@ -60,8 +60,8 @@ impl Interruption {
     pub(super) fn bending_memory(TooLarge { needed, allowed }: TooLarge) -> Self {
         let mib = |bytes: u64| bytes as f64 / f64::from(1 << 20);
         let message = format!(
-            "the bending of second order of this model needs about {:.1} MiB of memory and may take {:.1} MiB: leave \
-             `geometric_nonlinearity` away, {MORE_MEMORY}",
+            "the bending of second order of this model needs about {:.1} MiB of memory and may take {:.1} MiB: ask \
+             for fewer coordinates, remove `geometric_nonlinearity` or `backbones` from the request, {MORE_MEMORY}",
             mib(needed),
             mib(allowed)
         );

@@ -84,8 +84,11 @@ async fn curves_that_cannot_be_found_are_refused_at_their_fields() {
     };
     let nine = asked(&model, json!({"coordinates": 9}));
     assert_eq!(refused(nine).await, ["/backbones/coordinates"]);
-    let none = asked(&model, json!({"largest_amplitude": 0.0}));
-    assert_eq!(refused(none).await, ["/backbones/largest_amplitude"]);
+    // Nothing, a length in a wrong unit, and one beyond all bounds.
+    for length in [0.0, 1e12, 1e31] {
+        let asked = asked(&model, json!({"largest_amplitude": length}));
+        assert_eq!(refused(asked).await, ["/backbones/largest_amplitude"], "{length}");
+    }
     let far = asked(&model, json!({"nodal_diameters": [1, 1, 99]}));
     assert_eq!(refused(far).await, ["/backbones/nodal_diameters/1", "/backbones/nodal_diameters/2"]);
     let mut unstored = asked(&model, json!({}));

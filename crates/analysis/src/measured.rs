@@ -146,7 +146,7 @@ pub fn judge_by_measures(
                 let failure = || candidates.iter().find_map(|motion| motion.neglected.err());
                 if let Some(excess) = worst(&|neglected, scale| Some(neglected.excess * scale)) {
                     let from = |(value, index): (f64, u32)| (value, (index != point.index).then_some(index));
-                    // Of blades that bend far it is simulated.
+                    // The scene simulates this change of the gap where blades bend far.
                     let is_linear = request.scene.geometric_nonlinearity.is_none();
                     let gap = worst(&|neglected, scale| Some(neglected.gap? * scale.powi(2)));
                     let gap = gap.filter(|_| is_linear).map(from);

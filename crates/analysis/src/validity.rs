@@ -22,8 +22,8 @@ const THINNEST: f64 = 1.0 / 500.0;
 const OVER_CHORD: Limits = (0.05, None);
 /// Limit of rotation, rad: small rotations add strains of φ²/2, 0.5 %, more than any elastic strain of a metal.
 const ROTATION: Limits = (0.1, None);
-/// Limit of rotation of blades that stiffen, rad: their energy is exact to the fourth order, and the next one is φ⁴ of it, 1 %.
-const ROTATION_OF_STIFFENING: Limits = (0.3, None);
+/// Limit of rotation of blades that stiffen, rad: their energy is exact to the fourth order, and the fifth is φ³ of the linear one, 1 %.
+const ROTATION_OF_STIFFENING: Limits = (0.2, None);
 /// Limits of the share of the tips' motion that the coordinates of blades that bend far do not carry: forces of second and third order are off
 /// by about as much, and beyond a third the answer is mostly that of linear theory.
 const OUTSIDE_COORDINATES: Limits = (0.1, Some(1.0 / 3.0));

@@ -94,9 +94,11 @@ pub(super) fn reason(validity: &Validity) -> Option<String> {
         ValidityVerdict::Beyond => check.beyond_above?,
         _ => check.doubtful_above,
     };
-    let words = match check.what {
-        ValidityMeasure::OutsideCoordinates => "too few coordinates of bending",
-        _ => words(validity.verdict),
+    let bends = validity.checks.iter().any(|check| check.what == ValidityMeasure::OutsideCoordinates);
+    let words = match validity.verdict {
+        ValidityVerdict::Doubtful if bends => "doubtful: the scene may simulate too little",
+        ValidityVerdict::Beyond if bends => "beyond what the scene simulates",
+        verdict => words(verdict),
     };
     let scaled = if check.scaled_from.is_some() { ", scaled from a larger motion" } else { "" };
     Some(format!(

@@ -31,7 +31,7 @@ function quantityUnit(name, units) {
 /** Looks of a value against its limit. */
 const STANDINGS = { kept: 'good', reached: 'warn', open: 'quiet', passed: 'bad' };
 
-/** How a value stands against its limit: `kept, 20 % left`, `passed by 36 %`. */
+/** Standing of a value against its limit: `kept, 20 % left`, `passed by 36 %`. */
 function standingWords({ standing, error, above_percent: above }) {
   const size = Math.abs(above);
   const by = `${size < 10 ? size.toFixed(1) : number(Math.round(size))} %`;

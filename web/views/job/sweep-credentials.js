@@ -29,11 +29,12 @@ export const VALIDITY = {
   beyond: 'beyond linear theory',
 };
 
+/** Validity where blades bend far, so that linear theory is not what is judged. */
 const BENDING = {
-  linear: 'within the theory of blades that bend far',
-  not_checked: 'bending not checked',
-  doubtful: 'bending is doubtful',
-  beyond: 'beyond the theory of blades that bend far',
+  linear: 'within what the scene simulates',
+  not_checked: 'not checked whether the scene simulates enough',
+  doubtful: 'doubtful: the scene may simulate too little',
+  beyond: 'beyond what the scene simulates',
 };
 
 const MEASURED = {

@@ -101,7 +101,7 @@ def _known(judged: Mapping[str, Any]) -> str:
 
 
 def _standing(judged: Mapping[str, Any]) -> str:
-    """How a value stands against its limit: ``kept, 20 % left``, ``passed by 36 %``."""
+    """Standing of a value against its limit: ``kept, 20 % left``, ``passed by 36 %``."""
     above = judged["above_percent"]
     by = f"{abs(above):.1f} %" if abs(above) < 10 else f"{abs(above):,.0f} %"
     if judged["standing"] == "passed":

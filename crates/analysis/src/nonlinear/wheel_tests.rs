@@ -260,10 +260,10 @@ fn blades_that_bend_far_are_judged_by_their_coordinates() {
         (point.validity_verdict().unwrap(), measured.len())
     };
     for (outside, rotation, verdict) in [
-        (0.09, 0.2, ValidityVerdict::Linear),
-        (0.11, 0.2, ValidityVerdict::Doubtful),
-        (0.5, 0.2, ValidityVerdict::Beyond),
-        (0.09, 0.31, ValidityVerdict::Doubtful),
+        (0.09, 0.19, ValidityVerdict::Linear),
+        (0.11, 0.19, ValidityVerdict::Doubtful),
+        (0.5, 0.19, ValidityVerdict::Beyond),
+        (0.09, 0.21, ValidityVerdict::Doubtful),
     ] {
         assert_eq!(judged(Bending::Full, outside, rotation), (verdict, 0), "{outside} {rotation}");
     }

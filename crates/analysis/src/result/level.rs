@@ -37,7 +37,7 @@ pub struct LevelValue {
     pub quantity: LimitKind,
     /// Value at the speed.
     pub value: f64,
-    /// Relative error e times the value v, which is one of v/(1 + e) to v (1 + e); absent where no control run gives an error.
+    /// Error v·e of the value v, which lies between v/(1 + e) and v (1 + e); absent where no control run gives an error.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub error: Option<f64>,
     /// Standing against the limit of the request; absent where it gives none.

@@ -127,7 +127,7 @@ pub struct JudgedValue {
     pub limit: LimitKind,
     /// Value at the speed.
     pub value: f64,
-    /// Relative error e times the value v, which is one of v/(1 + e) to v (1 + e); absent where no control run gives an error.
+    /// Error v·e of the value v, which lies between v/(1 + e) and v (1 + e); absent where no control run gives an error.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub error: Option<f64>,
     /// Limit of the request.

@@ -79,8 +79,8 @@ impl RangeEvidence<'_> {
         // Refinement, control runs and measured validity are still to come.
         let unended = (self.range.missing.is_empty() && self.seen.driven.is_none()).then(|| {
             let finding = match self.seen.unfinished {
-                true => "the job may still add speeds and tell errors",
-                false => "the job ended before it added speeds and told errors",
+                true => "the job may still add speeds and estimate errors",
+                false => "the job ended before speeds were added and errors estimated",
             };
             self.question(OpenKind::SpeedsMissing, Vec::new(), finding.to_owned(), self.wait())
         });
@@ -90,7 +90,7 @@ impl RangeEvidence<'_> {
     /// Remedy where results are still to come.
     fn wait(&self) -> &'static str {
         match self.seen.unfinished {
-            true => "wait until the job is done",
+            true => "wait until the job is done, and continue it if it is paused",
             false => "post its request again: the job was cancelled or failed",
         }
     }
@@ -151,27 +151,28 @@ impl RangeEvidence<'_> {
 
     /// Remedy where linear theory ends. Blades that bend far help where their bending was measured, which takes a mesh.
     fn beyond_linear_theory(&self) -> &'static str {
-        let is_bending = |point: &Point| {
-            let checks = point.validity.iter().flat_map(|validity| &validity.checks);
-            checks.filter(|check| check.verdict() == ValidityVerdict::Beyond).any(|check| {
-                matches!(check.what, ValidityMeasure::ExcessEnergy | ValidityMeasure::SecondOrderGap)
-            })
+        let is_beyond = |of: &[ValidityMeasure]| {
+            let validities = self.completed.iter().filter_map(|point| point.validity.as_ref());
+            let mut checks = validities.flat_map(|validity| &validity.checks);
+            checks.any(|check| of.contains(&check.what) && check.verdict() == ValidityVerdict::Beyond)
         };
+        let is_bending = is_beyond(&[ValidityMeasure::ExcessEnergy, ValidityMeasure::SecondOrderGap]);
         let scene = &self.request.scene;
         match scene.geometric_nonlinearity.as_ref().map(|of| of.include) {
-            None if !self.completed.iter().any(|point| is_bending(point)) => "a scene with smaller motions",
+            None if !is_bending => "a scene with smaller motions",
             None if scene.friction.is_some() => {
                 "a scene with smaller motions; beside friction, blades that bend far cannot be computed"
             }
             None => {
                 "a geometrically non-linear calculation: `scene.geometric_nonlinearity`; or a scene with smaller motions"
             }
-            Some(Bending::Kinematics) => {
+            Some(_) if is_beyond(&[ValidityMeasure::OutsideCoordinates]) => {
+                "more `scene.geometric_nonlinearity.coordinates`, or a scene with smaller motions"
+            }
+            Some(Bending::Kinematics) if is_bending => {
                 "stiffening of the blades, too: `scene.geometric_nonlinearity.include` of \"full\"; or a scene with smaller motions"
             }
-            Some(Bending::Full) => {
-                "a comparison with more `scene.geometric_nonlinearity.coordinates`, or a scene with smaller motions"
-            }
+            Some(_) => "a scene with smaller motions",
         }
     }
 

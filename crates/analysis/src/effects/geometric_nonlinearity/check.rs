@@ -27,7 +27,10 @@ pub(crate) fn check_bending(
     found.require(
         facts.mesh.is_some(),
         at,
-        "the bending of blades is computed from the mesh of the model, which has none: upload a package with elements, or remove this",
+        format!(
+            "the model has no mesh, from which the bending of blades is computed: upload a package with elements, or remove `{}`",
+            at[1..].replace('/', ".")
+        ),
     );
     found.require(
         fields != Some(false),

@@ -156,7 +156,10 @@ fn check_repeats(found: &mut Findings, scene: &Scene) {
     found.require(
         scene.geometric_nonlinearity.is_none(),
         "/scene/geometric_nonlinearity",
-        PassageError::Bending.to_string(),
+        format!(
+            "{}: remove `geometric_nonlinearity` from the scene, or march its speeds in a sweep",
+            PassageError::Bending
+        ),
     );
     if scene.contact.is_none() {
         return;

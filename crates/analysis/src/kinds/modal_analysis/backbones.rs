@@ -13,7 +13,7 @@ use crate::error::{AnalysisError, Violation};
 use crate::model::{ModelFacts, ReducedSector};
 use crate::monitor::Monitor;
 use crate::request::Component;
-use crate::resolve::findings::Findings;
+use crate::resolve::findings::{Findings, check_reach};
 use crate::resolve::limits;
 use rubmap_wheel::dynamics::bending::backbone::{self, Backbone, BackboneEnd, FreeMode};
 use rubmap_wheel::dynamics::direction::COMPONENTS;
@@ -58,11 +58,14 @@ pub(crate) fn resolve(
     asked.largest_amplitude =
         asked.largest_amplitude.or(mesh.tip_thickness.map(|thickness| TIP_THICKNESSES * thickness));
     let words = match asked.largest_amplitude {
-        Some(_) => "a length above 0",
+        Some(_) => "a length above 0 and below 1e30",
         None => {
             "give the amplitude at which curves end: the thickness of this blade at its tip, of which it would be twice, is not known"
         }
     };
+    if let Some(length) = asked.largest_amplitude {
+        check_reach(found, length, &format!("{AT}/largest_amplitude"), facts);
+    }
     let is_length = asked.largest_amplitude.is_some_and(|length| limits::LENGTH.contains(&length));
     found.require(is_length, &format!("{AT}/largest_amplitude"), words);
 }

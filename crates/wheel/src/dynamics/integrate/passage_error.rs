@@ -16,9 +16,7 @@ pub enum PassageError {
     #[error("of friction with the law \"disc\" no tangent is known: march, or take the law \"sliding\"")]
     Disc,
     /// Blades that bend far.
-    #[error(
-        "periodic responses cannot be solved for where blades bend far: remove `geometric_nonlinearity` from the scene, or march its speeds in a sweep"
-    )]
+    #[error("periodic responses cannot be solved for where blades bend far")]
     Bending,
     /// Orbit of the shaft that returns too late, or never.
     #[error("an orbit of whirl ratio {whirl_ratio} does not come round within {most} revolutions")]

@@ -14,7 +14,7 @@ const CONVERGED: f64 = 1e-9;
 /// Number of steps after which Newton's method is given up: from a neighbour it takes three or four.
 const ITERATIONS: usize = 12;
 
-/// Amplitude of a mode over that of the curve above which a harmonic that passes its frequency is told.
+/// Amplitude of a mode over that of the curve above which a harmonic that passes its frequency is reported.
 const TAKES_PART: f64 = 1e-3;
 
 /// Distance of a harmonic from the frequency of a mode, relative, within which they are said to be in resonance.
@@ -153,7 +153,7 @@ impl<'a> Balance<'a> {
         Moved { nodal_diameter, modes: &self.wheel.modes[nodal_diameter], conjugate, left_out }
     }
 
-    /// Forces of a motion. V is of fourth order: of so many instants none takes a harmonic for another.
+    /// Forces of a motion. V is of fourth order, so that 4H + 1 instants alias no harmonic.
     pub(super) fn forces(&self, motion: &Series) -> Forces {
         let (m, most) = (self.column.len(), motion.harmonics.len() - 1);
         let instants = 4 * most + 1;
@@ -293,7 +293,7 @@ impl<'a> Balance<'a> {
         found
     }
 
-    /// Reason why nothing was found beyond a motion: the nearest resonance that takes part, if there is one.
+    /// Reason why nothing was found beyond a motion: of the resonances near it, the one with the largest amplitude, if there is one.
     pub(super) fn nearest(&self, motion: &Series, amplitude: f64) -> BackboneEnd {
         if amplitude == 0.0 {
             return BackboneEnd::NotFound;

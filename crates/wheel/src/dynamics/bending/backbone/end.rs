@@ -24,7 +24,7 @@ pub enum BackboneEnd {
     NotFound,
     /// The square of the frequency falls to zero: nothing draws the blades back.
     NoRestoringForce,
-    /// Lack of harmonics: as many as are taken at most are too few.
+    /// Too few harmonics: the largest number allowed does not resolve the motion.
     Unresolved {
         /// Number of harmonics.
         harmonics: usize,
@@ -38,7 +38,7 @@ impl fmt::Display for Resonance {
         let Self { harmonic, nodal_diameter, rank } = self;
         write!(
             f,
-            "{harmonic} times the frequency is that of mode {} of nodal diameter {nodal_diameter}",
+            "resonance of harmonic {harmonic} with mode {} of nodal diameter {nodal_diameter}",
             rank + 1
         )
     }
@@ -49,7 +49,7 @@ impl fmt::Display for BackboneEnd {
         match self {
             Self::LargestAmplitude => write!(f, "the largest amplitude is reached"),
             Self::AtResonance(resonance) => {
-                write!(f, "no larger motion was found: {resonance}, nearly, and both exchange energy")
+                write!(f, "no larger motion was found near the {resonance}, with which energy is exchanged")
             }
             Self::NotFound => write!(f, "no larger motion was found: the curve turns back or ends"),
             Self::NoRestoringForce => {

@@ -142,7 +142,7 @@ impl<'a> Follower<'a> {
                 let before = std::mem::replace(&mut self.last, fine);
                 self.before = Some((self.amplitude, before));
                 (self.amplitude, self.harmonics) = (amplitude, harmonics);
-                // The displacement is put in by who knows the shape of the mode.
+                // `FreeWheel::backbone` replaces the modal amplitude by the displacement.
                 return Ok(BackbonePoint { amplitude, omega, truncation, harmonics: 2 * harmonics });
             }
             (coarse, harmonics) = (fine, 2 * harmonics);

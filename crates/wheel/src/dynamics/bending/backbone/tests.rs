@@ -43,7 +43,7 @@ fn motion<'a>(wheel: &'a FreeWheel<'a>, mode: FreeMode, amplitude: f64) -> (Foll
 
 #[test]
 fn a_duffing_oscillator_has_its_exact_period() {
-    // z̈ + ω₀²z + 2A r⁴ z³ = 0, hardening by half at the end and softening nearly to standstill.
+    // z̈ + ω₀²z + 2A r⁴ z³ = 0, hardening by a third and softening by an eighth.
     let row = 0.7;
     for (quartic, amplitude) in [(LINEAR * LINEAR, 1.0), (-LINEAR * LINEAR, 0.55)] {
         let potential = potential(0.0, quartic);
