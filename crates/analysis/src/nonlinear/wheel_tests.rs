@@ -21,6 +21,7 @@ use super::measure::{
 };
 use super::relax::{NotRelaxed, Relaxation};
 use super::sector::HeldSector;
+use crate::effects::geometric_nonlinearity::request::{Bending, GeometricNonlinearity};
 use crate::end_state::EndState;
 use crate::fields::BasisProduct;
 use crate::measured::{judge_by_measures, largest_motion, speeds_to_measure, with_cost};
