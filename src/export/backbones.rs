@@ -19,6 +19,7 @@ impl Export for Backbones {
             Array::reals(format!("amplitude_{}", self.units.length), of().map(|point| point.amplitude)),
             Array::reals("frequency_hz", of().map(|point| point.frequency_hz)),
             Array::reals("change_percent", of().map(|point| point.change_percent)),
+            Array::reals("outside_coordinates", points.iter().map(|(curve, _)| curve.outside_coordinates)),
             Array::reals("harmonics_percent", of().map(|point| point.harmonics_percent)),
         ]
     }

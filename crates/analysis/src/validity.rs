@@ -1,7 +1,6 @@
 //! Validity of linear theory at a speed: ratios of displacement, rotation and strain to their limits.
 
 use crate::effects::casing::shape::Shape;
-use crate::effects::geometric_nonlinearity::request::Bending;
 use crate::model::ReducedSector;
 use crate::resolved::ResolvedSweep;
 use crate::result::{PointStress, Validity, ValidityCheck, ValidityLack, ValidityMeasure, ValidityVerdict};
@@ -25,7 +24,7 @@ const ROTATION: Limits = (0.1, None);
 /// Limit of rotation of blades that stiffen, rad: their energy is exact to the fourth order, and the fifth is φ³ of the linear one, 1 %.
 const ROTATION_OF_STIFFENING: Limits = (0.2, None);
 /// Limits of the share of the tips' motion that the coordinates of blades that bend far do not carry: forces of second and third order are off
-/// by about as much, and beyond a third the answer is mostly that of linear theory.
+/// by about as much, and beyond a third the answer is mostly that of linear theory. More may be outside where that alone would be linear.
 const OUTSIDE_COORDINATES: Limits = (0.1, Some(1.0 / 3.0));
 /// Limits of stress over yield strength. Materials are linear up to about nine tenths of the yield strength, and not beyond it.
 const OVER_YIELD: Limits = (0.9, Some(1.0));
@@ -59,12 +58,7 @@ pub(super) fn thickness(reduced: &ReducedSector, request: &ResolvedSweep) -> Opt
 
 /// Whether geometry raises a doubt about a speed, or cannot say anything for want of a thickness: of a scene in which blades do not stiffen.
 pub(super) fn is_open(validity: &Validity, request: &ResolvedSweep) -> bool {
-    !stiffens(request) && has_doubt(validity)
-}
-
-/// Whether blades stiffen as they bend, so that what linear bending leaves out is simulated.
-fn stiffens(request: &ResolvedSweep) -> bool {
-    request.scene.geometric_nonlinearity.as_ref().is_some_and(|of| of.include == Bending::Full)
+    !request.scene.blades_stiffen() && has_doubt(validity)
 }
 
 fn has_doubt(validity: &Validity) -> bool {
@@ -118,13 +112,21 @@ pub(super) fn judge(
     let period = request.scene.touched_shape().and_then(Shape::period_rad);
     let lobe = radius.zip(period).map(|(radius, period)| period * radius);
     let over = |value: f64, length: Option<f64>| length.filter(|&length| length > 0.0).map(|l| value / l);
-    let is_bent = stiffens(request);
+    let is_bent = request.scene.blades_stiffen();
     let thickness = thickness(reduced, request);
     let over_chord = over(excursion.displacement, chord);
+    let linear =
+        [thickness.map(|length| OVER_THICKNESS.0 * length), chord.map(|length| OVER_CHORD.0 * length)];
+    let linear = linear.into_iter().flatten().reduce(f64::min).unwrap_or(0.0);
+    let outside_limits = outside_limits(linear / excursion.displacement);
     let rotation_limit = if is_bent { ROTATION_OF_STIFFENING } else { ROTATION };
     let over_yield = stress.and_then(|stress| stress.largest_over_yield);
     let measured = [
-        (ValidityMeasure::OutsideCoordinates, excursion.outside_coordinates, OUTSIDE_COORDINATES),
+        (
+            ValidityMeasure::OutsideCoordinates,
+            request.bending_coordinates().map(|_| excursion.outside_coordinates),
+            outside_limits,
+        ),
         (
             ValidityMeasure::DisplacementOverThickness,
             over(excursion.displacement, thickness).filter(|_| !is_bent),
@@ -148,6 +150,13 @@ pub(super) fn judge(
     let asked = request.stress_outside().is_some();
     let thick_enough = is_bent || thickness.is_some() || over_chord.is_some_and(is_slight);
     conclude(checks, lacking(thick_enough, chord, stress, asked))
+}
+
+/// Limits of the share of motion outside the coordinates, where geometry lets a displacement be linear that is `linear` times the one there was.
+fn outside_limits(linear: f64) -> Limits {
+    let linear = if linear.is_nan() { 0.0 } else { linear.min(1.0) };
+    let (doubtful, beyond) = OUTSIDE_COORDINATES;
+    (doubtful.max(linear), beyond.map(|beyond| beyond.max(linear * beyond / doubtful)))
 }
 
 /// Whether a displacement over the chord is harmless however thin the blade is.

@@ -30,6 +30,7 @@ function tableOf(found) {
       { name: 'Linear, Hz', number: true, cell: (each) => number(each.points[0].frequency_hz), sort: (each) => each.points[0].frequency_hz },
       { name: `To, ${found.units.length}`, number: true, cell: (each) => number(last(each).amplitude, 3), sort: (each) => last(each).amplitude },
       { name: 'Change, %', number: true, cell: (each) => number(last(each).change_percent, 3), sort: (each) => last(each).change_percent },
+      { name: 'Outside, %', number: true, cell: (each) => number(100 * each.outside_coordinates, 2), sort: (each) => each.outside_coordinates },
       { name: 'End', cell: (each) => each.end },
     ],
   });

@@ -227,6 +227,7 @@ ElementOrder: TypeAlias = Literal["linear", "quadratic"]
 
 
 class EnergyHistory(TypedDict):
+    bending_work: NotRequired[list[float]]
     casing_loss: NotRequired[list[float]]
     casing_work: NotRequired[list[float]]
     contact_work: list[float]
@@ -1016,6 +1017,7 @@ class Unresolved(TypedDict):
 ValidityMeasure: TypeAlias = Literal[
     "excess_energy",
     "second_order_gap",
+    "outside_coordinates",
     "displacement_over_thickness",
     "displacement_over_chord",
     "rotation",
@@ -1617,6 +1619,7 @@ class Refinement(TypedDict):
 
 
 class RunUpEnd(TypedDict):
+    bending_residual: NotRequired[float]
     contact_share: float
     energy_residual: float
     euler_share: float

@@ -249,17 +249,17 @@ fn blades_that_bend_far_are_judged_by_their_coordinates() {
     let reduced = &SMALL.reduced;
     let positions: Vec<[f64; 3]> = reduced.wheel.contact.iter().map(|node| node.position).collect();
     let far = 0.3 * arc_lengths(&positions).last().unwrap();
-    let judged = |include: Bending, outside: f64, rotation: f64| {
+    let judged_at = |displacement: f64, include: Bending, outside: f64, rotation: f64| {
         let mut request = SMALL.sweep(20_000.0);
         request.scene.geometric_nonlinearity = Some(GeometricNonlinearity { include, coordinates: 4 });
-        let outside_coordinates = Some(outside);
         let excursion =
-            Excursion { displacement: far, rotation, outside_coordinates, ..Excursion::default() };
+            Excursion { displacement, rotation, outside_coordinates: outside, ..Excursion::default() };
         let validity = Some(crate::validity::judge(&excursion, None, reduced, &request));
         let point = Point { index: 0, validity, ..empty_point(reduced, &request, 0, 2000.0) };
         let measured = speeds_to_measure(&request, reduced, std::slice::from_ref(&point));
         (point.validity_verdict().unwrap(), measured.len())
     };
+    let judged = |include, outside, rotation| judged_at(far, include, outside, rotation);
     for (outside, rotation, verdict) in [
         (0.09, 0.19, ValidityVerdict::Linear),
         (0.11, 0.19, ValidityVerdict::Doubtful),
@@ -269,6 +269,8 @@ fn blades_that_bend_far_are_judged_by_their_coordinates() {
         assert_eq!(judged(Bending::Full, outside, rotation), (verdict, 0), "{outside} {rotation}");
     }
     assert_eq!(judged(Bending::Kinematics, 0.09, 0.05), (ValidityVerdict::Doubtful, 1));
+    // So little motion is linear, whatever carries it.
+    assert_eq!(judged_at(1e-3 * far, Bending::Full, 0.9, 1e-4), (ValidityVerdict::Linear, 0));
 }
 
 /// The largest motion of a sweep down is that of the run from the end of the speed above, in whose window it is.

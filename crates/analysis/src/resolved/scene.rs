@@ -3,6 +3,7 @@
 use crate::effects::asked::Asked;
 use crate::effects::casing::shape::Shape;
 use crate::effects::friction::request::FrictionLaw;
+use crate::effects::geometric_nonlinearity::request::Bending;
 use crate::effects::list::effects;
 use crate::error::Violation;
 use crate::request;
@@ -37,6 +38,11 @@ impl Scene {
     pub(crate) fn touched_shape(&self) -> Option<&Shape> {
         self.contact.as_ref()?;
         self.casing.as_ref().map(|casing| &casing.shape)
+    }
+
+    /// Whether blades stiffen as they bend, so that what linear bending leaves out is simulated.
+    pub(crate) fn blades_stiffen(&self) -> bool {
+        self.geometric_nonlinearity.as_ref().is_some_and(|of| of.include == Bending::Full)
     }
 
     /// Whether no tangent of the motion is known, so that it is always marched.

@@ -139,6 +139,12 @@ impl RangeEvidence<'_> {
                 self.beyond_linear_theory(),
             ),
             self.about(
+                OpenKind::BeyondLinearTheory,
+                if self.request.scene.blades_stiffen() { &self.range.diverged } else { &[] },
+                "where blades bent farther than their energy of fourth order may hold",
+                "a scene with smaller motions",
+            ),
+            self.about(
                 OpenKind::LinearTheoryNotChecked,
                 &unchecked,
                 "where linear theory could not be checked",

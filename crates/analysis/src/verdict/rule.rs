@@ -17,7 +17,7 @@ pub(super) struct Judged {
     pub(super) open: Vec<OpenQuestion>,
 }
 
-/// Judges a range: `act` where a limit is passed or a motion diverged, otherwise `undecided` where something is open, otherwise `watch` where a
+/// Judges a range: `act` where a limit is passed or a motion diverged whose blades do not stiffen, otherwise `undecided` where something is open, otherwise `watch` where a
 /// critical speed is near or a limit reached, otherwise `clear`. A stricter limit and a wider range only add to what makes `act`.
 pub(super) fn judge(request: &ResolvedSweep, span: &Span, seen: &Seen<'_>) -> Judged {
     let Seen { finished, peaks, asked, .. } = *seen;
@@ -52,17 +52,23 @@ pub(super) fn judge(request: &ResolvedSweep, span: &Span, seen: &Seen<'_>) -> Ju
     };
     let evidence = RangeEvidence { request, span, range: &range, completed: &completed, seen };
     let open = questions(&evidence);
-    range.verdict = word(&range, &completed, asked, !open.is_empty());
+    range.verdict = word(&range, &completed, asked, (!open.is_empty(), request.scene.blades_stiffen()));
     Judged { range, open }
 }
 
-fn word(range: &RangeVerdict, completed: &[&Point], asked: &Asked, is_open: bool) -> VerdictWord {
+/// Verdict on a range in a word. Where blades `stiffen` a motion without bounds may be that of their energy, which is of fourth order.
+fn word(
+    range: &RangeVerdict,
+    completed: &[&Point],
+    asked: &Asked,
+    (is_open, stiffens): (bool, bool),
+) -> VerdictWord {
     // Every value counts, not only the largest: errors differ from speed to speed.
     let any = |wanted: Standing| {
         let has = |point: &&Point| asked.values(point).iter().any(|judged| judged.standing == wanted);
         completed.iter().any(has)
     };
-    if !range.diverged.is_empty() || any(Standing::Passed) {
+    if (!range.diverged.is_empty() && !stiffens) || any(Standing::Passed) {
         VerdictWord::Act
     } else if is_open || asked.limits.is_empty() {
         VerdictWord::Undecided

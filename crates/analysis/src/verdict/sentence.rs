@@ -43,7 +43,7 @@ pub(super) fn sentence(all: &SweepVerdict, request: &ResolvedSweep, unfinished: 
 
 fn act(range: &RangeVerdict, all: &SweepVerdict, request: &ResolvedSweep) -> String {
     let place = place(range);
-    if let Some(&index) = range.diverged.first() {
+    if let Some(&index) = range.diverged.first().filter(|_| !request.scene.blades_stiffen()) {
         let speed = rpm(request.speeds.rad_s()[index as usize]);
         return format!("Act: {place}the motion at {speed} grows beyond all bounds.");
     }

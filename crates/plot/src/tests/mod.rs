@@ -127,7 +127,7 @@ fn backbones() -> Backbones {
     };
     let curve = |(i, family, change, last): (u32, u32, f64, u32)| {
         let end = if last == 12 { "the largest amplitude is reached" } else { "no larger motion was found" };
-        json!({"nodal_diameter": i, "family": family, "contact_node": 0, "component": "tangential", "complete": last == 12, "end": end,
+        json!({"nodal_diameter": i, "family": family, "contact_node": 0, "component": "tangential", "outside_coordinates": 0.05, "complete": last == 12, "end": end,
             "points": (0..=last).map(|step| point(step, change)).collect::<Vec<_>>()})
     };
     let curves = [(1, 1, 4.0, 12), (1, 2, -1.5, 12), (2, 1, 6.0, 6)].map(curve);

@@ -25,6 +25,5 @@ impl Physics for Bent {
 pub(super) fn convert(scene: &Scene, surroundings: &Surroundings<'_>) -> Converted {
     let Some(asked) = &scene.geometric_nonlinearity else { return Ok(None) };
     let (blade, first) = surroundings.bending.clone().ok_or(NotRunnable::UnreadBending)?;
-    let stiffens = asked.include == request::Bending::Full;
-    Ok(Some(Box::new(Bent { blade, first, stiffens })))
+    Ok(Some(Box::new(Bent { blade, first, stiffens: asked.include == request::Bending::Full })))
 }

@@ -35,6 +35,9 @@ pub struct BackboneCurve {
     pub contact_node: u32,
     /// Component in which it moves most.
     pub component: Component,
+    /// Share of the displacement of the contact nodes in the mode that the coordinates do not carry: it stays linear, so that a curve of which much is
+    /// outside changes too little.
+    pub outside_coordinates: f64,
     /// Points in ascending amplitude, the first without motion.
     pub points: Vec<BackbonePoint>,
     /// Resonances with other modes that the curve went past between two of its points.

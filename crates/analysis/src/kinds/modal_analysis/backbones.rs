@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use faer::c64;
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
 use super::backbone_curves::{BackboneCurve, BackbonePoint, Backbones};
@@ -15,8 +16,10 @@ use crate::monitor::Monitor;
 use crate::request::Component;
 use crate::resolve::findings::{Findings, check_reach};
 use crate::resolve::limits;
-use rubmap_wheel::dynamics::bending::backbone::{self, Backbone, BackboneEnd, FreeMode};
+use rubmap_wheel::dynamics::bending::BladeBending;
+use rubmap_wheel::dynamics::bending::backbone::{self, Backbone, BackboneEnd, FreeMode, FreeModes};
 use rubmap_wheel::dynamics::direction::COMPONENTS;
+use rubmap_wheel::dynamics::integrate::DIVERGED_SHARE_OF_RADIUS;
 use rubmap_wheel::revision::VERSION;
 
 /// Phase of the job, in words.
@@ -29,7 +32,7 @@ const BEFORE: f64 = 0.5;
 const TIP_THICKNESSES: f64 = 2.0;
 
 /// Seconds that a curve in four coordinates takes, about.
-const SECONDS: f64 = 0.3;
+const SECONDS: f64 = 0.1;
 
 /// Checks backbone curves and fills in what was not given.
 pub(crate) fn resolve(
@@ -55,8 +58,9 @@ pub(crate) fn resolve(
         asked.nodal_diameters = (0..=highest).collect();
     }
     let Some(mesh) = &facts.mesh else { return };
-    asked.largest_amplitude =
-        asked.largest_amplitude.or(mesh.tip_thickness.map(|thickness| TIP_THICKNESSES * thickness));
+    let reach = facts.contact_radius.map_or(f64::INFINITY, |radius| DIVERGED_SHARE_OF_RADIUS * radius);
+    let far = || mesh.tip_thickness.map(|thickness| reach.min(TIP_THICKNESSES * thickness));
+    asked.largest_amplitude = asked.largest_amplitude.or_else(far);
     let words = match asked.largest_amplitude {
         Some(_) => "a length above 0 and below 1e30",
         None => {
@@ -99,7 +103,9 @@ pub(super) fn backbones(
         let ranks = ranks(campbell, nodal_diameter as usize);
         let follow = |(family, rank): (usize, usize)| {
             let mode = FreeMode { nodal_diameter: nodal_diameter as usize, rank };
-            curve(nodal_diameter, family as u32 + 1, wheel.backbone(mode, largest))
+            let found = wheel.backbone(mode, largest);
+            let modes = &wheel.modes[nodal_diameter as usize];
+            curve(nodal_diameter, family as u32 + 1, found, outside(blade, modes, rank))
         };
         let ranks: Vec<_> = ranks.into_iter().enumerate().collect();
         curves.extend(ranks.into_par_iter().map(follow).collect::<Vec<_>>());
@@ -122,7 +128,18 @@ fn ranks(campbell: &Campbell, nodal_diameter: usize) -> Vec<usize> {
         .map_or_else(|| (0..count()).collect(), |ranks| ranks.iter().map(|&rank| rank as usize - 1).collect())
 }
 
-fn curve(nodal_diameter: u32, family: u32, found: Backbone) -> BackboneCurve {
+/// Share of the displacement of the contact nodes in a mode that the coordinates of the blade do not carry.
+fn outside(blade: &BladeBending, modes: &FreeModes, rank: usize) -> f64 {
+    let (mut all, mut outside) = (0.0, 0.0);
+    for (row, u) in modes.contact.col(rank).iter().enumerate() {
+        let of = (0..blade.coordinates()).map(|j| modes.rows[(j, rank)] * blade.linear[(row, j)]);
+        all += u.norm_sqr();
+        outside += (u - of.sum::<c64>()).norm_sqr();
+    }
+    if all > 0.0 { (outside / all).sqrt() } else { 0.0 }
+}
+
+fn curve(nodal_diameter: u32, family: u32, found: Backbone, outside_coordinates: f64) -> BackboneCurve {
     let linear = found.points.first().map_or(0.0, |point| point.omega);
     let components = [Component::Radial, Component::Tangential, Component::Axial];
     let point = |point: &backbone::BackbonePoint| BackbonePoint {
@@ -136,6 +153,7 @@ fn curve(nodal_diameter: u32, family: u32, found: Backbone) -> BackboneCurve {
         family,
         contact_node: (found.row / COMPONENTS) as u32,
         component: components[found.row % COMPONENTS],
+        outside_coordinates,
         points: found.points.iter().map(point).collect(),
         passed: found.passed.iter().map(ToString::to_string).collect(),
         complete: found.end == BackboneEnd::LargestAmplitude,

@@ -288,6 +288,10 @@ fn a_motion_that_diverges_in_a_range_is_reason_to_act() {
         "Act: in range \"run\" (1,003 to 1,098 rpm) the motion at 1,050 rpm grows beyond all bounds."
     );
     assert_eq!(diverged(2).word(), Clear);
+    // The energy of blades that stiffen may end before their motion does.
+    let stiffens = json!({"contact": {}, "geometric_nonlinearity": {"include": "full"}});
+    let stiffened = diverged(10).asking("scene", stiffens);
+    assert_eq!((stiffened.word(), stiffened.open()), (Undecided, vec![OpenKind::BeyondLinearTheory]));
 }
 
 #[test]

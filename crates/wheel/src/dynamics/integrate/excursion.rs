@@ -20,8 +20,8 @@ pub struct Excursion {
     /// single blade.
     pub approach: f64,
     /// Share of the linear motion of the contact nodes that the coordinates of blades that bend far do not carry, root mean square over the
-    /// window and all blades; none of a scene in which blades do not bend far.
-    pub outside_coordinates: Option<f64>,
+    /// window and all blades; 0 where blades do not bend far.
+    pub outside_coordinates: f64,
 }
 
 /// Recorder of an [`Excursion`].

@@ -128,7 +128,7 @@ impl TipTally {
     }
 
     pub(super) fn excursion(&self) -> Excursion {
-        let outside_coordinates = self.second_order.as_ref().map(|(_, carried)| carried.outside());
+        let outside_coordinates = self.second_order.as_ref().map_or(0.0, |(_, carried)| carried.outside());
         Excursion { outside_coordinates, ..self.excursion.found() }
     }
 }
