@@ -1127,6 +1127,7 @@ class BackboneCurve(TypedDict):
     end: str
     family: int
     nodal_diameter: int
+    outside_coordinates: float
     passed: NotRequired[list[str]]
     points: list[BackbonePoint]
 
