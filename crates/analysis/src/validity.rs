@@ -58,11 +58,8 @@ pub(super) fn thickness(reduced: &ReducedSector, request: &ResolvedSweep) -> Opt
 
 /// Whether geometry raises a doubt about a speed, or cannot say anything for want of a thickness: of a scene in which blades do not stiffen.
 pub(super) fn is_open(validity: &Validity, request: &ResolvedSweep) -> bool {
-    !request.scene.blades_stiffen() && has_doubt(validity)
-}
-
-fn has_doubt(validity: &Validity) -> bool {
-    geometric(validity).any(ValidityCheck::is_doubtful) || is_unseen(&validity.lacking)
+    let in_doubt = geometric(validity).any(ValidityCheck::is_doubtful) || is_unseen(&validity.lacking);
+    in_doubt && !request.scene.blades_stiffen()
 }
 
 fn is_unseen(lacking: &[ValidityLack]) -> bool {

@@ -52,23 +52,24 @@ pub(super) fn judge(request: &ResolvedSweep, span: &Span, seen: &Seen<'_>) -> Ju
     };
     let evidence = RangeEvidence { request, span, range: &range, completed: &completed, seen };
     let open = questions(&evidence);
-    range.verdict = word(&range, &completed, asked, (!open.is_empty(), request.scene.blades_stiffen()));
+    range.verdict = word(&range, &completed, asked, request, !open.is_empty());
     Judged { range, open }
 }
 
-/// Verdict on a range in a word. Where blades `stiffen` a motion without bounds may be that of their energy, which is of fourth order.
+/// Verdict on a range in a word. Where blades stiffen, a motion without bounds may be that of their energy, which is of fourth order.
 fn word(
     range: &RangeVerdict,
     completed: &[&Point],
     asked: &Asked,
-    (is_open, stiffens): (bool, bool),
+    request: &ResolvedSweep,
+    is_open: bool,
 ) -> VerdictWord {
     // Every value counts, not only the largest: errors differ from speed to speed.
     let any = |wanted: Standing| {
         let has = |point: &&Point| asked.values(point).iter().any(|judged| judged.standing == wanted);
         completed.iter().any(has)
     };
-    if (!range.diverged.is_empty() && !stiffens) || any(Standing::Passed) {
+    if (!range.diverged.is_empty() && !request.scene.blades_stiffen()) || any(Standing::Passed) {
         VerdictWord::Act
     } else if is_open || asked.limits.is_empty() {
         VerdictWord::Undecided

@@ -14,9 +14,9 @@ use crate::dynamics::schemes::Scheme;
 use crate::dynamics::sector::ContactNode;
 use rubmap_numerics::sector_fourier::SectorFourier;
 
-const NODES: usize = 2;
-const MODES: usize = 3;
-const COORDINATES: usize = 2;
+pub(super) const NODES: usize = 2;
+pub(super) const MODES: usize = 3;
+pub(super) const COORDINATES: usize = 2;
 const PRODUCTS: usize = 3;
 const CLEARANCE: f64 = 0.006;
 const REVOLUTIONS: usize = 2;
@@ -25,6 +25,11 @@ const HIGHEST: f64 = 9.0;
 
 /// Wheel with the coordinates of its blades behind its contact nodes.
 fn wheel(sectors: usize) -> ModalWheel {
+    wheel_of(sectors, |m, harmonic| 2.0 + 3.0 * m as f64 + 0.1 * harmonic as f64)
+}
+
+/// Such a wheel at 100 rad/s, whose modes have frequencies of so many times the speed by their rank and nodal diameter.
+pub(super) fn wheel_of(sectors: usize, over_speed: impl Fn(usize, usize) -> f64) -> ModalWheel {
     let mut numbers = Numbers(11);
     let harmonics = (0..=sectors / 2).map(|harmonic| {
         let single = harmonic == 0 || 2 * harmonic == sectors;
@@ -36,7 +41,7 @@ fn wheel(sectors: usize) -> ModalWheel {
             let entry = entry();
             if row < 3 * NODES + COORDINATES { entry } else { c64::ZERO }
         });
-        let omega = (0..MODES).map(|m| 100.0 * (2.0 + 3.0 * m as f64 + 0.1 * harmonic as f64)).collect();
+        let omega = (0..MODES).map(|m| 100.0 * over_speed(m, harmonic)).collect();
         ModalHarmonic { harmonic, single, omega, contact, gyroscopic: None }
     });
     ModalWheel { speed_rad_s: 100.0, sectors, repeats: 1, harmonics: harmonics.collect() }
@@ -58,7 +63,7 @@ fn blade() -> BladeBending {
     }
 }
 
-fn nodes() -> [ContactNode; NODES] {
+pub(super) fn nodes() -> [ContactNode; NODES] {
     std::array::from_fn(|k| ContactNode {
         id: k as u64,
         position: [0.5, 0.03 * k as f64, 4.0 * k as f64],

@@ -32,7 +32,7 @@ pub(super) struct TipTally {
     /// Number of components of all nodes of a blade.
     components: usize,
     residual: ResidualDisplacement,
-    /// Displacements of second order, of blades that bend far.
+    /// Displacements of second order of blades that bend far, and the share of the motion that their coordinates carry.
     second_order: Option<(SecondOrder, Carried)>,
     harmonic: Vec<f64>,
     /// Number of samples from one reading to the next.

@@ -10,7 +10,7 @@
 //! F_h are the harmonics of f. Harmonic h moves the modes of nodal diameter k; where k is above N/2 those of N − k, with conjugate rows.
 //! With the weights w_i of a modal wheel w_i² is 2/N or 1/N, and the sum over the sectors N/2 or N, so that their product is 1. Of the mode of the
 //! curve the amplitude a is given, P_1 = R_t a + …, and its equation gives the frequency: ω² = ω_t² − Re(R_tᴴ F_1)/a.
-//! Its imaginary part holds by itself: no energy is lost. Coriolis forces are left out.
+//! The imaginary part of that equation holds by itself: no energy is lost. Coriolis forces are left out.
 
 mod balance;
 mod end;

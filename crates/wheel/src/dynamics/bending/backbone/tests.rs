@@ -5,15 +5,15 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use faer::{Mat, c64};
 
 use super::*;
+use crate::dynamics::bending::tests::{COORDINATES, MODES, NODES, nodes, wheel_of};
 use crate::dynamics::bending::{Bending, BladeBending, Potential, products};
 use crate::dynamics::direction::Direction;
 use crate::dynamics::effects::Effects;
 use crate::dynamics::initial::InitialMode;
 use crate::dynamics::integrate::{Outcome, SensorRow, Simulation};
-use crate::dynamics::modal_wheel::{ModalHarmonic, ModalWheel};
+use crate::dynamics::modal_wheel::ModalWheel;
 use crate::dynamics::numbers::Numbers;
 use crate::dynamics::schemes::Scheme;
-use crate::dynamics::sector::ContactNode;
 
 const LINEAR: f64 = 100.0;
 
@@ -127,10 +127,6 @@ fn a_resonance_with_another_mode_is_told() {
     assert_eq!((far.end, far.passed.len()), (BackboneEnd::LargestAmplitude, 0));
 }
 
-const NODES: usize = 2;
-const MODES: usize = 3;
-const COORDINATES: usize = 2;
-
 fn blade() -> BladeBending {
     let mut numbers = Numbers(23);
     let count = products(COORDINATES).count();
@@ -147,23 +143,9 @@ fn blade() -> BladeBending {
     }
 }
 
-/// Wheel with the coordinates of its blades behind its contact nodes.
+/// Wheel whose modes are far from resonances with each other.
 fn modal_wheel(sectors: usize) -> ModalWheel {
-    let mut numbers = Numbers(11);
-    let harmonics = (0..=sectors / 2).map(|harmonic| {
-        let single = harmonic == 0 || 2 * harmonic == sectors;
-        let mut entry = || {
-            let (re, im) = (numbers.next(), numbers.next());
-            c64::new(re, if single { 0.0 } else { im })
-        };
-        let contact = Mat::from_fn(3 * (NODES + 1), MODES, |row, _| {
-            let entry = entry();
-            if row < 3 * NODES + COORDINATES { entry } else { c64::ZERO }
-        });
-        let omega = (0..MODES).map(|m| 100.0 * ([1.0, 1.7, 4.7][m] + 0.113 * harmonic as f64)).collect();
-        ModalHarmonic { harmonic, single, omega, contact, gyroscopic: None }
-    });
-    ModalWheel { speed_rad_s: 100.0, sectors, repeats: 1, harmonics: harmonics.collect() }
+    wheel_of(sectors, |m, harmonic| [1.0, 1.7, 4.7][m] + 0.113 * harmonic as f64)
 }
 
 fn free_wheel<'a>(wheel: &ModalWheel, blade: &'a BladeBending) -> FreeWheel<'a> {
@@ -220,17 +202,11 @@ fn integrated(follower: &Follower<'_>, omega: f64, steps: usize) -> Vec<f64> {
     let (sectors, blade) = (follower.balance.wheel.sectors, blade());
     // A period is a revolution.
     let wheel = ModalWheel { speed_rad_s: omega, ..modal_wheel(sectors) };
-    let nodes: [ContactNode; NODES] = std::array::from_fn(|k| ContactNode {
-        id: k as u64,
-        position: [0.5, 0.03 * k as f64, 4.0 * k as f64],
-        normal: [0.8, 0.0, 0.6],
-        dofs: [3 * k, 3 * k + 1, 3 * k + 2],
-    });
     let bending = Bending { blade: &blade, first: NODES, stiffens: true };
     let direction = Direction { node: 1, components: [0.8, 0.1, 0.6] };
     let run = Simulation {
         wheel: &wheel,
-        contact_nodes: &nodes,
+        contact_nodes: &nodes(),
         damping: None,
         casing: None,
         effects: Effects { bending: Some(bending), ..Effects::default() },
