@@ -28,7 +28,7 @@ fn wheel(sectors: usize) -> ModalWheel {
     wheel_of(sectors, |m, harmonic| 2.0 + 3.0 * m as f64 + 0.1 * harmonic as f64)
 }
 
-/// Such a wheel at 100 rad/s, whose modes have frequencies of so many times the speed by their rank and nodal diameter.
+/// Wheel at 100 rad/s whose modes have frequencies of so many times the speed by their rank and nodal diameter.
 pub(super) fn wheel_of(sectors: usize, over_speed: impl Fn(usize, usize) -> f64) -> ModalWheel {
     let mut numbers = Numbers(11);
     let harmonics = (0..=sectors / 2).map(|harmonic| {
