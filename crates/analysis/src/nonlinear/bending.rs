@@ -80,6 +80,7 @@ pub fn blade_bending(
         linear: at_contact(&shapes),
         second_order: at_contact(&condensed.second_order),
         potential: condensed.potential,
+        inertia: condensed.inertia,
     })
 }
 

@@ -125,13 +125,17 @@ impl Loaded {
     }
 }
 
-/// Bending in the one shape Ψ = K⁻¹f, in its size with fᵀΨ = 1: u = Ψp + v p², V = B p³ + ½ A p⁴. The load does no work on v, so that p = fᵀu.
+/// Bending in the one shape Ψ = K⁻¹f of a load, in its size with fᵀΨ = 1: u = Ψp + v p², V = B p³ + ½ A p⁴, T = 2 C pṗ² + 2 Γ p²ṗ². The load does no
+/// work on v, so that p = fᵀu.
+#[derive(Clone)]
 struct Bent {
     shape: Field,
     second_order: Field,
     stiffness: f64,
     cubic: f64,
     quartic: f64,
+    /// Γ.
+    inertia: f64,
 }
 
 impl Bent {
@@ -146,8 +150,10 @@ impl Bent {
         let shape: Field = moved.into_iter().map(|u| u * stiffness).collect();
         let mut condensed = condense(sector, &factor, std::slice::from_ref(&shape));
         let [up, down] = [1.0, -1.0].map(|p| condensed.potential.energy(&[p]));
+        let kinetic = [1.0, -1.0].map(|p| condensed.inertia.kinetic_energy(&[p], &[1.0]));
+        let inertia = 0.25 * (kinetic[0] + kinetic[1]);
         let second_order = condensed.second_order.remove(0);
-        Self { shape, second_order, stiffness, cubic: 0.5 * (up - down), quartic: up + down }
+        Self { shape, second_order, stiffness, cubic: 0.5 * (up - down), quartic: up + down, inertia }
     }
 
     /// Multiple of the load that holds p.
@@ -174,6 +180,7 @@ impl Bent {
         let points = 1000;
         let slowness = |k: usize| {
             let now = p * (std::f64::consts::FRAC_PI_2 * (k as f64 + 0.5) / points as f64).sin();
+            let mass = mass + 4.0 * self.inertia * now * now;
             (mass / (self.stiffness + self.quartic * (p * p + now * now))).sqrt()
         };
         std::f64::consts::TAU * (0..points).map(slowness).sum::<f64>() / points as f64
@@ -268,21 +275,27 @@ fn blades_follow_their_load_curves_to_a_tenth_of_their_height() {
 /// Thickness of the strip.
 const THICKNESS: f64 = 1.0;
 
-/// Strip clamped at both ends under the inertia of its lowest mode, so that Ψ is this mode: p is the deflection of its middle in it.
-/// Returns its modal mass, too.
-fn clamped_strip() -> (Loaded, f64) {
-    let (mesh, nodes) = plate(ElementKind::C3D20, [100.0, 2.0, THICKNESS], [10, 1], true);
+/// Strip under the inertia of its lowest mode, clamped at one end or both, so that Ψ is this mode: p is the deflection in it of its free end, or of
+/// its middle. Returns its modal mass, too.
+fn strip(size: [f64; 3], both_ends: bool) -> (Loaded, f64) {
+    let (mesh, nodes) = plate(ElementKind::C3D20, size, [10, 1], both_ends);
     let mut loaded = Loaded::new(mesh, nodes);
     let sector = &loaded.sector;
     let factor = SparseCholesky::new(&sector.symbolic, &sector.stiffness).unwrap();
     let modes = lowest_modes(&factor, &sector.mass, 1).unwrap();
-    let middle = loaded.nodes.iter().position(|node| node.position == [50.0, 0.0, 0.0]).unwrap();
-    let at_middle = sector.spread(modes.col_as_slice(0))[middle].z;
-    let mode: Vec<f64> = modes.col_as_slice(0).iter().map(|u| u / at_middle).collect();
+    let measured = [size[0] * if both_ends { 0.5 } else { 1.0 }, 0.0, 0.0];
+    let measured = loaded.nodes.iter().position(|node| node.position == measured).unwrap();
+    let measured = sector.spread(modes.col_as_slice(0))[measured].z;
+    let mode: Vec<f64> = modes.col_as_slice(0).iter().map(|u| u / measured).collect();
     let inertia = &sector.mass * ColRef::from_slice(&mode);
     let mass: f64 = inertia.iter().zip(&mode).map(|(f, u)| f * u).sum();
     loaded.load = inertia.iter().map(|f| f / mass).collect();
     (loaded, mass)
+}
+
+/// Strip of this thickness that is clamped at both ends.
+fn clamped_strip() -> (Loaded, f64) {
+    strip([100.0, 2.0, THICKNESS], true)
 }
 
 #[test]
@@ -300,31 +313,53 @@ fn a_strip_clamped_at_both_ends_follows_its_load_curve_to_its_thickness() {
     assert!(early < full / 10.0, "{early:e} {full:e}");
 }
 
-#[test]
-fn a_strip_clamped_at_both_ends_vibrates_faster_the_farther_it_bends() {
-    let (loaded, mass) = clamped_strip();
-    let bent = Bent::new(&loaded);
-    assert!(bent.cubic.abs() < 1e-9 * bent.quartic, "{:e} {:e}", bent.cubic, bent.quartic);
+/// Deflection at the beginning of a free vibration from rest at `amplitude`, and its period by CalculiX in steps of a hundredth of the linear one,
+/// or `None`, with a printed reason, without CalculiX.
+fn vibration(loaded: &Loaded, bent: &Bent, mass: f64, amplitude: f64) -> Option<(f64, f64)> {
     let linear = bent.period(0.0, mass);
     let (step, increments) = (linear / 100.0, 4);
     let release = format!(
         "*STEP, NLGEOM, INC=100\n*DYNAMIC, DIRECT, ALPHA=0.\n{step:.12e}, {:.12e}\n{CONVERGED}*CLOAD, OP=NEW\n{PRINT}",
         0.8 * linear
     );
+    let held = loaded.static_step(bent.load(amplitude), increments);
+    let fields = loaded.calculix(&(held + &release))?;
+    // From rest at the end of the static step.
+    let p: Vec<f64> = fields[increments as usize - 1..].iter().map(|field| loaded.work(field)).collect();
+    let crosses = |at: &usize| p[*at] * p[at + 1] < 0.0;
+    let crossings: Vec<f64> =
+        (0..p.len() - 1).filter(crosses).map(|at| at as f64 + p[at] / (p[at] - p[at + 1])).collect();
+    Some((p[0], 2.0 * step * (crossings[1] - crossings[0])))
+}
+
+#[test]
+fn a_strip_clamped_at_both_ends_vibrates_faster_the_farther_it_bends() {
+    let (loaded, mass) = clamped_strip();
+    let bent = Bent::new(&loaded);
+    assert!(bent.cubic.abs() < 1e-9 * bent.quartic, "{:e} {:e}", bent.cubic, bent.quartic);
     // Over thickness: amplitude, difference that is allowed, and what linear theory is off by at least. At the smallest one
     // the period is linear and CalculiX's longer by (2π/100)²/12 = 3.3e-4, for its step.
     for (amplitude, allowed, of_linear) in [(0.02, 5e-4, 0.0), (0.5, 0.003, 0.05), (1.0, 0.01, 0.2)] {
-        let held = loaded.static_step(bent.load(amplitude * THICKNESS), increments);
-        let Some(fields) = loaded.calculix(&(held + &release)) else { return };
-        // From rest at the end of the static step.
-        let p: Vec<f64> = fields[increments as usize - 1..].iter().map(|field| loaded.work(field)).collect();
-        let crosses = |at: &usize| p[*at] * p[at + 1] < 0.0;
-        let crossings: Vec<f64> =
-            (0..p.len() - 1).filter(crosses).map(|at| at as f64 + p[at] / (p[at] - p[at + 1])).collect();
-        let expected = 2.0 * step * (crossings[1] - crossings[0]);
-        let found = bent.period(p[0], mass);
-        let off = [found, linear].map(|period| period / expected - 1.0);
-        println!("p {:.4} mm: period off {:.1e}, linear {:.1e}", p[0], off[0], off[1]);
+        let Some((p, expected)) = vibration(&loaded, &bent, mass, amplitude * THICKNESS) else { return };
+        let off = [bent.period(p, mass), bent.period(0.0, mass)].map(|period| period / expected - 1.0);
+        println!("p {p:.4} mm: period off {:.1e}, linear {:.1e}", off[0], off[1]);
         assert!(off[0].abs() < allowed && off[1].abs() > of_linear, "{amplitude}: {off:?}");
+    }
+}
+
+#[test]
+fn a_cantilever_vibrates_as_its_tip_is_drawn_back() {
+    // Stiffening alone would shorten the period, the inertia of what draws back makes up for it.
+    let (loaded, mass) = strip([60.0, 2.0, 1.0], false);
+    let bent = Bent::new(&loaded);
+    let stiffer = Bent { inertia: 0.0, ..bent.clone() };
+    for (amplitude, allowed) in [(0.5, 5e-4), (6.0, 1e-3), (12.0, 4e-3)] {
+        let Some((p, expected)) = vibration(&loaded, &bent, mass, amplitude) else { return };
+        let off = bent.period(p, mass) / expected - 1.0;
+        let without = stiffer.period(p, mass) / expected - 1.0;
+        let linear = bent.period(0.0, mass) / expected - 1.0;
+        println!("p {p:.4} mm: period off {off:.1e}, without inertia {without:.1e}, linear {linear:.1e}");
+        assert!(off.abs() < allowed, "{amplitude}: {off}");
+        assert!(amplitude < 1.0 || without.abs() > 4.0 * off.abs(), "{amplitude}: {off} {without}");
     }
 }

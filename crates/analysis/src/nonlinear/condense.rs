@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! v_a = −K_c⁻¹ g_a,   A_ab = 2 V₄ + g_aᵀ v_b,   g_a = G(u_j, u_k), twice for j ≠ k       over v = 0 on the faces, ΨᵀK v = 0
+//! C_ja = Ψ_jᵀ M v_a,   Γ_ab = v_aᵀ M v_b
 //! ```
 //!
 //! V₃ and V₄ are those of the shapes, V = V₃ + V₄ + ½ vᵀKv + vᵀg its minimum over v to fourth order in p: exact, for v is of second order.
@@ -14,7 +15,7 @@ use super::sector::HeldSector;
 use rubmap_numerics::dense::Dense;
 use rubmap_numerics::sparse_cholesky::SparseCholesky;
 use rubmap_solid::green_lagrange::BUBBLES;
-use rubmap_wheel::dynamics::bending::{Potential, products};
+use rubmap_wheel::dynamics::bending::{EnergyForm, products};
 
 /// Share of the largest eigenvalue of the shapes' energies below which a combination of them does no work.
 const IDLE: f64 = 1e-12;
@@ -22,7 +23,8 @@ const IDLE: f64 = 1e-12;
 /// Second-order bending of some shapes.
 #[derive(Debug)]
 pub(super) struct Condensed {
-    pub(super) potential: Potential,
+    pub(super) potential: EnergyForm,
+    pub(super) inertia: EnergyForm,
     /// Displacements v_a of all nodes, by product.
     pub(super) second_order: Vec<Vec<Vector3<f64>>>,
 }
@@ -72,8 +74,15 @@ pub(super) fn condense(
         }
     }
     let quartic: Mat<f64> = Mat::from_fn(count, count, |a, b| 0.5 * (quartic[(a, b)] + quartic[(b, a)]));
+    let moved: Mat<f64> = Mat::from_fn(sector.rows.len(), count, |row, a| follows[a].0[row]);
+    let gathered: Vec<Vec<f64>> = shapes.iter().map(|shape| sector.gathered(shape)).collect();
+    let gathered: Mat<f64> = Mat::from_fn(sector.rows.len(), shapes.len(), |row, j| gathered[j][row]);
+    let heavy = &sector.mass * &moved;
+    let of_followers: Mat<f64> = moved.transpose() * &heavy;
+    let of_followers = Mat::from_fn(count, count, |a, b| 0.5 * (of_followers[(a, b)] + of_followers[(b, a)]));
     Condensed {
-        potential: Potential::new(&cubic, &quartic),
+        inertia: EnergyForm::new(&(gathered.transpose() * &heavy), &of_followers),
+        potential: EnergyForm::new(&cubic, &quartic),
         second_order: follows.iter().map(|(moved, _)| sector.spread(moved)).collect(),
     }
 }

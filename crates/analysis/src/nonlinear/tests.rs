@@ -14,6 +14,7 @@ use rubmap_solid::green_lagrange::BUBBLES;
 use rubmap_solid::material::Material;
 use rubmap_solid::mesh::{Element, ElementSet, SectorMesh};
 use rubmap_solid::topology::Topology;
+use rubmap_wheel::dynamics::bending::EnergyForm;
 use rubmap_wheel::dynamics::bending::backbone::{BackboneEnd, FreeMode, FreeModes, FreeWheel};
 use rubmap_wheel::dynamics::nodes::{NodeDof, SectorNode};
 
@@ -333,7 +334,8 @@ fn the_backbone_of_a_strip_clamped_at_both_ends_is_its_closed_form() {
     let omega = 3.0;
     let row = Mat::from_fn(1, 1, |_, _| c64::new(omega / (2.0 * linear).sqrt(), 0.0));
     let modes = FreeModes { omega: vec![omega], rows: row.clone(), contact: row };
-    let wheel = FreeWheel { sectors: 1, modes: vec![modes], potential: &condensed.potential };
+    let Condensed { potential, inertia, .. } = &condensed;
+    let wheel = FreeWheel { sectors: 1, modes: vec![modes], potential, inertia };
     let curve = wheel.backbone(FreeMode { nodal_diameter: 0, rank: 0 }, 2.0 * thickness);
     assert_eq!(curve.end, BackboneEnd::LargestAmplitude);
     let beam = clamped_beam(length, thickness);
@@ -348,6 +350,47 @@ fn the_backbone_of_a_strip_clamped_at_both_ends_is_its_closed_form() {
     }
     let last = curve.points.last().unwrap();
     assert!(last.omega > 1.6 * omega, "{last:?}");
+}
+
+#[test]
+fn a_cantilever_hardens_by_its_curvature_and_softens_by_the_inertia_of_its_tip() {
+    // An inextensible beam (Crespo da Silva and Glynn), w = qφ: V = ½∫w″²(1 + w′²), T = ½∫ẇ² + ⅛∫(∂/∂t ∫w′²)², so that
+    // ω²(1 + ½βa²) = ω₀² + ¾αa² with α = 2∫φ″²φ′² and β = ∫(∫φ′²)² for ∫φ² = 1 and a length of 1.
+    let [length, thickness] = [60.0, 0.5];
+    let (condensed, linear, _) = condensed_mode(false, [length, thickness], 1.0);
+    let (beta, sigma) = (1.875_104_068_711_961, 0.734_095_513_758_536);
+    let points = 4000;
+    let (mut drawn, mut alpha, mut mass) = (0.0f64, 0.0, 0.0);
+    for k in 0..points {
+        let x: f64 = beta * (k as f64 + 0.5) / points as f64;
+        let slope = beta * (x.sinh() + x.sin() - sigma * (x.cosh() - x.cos()));
+        let curvature = beta * beta * (x.cosh() + x.cos() - sigma * (x.sinh() + x.sin()));
+        let step = 1.0 / points as f64;
+        mass += (drawn + 0.5 * step * slope * slope).powi(2) * step;
+        drawn += slope * slope * step;
+        alpha += 2.0 * (slope * curvature).powi(2) * step;
+    }
+    assert!((alpha - 40.44).abs() < 0.01 && (mass - 4.597).abs() < 2e-3, "{alpha} {mass}");
+    let omega = 3.0;
+    let row = Mat::from_fn(1, 1, |_, _| c64::new(omega / (2.0 * linear).sqrt(), 0.0));
+    let modes = FreeModes { omega: vec![omega], rows: row.clone(), contact: row };
+    let change = |potential: &EnergyForm, inertia: &EnergyForm| {
+        let wheel = FreeWheel { sectors: 1, modes: vec![modes.clone()], potential, inertia };
+        let curve = wheel.backbone(FreeMode { nodal_diameter: 0, rank: 0 }, 0.05 * length);
+        let last = curve.points.last().unwrap();
+        // φ is 2 at the tip.
+        let a = last.amplitude / (2.0 * length);
+        ((last.omega / omega).powi(2) - 1.0) / (a * a)
+    };
+    let still = EnergyForm::zero(1);
+    let Condensed { potential, inertia, .. } = &condensed;
+    let [both, stiffens, softens] =
+        [change(potential, inertia), change(potential, &still), change(&still, inertia)];
+    let expected = [0.75 * alpha / beta.powi(4), -0.5 * mass];
+    println!("{both} {stiffens} {softens}, closed {expected:?}");
+    assert!((stiffens / expected[0] - 1.0).abs() < 0.02, "{stiffens}");
+    assert!((softens / expected[1] - 1.0).abs() < 0.02, "{softens}");
+    assert!((both - expected[0] - expected[1]).abs() < 0.02 * expected[0], "{both}");
 }
 
 #[test]

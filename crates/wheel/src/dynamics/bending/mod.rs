@@ -3,13 +3,15 @@
 //!
 //! ```text
 //! p_s = Σ_i Re(w_i e^{jisα} R_i z_i)                   u_s = Φ z + Σ_a v_a q_a(p_s),    q_a = p_j p_k, j ≤ k
-//! V = Σ_s Σ_ja B_ja p_j q_a + ½ Σ_ab A_ab q_a q_b      f = −∂V/∂z
+//! V = Σ_s Σ_ja B_ja p_j q_a + ½ Σ_ab A_ab q_a q_b      T = Σ_s Σ_ja C_ja ṗ_j q̇_a + ½ Σ_ab Γ_ab q̇_a q̇_b
+//! f = −∂V/∂z − d/dt ∂T/∂ż + ∂T/∂z
 //! ```
 //!
-//! V is what remains of the cubic and the quartic part of the strain energy once everything that carries no motion has followed statically.
+//! V is what remains of the cubic and the quartic part of the strain energy once everything that carries no motion has followed statically, T
+//! the kinetic energy of what follows: C = ΨᵀMv, Γ = vᵀMv.
 
 pub mod backbone;
-mod potential;
+mod energy_form;
 
 use faer::{Mat, c64};
 
@@ -17,7 +19,8 @@ use super::direction::{COMPONENTS, Direction};
 use super::error::ModelError;
 use super::modal_wheel::{ModalWheel, mode_shapes};
 use super::reduction::ReducedWheel;
-pub use potential::{MOST_COORDINATES, Potential, products};
+pub(crate) use energy_form::{Derivatives, MOST_PRODUCTS, Motion};
+pub use energy_form::{EnergyForm, MOST_COORDINATES, products};
 
 /// Second-order bending of the blade of a sector.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,8 +29,10 @@ pub struct BladeBending {
     pub asked: usize,
     /// Rows R of every nodal diameter, `coordinates × unknowns` of the reduction.
     pub rows: Vec<Mat<c64>>,
-    /// Strain energy beyond the quadratic one.
-    pub potential: Potential,
+    /// Strain energy V beyond the quadratic one.
+    pub potential: EnergyForm,
+    /// Kinetic energy T of the displacement of second order.
+    pub inertia: EnergyForm,
     /// Linear displacement of the contact nodes by the coordinates, `3 nodes × coordinates`: r, θ, z of every node.
     pub linear: Mat<f64>,
     /// Displacement v_a of second order of the contact nodes, `3 nodes × products`: r, θ, z of every node.
@@ -41,7 +46,7 @@ pub struct Bending<'a> {
     pub blade: &'a BladeBending,
     /// First of the places below the contact nodes of the wheel where [`BladeBending::join`] put the coordinates.
     pub first: usize,
-    /// Whether blades stiffen: V acts. Otherwise only the displacement of second order counts.
+    /// Whether blades stiffen: V and T act. Otherwise only the displacement of second order counts.
     pub stiffens: bool,
 }
 
@@ -53,7 +58,8 @@ impl BladeBending {
         Self {
             asked: coordinates,
             rows,
-            potential: Potential::new(&alike(coordinates, count), &alike(count, count)),
+            potential: EnergyForm::new(&alike(coordinates, count), &alike(count, count)),
+            inertia: EnergyForm::new(&alike(coordinates, count), &alike(count, count)),
             linear: alike(places, coordinates),
             second_order: alike(places, count),
         }

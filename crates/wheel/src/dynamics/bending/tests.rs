@@ -54,13 +54,24 @@ fn blade() -> BladeBending {
     BladeBending {
         asked: COORDINATES,
         rows: Vec::new(),
-        potential: Potential::new(
+        potential: EnergyForm::new(
             &Mat::from_fn(COORDINATES, PRODUCTS, |_, _| 2e5 * numbers.next()),
             &(4e7 * (&a.transpose().to_owned() * &a)),
         ),
+        inertia: inertia(),
         linear: Mat::from_fn(3 * NODES, COORDINATES, |_, _| numbers.next()),
         second_order: Mat::from_fn(3 * NODES, PRODUCTS, |_, _| 8.0 * numbers.next()),
     }
+}
+
+/// Inertia of second order that matters at a displacement of 0.02.
+pub(super) fn inertia() -> EnergyForm {
+    let mut numbers = Numbers(31);
+    let a: Mat<f64> = Mat::from_fn(PRODUCTS, PRODUCTS, |_, _| numbers.next());
+    EnergyForm::new(
+        &Mat::from_fn(COORDINATES, PRODUCTS, |_, _| 0.7 * numbers.next()),
+        &(40.0 * (&a.transpose().to_owned() * &a)),
+    )
 }
 
 pub(super) fn nodes() -> [ContactNode; NODES] {
@@ -88,13 +99,18 @@ struct Scene {
     sectors: usize,
     touches: bool,
     stiffens: bool,
+    /// Whether the displacement of second order has inertia.
+    inert: bool,
     scheme: Scheme,
     steps: usize,
 }
 
 /// Run of a scene, and the displacement of a sensor at contact node 1 of the last sector at every step.
 fn run(scene: Scene) -> (Run, Vec<f64>) {
-    let (wheel, blade, nodes) = (wheel(scene.sectors), blade(), nodes());
+    let (wheel, mut blade, nodes) = (wheel(scene.sectors), blade(), nodes());
+    if !scene.inert {
+        blade.inertia = EnergyForm::zero(COORDINATES);
+    }
     let casing = Casing { clearance: vec![CLEARANCE; NODES], restriction: None, ramp_revolutions: 0.0 };
     let bending = Bending { blade: &blade, first: NODES, stiffens: scene.stiffens };
     let direction = Direction { node: 1, components: [0.8, 0.0, 0.6] };
@@ -143,26 +159,53 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// Displacement of the sensor of [`run`] at every step, by central differences of all unknowns and contact forces found by trying all sets.
-fn literal(scene: Scene) -> Vec<f64> {
-    let Scene { sectors, touches, stiffens, steps, .. } = scene;
-    let (wheel, blade, nodes) = (wheel(sectors), blade(), nodes());
-    let fourier = SectorFourier::new(sectors);
+/// Rows over all unknowns of the coordinates of every sector, `[sector][coordinate][unknown]`.
+fn coordinate_rows(wheel: &ModalWheel, fourier: &SectorFourier) -> Vec<Vec<Vec<f64>>> {
     let unit = |j: usize| {
         let mut components = [0.0; 3];
         components[j] = 1.0;
         Direction { node: NODES, components }
     };
-    let coordinate: Vec<Vec<Vec<f64>>> =
-        (0..sectors).map(|s| (0..COORDINATES).map(|j| row(&wheel, &fourier, unit(j), s)).collect()).collect();
+    let of_sector = |s| (0..COORDINATES).map(|j| row(wheel, fourier, unit(j), s)).collect();
+    (0..wheel.sectors).map(of_sector).collect()
+}
+
+/// Angular frequencies of all unknowns.
+fn frequencies(wheel: &ModalWheel) -> Vec<f64> {
+    (wheel.harmonics.iter())
+        .flat_map(|h| std::iter::repeat_n(&h.omega, if h.single { 1 } else { 2 }).flatten().copied())
+        .collect()
+}
+
+/// Displacements and velocities of all unknowns at the start.
+fn initial_state(wheel: &ModalWheel) -> [Vec<f64>; 2] {
+    let mut state = [(); 2].map(|()| vec![0.0; frequencies(wheel).len()]);
+    let mut first = 0;
+    for (harmonic, mode) in wheel.harmonics.iter().zip(initial(wheel.sectors)) {
+        for (of, value) in state.iter_mut().zip([mode.displacement, mode.velocity]) {
+            of[first] = value.re;
+            if !harmonic.single {
+                of[first + MODES] = value.im;
+            }
+        }
+        first += MODES * if harmonic.single { 1 } else { 2 };
+    }
+    state
+}
+
+/// Displacement of the sensor of [`run`] at every step, by central differences of all unknowns and contact forces found by trying all sets;
+/// without inertia of second order.
+fn literal(scene: Scene) -> Vec<f64> {
+    let Scene { sectors, touches, stiffens, steps, .. } = scene;
+    let (wheel, blade, nodes) = (wheel(sectors), blade(), nodes());
+    let fourier = SectorFourier::new(sectors);
+    let coordinate = coordinate_rows(&wheel, &fourier);
     let normal = |k: usize| Direction { node: k, components: nodes[k].normal };
     let tips: Vec<(usize, usize, Vec<f64>)> = (0..sectors)
         .flat_map(|s| (0..NODES).map(move |k| (s, k)))
         .map(|(s, k)| (s, k, row(&wheel, &fourier, normal(k), s)))
         .collect();
-    let omega: Vec<f64> = (wheel.harmonics.iter())
-        .flat_map(|h| std::iter::repeat_n(&h.omega, if h.single { 1 } else { 2 }).flatten().copied())
-        .collect();
+    let omega = frequencies(&wheel);
     let p_of = |z: &[f64], s: usize| -> Vec<f64> { coordinate[s].iter().map(|row| dot(row, z)).collect() };
     let along = |p: &[f64], k: usize, around: bool| -> f64 {
         let second: f64 = products(COORDINATES)
@@ -197,15 +240,8 @@ fn literal(scene: Scene) -> Vec<f64> {
         a
     };
     let h = std::f64::consts::TAU / (wheel.speed_rad_s * steps as f64);
-    let (mut z, mut d) = (vec![0.0; omega.len()], vec![0.0; omega.len()]);
-    let mut first = 0;
-    for (harmonic, mode) in wheel.harmonics.iter().zip(initial(sectors)) {
-        (z[first], d[first]) = (mode.displacement.re, h * mode.velocity.re);
-        if !harmonic.single {
-            (z[first + MODES], d[first + MODES]) = (mode.displacement.im, h * mode.velocity.im);
-        }
-        first += MODES * if harmonic.single { 1 } else { 2 };
-    }
+    let [mut z, mut d] = initial_state(&wheel);
+    d.iter_mut().for_each(|d| *d *= h);
     d.iter_mut().zip(acceleration(&z)).for_each(|(d, a)| *d -= 0.5 * h * h * a);
     let mut displacement = Vec::new();
     for _ in 0..REVOLUTIONS * steps {
@@ -261,7 +297,14 @@ fn difference(a: &[f64], b: &[f64]) -> f64 {
 fn histories_are_those_of_a_literal_model() {
     for sectors in [1, 2, 3, 4] {
         for (touches, stiffens) in [(false, true), (true, false), (true, true)] {
-            let scene = Scene { sectors, touches, stiffens, scheme: Scheme::CentralDifferences, steps: 150 };
+            let scene = Scene {
+                sectors,
+                touches,
+                stiffens,
+                inert: false,
+                scheme: Scheme::CentralDifferences,
+                steps: 150,
+            };
             let (run, found) = run(scene);
             let expected = literal(scene);
             assert_eq!(run.statistics.contact_impulse > 0.0, touches, "{sectors}");
@@ -273,22 +316,125 @@ fn histories_are_those_of_a_literal_model() {
     }
 }
 
+/// Displacement of the sensor of [`run`] without contact after every revolution, all unknowns and their full matrix of inertia integrated by the
+/// classical method of Runge and Kutta.
+fn with_full_inertia(sectors: usize) -> Vec<f64> {
+    let (wheel, blade) = (wheel(sectors), blade());
+    let fourier = SectorFourier::new(sectors);
+    let (coordinate, omega) = (coordinate_rows(&wheel, &fourier), frequencies(&wheel));
+    let acceleration = |z: &[f64], velocity: &[f64]| -> Vec<f64> {
+        let size = omega.len();
+        let mut right: Mat<f64> = Mat::from_fn(size, 1, |m, _| -omega[m] * omega[m] * z[m]);
+        let mut mass = Mat::<f64>::identity(size, size);
+        for rows in &coordinate {
+            let [p, v] = [z, velocity].map(|of| rows.iter().map(|row| dot(row, of)).collect::<Vec<f64>>());
+            let inertia = |acceleration: &[f64]| {
+                blade.inertia.inertia_force(Motion { p: &p, velocity: &v, acceleration })
+            };
+            let still = inertia(&[0.0; COORDINATES]);
+            let elastic = blade.potential.force(&p);
+            for (j, row) in rows.iter().enumerate() {
+                (0..size).for_each(|m| right[(m, 0)] += row[m] * (elastic[j] + still[j]));
+            }
+            for (k, column) in rows.iter().enumerate() {
+                let mut unit = [0.0; COORDINATES];
+                unit[k] = 1.0;
+                for (row, (by, still)) in rows.iter().zip(inertia(&unit).iter().zip(&still)) {
+                    for m in 0..size {
+                        (0..size).for_each(|n| mass[(n, m)] -= row[n] * (by - still) * column[m]);
+                    }
+                }
+            }
+        }
+        let found = mass.partial_piv_lu().solve(&right);
+        (0..size).map(|m| found[(m, 0)]).collect()
+    };
+    let steps = 1500;
+    let h = std::f64::consts::TAU / (wheel.speed_rad_s * steps as f64);
+    let [mut z, mut v] = initial_state(&wheel);
+    let sensor = row(&wheel, &fourier, Direction { node: 1, components: [0.8, 0.0, 0.6] }, sectors - 1);
+    let mut displacement = Vec::new();
+    let plus =
+        |a: &[f64], by: f64, b: &[f64]| -> Vec<f64> { a.iter().zip(b).map(|(a, b)| a + by * b).collect() };
+    for step in 1..=REVOLUTIONS * steps {
+        let (v1, a1) = (v.clone(), acceleration(&z, &v));
+        let v2 = plus(&v, 0.5 * h, &a1);
+        let a2 = acceleration(&plus(&z, 0.5 * h, &v1), &v2);
+        let v3 = plus(&v, 0.5 * h, &a2);
+        let a3 = acceleration(&plus(&z, 0.5 * h, &v2), &v3);
+        let v4 = plus(&v, h, &a3);
+        let a4 = acceleration(&plus(&z, h, &v3), &v4);
+        for m in 0..z.len() {
+            z[m] += h / 6.0 * (v1[m] + 2.0 * v2[m] + 2.0 * v3[m] + v4[m]);
+            v[m] += h / 6.0 * (a1[m] + 2.0 * a2[m] + 2.0 * a3[m] + a4[m]);
+        }
+        if step % (steps / 50) == 0 {
+            let second: f64 = products(COORDINATES)
+                .enumerate()
+                .map(|(a, (i, j))| {
+                    let [p, q] = [i, j].map(|i| dot(&coordinate[sectors - 1][i], &z));
+                    let of = |d: usize| blade.second_order[(3 + d, a)];
+                    (0.8 * of(0) + 0.6 * of(2)) * p * q
+                })
+                .sum();
+            displacement.push(dot(&sensor, &z) + second);
+        }
+    }
+    displacement
+}
+
+#[test]
+fn inertia_of_second_order_is_that_of_its_matrix() {
+    for sectors in [1, 3, 4] {
+        let expected = with_full_inertia(sectors);
+        let size = expected.iter().fold(0.0f64, |m, u| m.max(u.abs()));
+        let error = |scheme, inert, steps: usize| {
+            let scene = Scene { sectors, touches: false, stiffens: true, inert, scheme, steps };
+            let found: Vec<f64> = run(scene).1.into_iter().skip(steps / 50 - 1).step_by(steps / 50).collect();
+            difference(&found, &expected) / size
+        };
+        for scheme in [Scheme::CentralDifferences, Scheme::ExactModal] {
+            let (coarse, fine) = (error(scheme, true, 800), error(scheme, true, 3200));
+            let without = error(scheme, false, 3200);
+            println!("{sectors} {scheme:?}: {coarse:e} {fine:e}, without {without:e}");
+            assert!(
+                fine < 1e-3 && fine < 0.1 * coarse && without > 30.0 * fine,
+                "{sectors} {scheme:?}: {coarse} {fine} {without}"
+            );
+        }
+    }
+}
+
 #[test]
 fn work_of_stiffening_is_its_energy_to_second_order_in_the_step() {
     for scheme in [Scheme::CentralDifferences, Scheme::ExactModal] {
-        let residual = |steps: usize| {
-            let (run, _) = run(Scene { sectors: 3, touches: true, stiffens: true, scheme, steps });
-            run.energy.stiffening_residual().unwrap()
-        };
-        let (coarse, fine) = (residual(400), residual(1600));
-        assert!(coarse < 2e-2 && fine < 0.1 * coarse, "{scheme:?}: {coarse} {fine}");
+        for (touches, inert) in [(true, false), (false, true)] {
+            let residual = |steps: usize| {
+                let (run, _) = run(Scene { sectors: 3, touches, stiffens: true, inert, scheme, steps });
+                run.energy.stiffening_residual().unwrap()
+            };
+            let (coarse, fine) = (residual(400), residual(1600));
+            assert!(coarse < 2e-2 && fine < 0.1 * coarse, "{scheme:?} {inert}: {coarse} {fine}");
+        }
+    }
+}
+
+#[test]
+fn what_contact_stops_within_a_step_is_all_that_inertia_leaves_open() {
+    // An impact changes velocities within a step, the inertia of second order follows in the three after.
+    for scheme in [Scheme::CentralDifferences, Scheme::ExactModal] {
+        let (run, _) =
+            run(Scene { sectors: 3, touches: true, stiffens: true, inert: true, scheme, steps: 1600 });
+        let residual = run.energy.stiffening_residual().unwrap();
+        assert!(run.statistics.contact_impulse > 0.0 && residual < 5e-3, "{scheme:?}: {residual}");
     }
 }
 
 #[test]
 fn steps_converge_to_one_motion_with_every_scheme() {
-    let of =
-        |scheme, steps: usize| run(Scene { sectors: 3, touches: false, stiffens: true, scheme, steps }).1;
+    let of = |scheme, steps: usize| {
+        run(Scene { sectors: 3, touches: false, stiffens: true, inert: true, scheme, steps }).1
+    };
     let at = |line: &[f64], steps: usize, every: usize| -> Vec<f64> {
         line.iter().skip(every - 1).step_by(every).take(steps).copied().collect()
     };

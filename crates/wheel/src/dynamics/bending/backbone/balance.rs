@@ -7,6 +7,7 @@ use faer::{Mat, c64};
 
 use super::end::{BackboneEnd, Resonance};
 use super::free_wheel::{FreeMode, FreeModes, FreeWheel};
+use crate::dynamics::bending::{Derivatives, Motion};
 
 /// Step of Newton's method, relative, at which a motion is found: its error is of the order of the square.
 const CONVERGED: f64 = 1e-9;
@@ -49,14 +50,18 @@ impl Series {
         next
     }
 
-    /// Coordinates at the phase ωt.
-    pub(super) fn at(&self, phase: f64) -> Vec<f64> {
-        let mut p = vec![0.0; self.harmonics[0].len()];
+    /// Coordinates at the phase ωt, their velocities and accelerations.
+    pub(super) fn at(&self, phase: f64) -> [Vec<f64>; 3] {
+        let omega = self.omega_squared.max(0.0).sqrt();
+        let mut derivatives = [(); 3].map(|()| vec![0.0; self.harmonics[0].len()]);
         for (h, harmonic) in self.harmonics.iter().enumerate() {
-            let turn = turn(h as f64 * phase);
-            p.iter_mut().zip(harmonic).for_each(|(p, part)| *p += (part * turn).re);
+            let mut turn = turn(h as f64 * phase);
+            for of in &mut derivatives {
+                of.iter_mut().zip(harmonic).for_each(|(of, part)| *of += (part * turn).re);
+                turn *= c64::new(0.0, h as f64 * omega);
+            }
         }
-        p
+        derivatives
     }
 }
 
@@ -118,12 +123,26 @@ impl Moved<'_> {
     }
 }
 
-/// Harmonics of the forces, and of the stiffness of V.
+/// Harmonics of the forces and of their derivatives.
 pub(super) struct Forces {
     /// F_h.
     pub(super) force: Vec<Vec<c64>>,
-    /// K_c of ∂²V/∂p² = Σ_c K_c e^{jcωt}, c from 0 to twice the harmonics; K_−c is the conjugate.
-    stiffness: Vec<Mat<c64>>,
+    /// Part of F_h by inertia, proportional to ω².
+    inertia: Vec<Vec<c64>>,
+    /// Derivatives −∂f/∂p = Σ_c K_c e^{jcωt}, −∂f/∂ṗ and −∂f/∂p̈ likewise, c from 0 to twice the harmonics; K_−c is the conjugate.
+    derivatives: Vec<[Mat<c64>; 3]>,
+}
+
+impl Forces {
+    /// Derivative −∂f_row/∂p_column of harmonic c by harmonic l of a motion with the frequency ω: K + jlω D − l²ω² M.
+    fn derivative(&self, c: isize, l: isize, omega: f64, row: usize, column: usize) -> c64 {
+        let [k, d, m] = self.derivatives[c.unsigned_abs()].each_ref().map(|of| {
+            let value = of[(row, column)];
+            if c < 0 { value.conj() } else { value }
+        });
+        let rate = l as f64 * omega;
+        k + c64::new(0.0, rate) * d - m * (rate * rate)
+    }
 }
 
 impl<'a> Balance<'a> {
@@ -153,29 +172,38 @@ impl<'a> Balance<'a> {
         Moved { nodal_diameter, modes: &self.wheel.modes[nodal_diameter], conjugate, left_out }
     }
 
-    /// Forces of a motion. V is of fourth order, so that 4H + 1 instants alias no harmonic.
+    /// Forces of a motion. They are of third order in it, so that 4H + 1 instants alias no harmonic.
     pub(super) fn forces(&self, motion: &Series) -> Forces {
         let (m, most) = (self.column.len(), motion.harmonics.len() - 1);
         let instants = 4 * most + 1;
-        let mut force = vec![vec![c64::ZERO; m]; most + 1];
-        let mut stiffness = vec![Mat::<c64>::zeros(m, m); 2 * most + 1];
+        let [mut force, mut inertia] = [(); 2].map(|()| vec![vec![c64::ZERO; m]; most + 1]);
+        let mut derivatives = vec![[(); 3].map(|()| Mat::<c64>::zeros(m, m)); 2 * most + 1];
         for instant in 0..instants {
             let angle = |h: usize| TAU * ((h * instant) % instants) as f64 / instants as f64;
-            let p = motion.at(angle(1));
-            let (f, k) = (self.wheel.potential.force(&p), self.wheel.potential.stiffness(&p));
-            for (h, of) in force.iter_mut().enumerate() {
-                let weight = if h == 0 { 1.0 } else { 2.0 } / instants as f64;
-                let weight = turn(-angle(h)) * weight;
-                of.iter_mut().zip(&f).for_each(|(of, f)| *of += weight * f);
+            let [p, velocity, acceleration] = motion.at(angle(1));
+            let now = Motion { p: &p, velocity: &velocity, acceleration: &acceleration };
+            let FreeWheel { potential, inertia: kinetic, .. } = self.wheel;
+            let (elastic, of_inertia) = (potential.force(&p), kinetic.inertia_force(now));
+            let Derivatives { by_acceleration, by_velocity, by_coordinates } =
+                kinetic.inertia_derivatives(now);
+            let of_now = [by_coordinates + potential.stiffness(&p), by_velocity, by_acceleration];
+            for h in 0..=most {
+                let weight = turn(-angle(h)) * (if h == 0 { 1.0 } else { 2.0 } / instants as f64);
+                for j in 0..m {
+                    force[h][j] += weight * (elastic[j] + of_inertia[j]);
+                    inertia[h][j] += weight * of_inertia[j];
+                }
             }
-            for (c, of) in stiffness.iter_mut().enumerate() {
+            for (c, of) in derivatives.iter_mut().enumerate() {
                 let weight = turn(-angle(c)) * (1.0 / instants as f64);
-                for column in 0..m {
-                    (0..m).for_each(|row| of[(row, column)] += weight * k[(row, column)]);
+                for (of, now) in of.iter_mut().zip(&of_now) {
+                    for column in 0..m {
+                        (0..m).for_each(|row| of[(row, column)] += weight * now[(row, column)]);
+                    }
                 }
             }
         }
-        Forces { force, stiffness }
+        Forces { force, inertia, derivatives }
     }
 
     /// Motion of amplitude a near `guess`, if Newton's method finds one.
@@ -212,11 +240,8 @@ impl<'a> Balance<'a> {
         let (m, most) = (self.column.len(), motion.harmonics.len() - 1);
         let size = m * (2 * most + 1) + 1;
         let of_omega = size - 1;
-        let Forces { force, stiffness } = self.forces(motion);
-        let coefficient = |c: isize, row: usize, column: usize| {
-            let k = stiffness[c.unsigned_abs()][(row, column)];
-            if c < 0 { k.conj() } else { k }
-        };
+        let forces = self.forces(motion);
+        let omega = motion.omega_squared.max(0.0).sqrt();
         let mut tangent = Mat::<f64>::identity(size, size);
         let mut residual = Mat::<f64>::zeros(size, 1);
         // Entries of a row of the equations that has −`unit` times `by` F_h.
@@ -225,16 +250,17 @@ impl<'a> Balance<'a> {
                 for l in 0..=most {
                     let (h, l_signed) = (h as isize, l as isize);
                     for column in 0..m {
-                        let sum = |c: isize| -> c64 {
-                            by.iter().enumerate().map(|(k, by)| by * coefficient(c, k, column)).sum::<c64>()
+                        let sum = |c: isize, l: isize| -> c64 {
+                            let of = by.iter().enumerate();
+                            of.map(|(k, by)| by * forces.derivative(c, l, omega, k, column)).sum::<c64>()
                                 * unit
                         };
                         let [re, im] = place(m, l, column);
                         // δF_h = −K_{h−l} δP_l − K_{h+l} conj δP_l, half of it for h = 0; −2 K_h δP_0.
                         let half = if h == 0 { 0.5 } else { 1.0 };
                         let (first, second) = match l {
-                            0 => (sum(h) * (2.0 * half), c64::ZERO),
-                            _ => (sum(h - l_signed) * half, sum(h + l_signed) * half),
+                            0 => (sum(h, 0) * (2.0 * half), c64::ZERO),
+                            _ => (sum(h - l_signed, l_signed) * half, sum(h + l_signed, -l_signed) * half),
                         };
                         let (plus, minus) = (first + second, first - second);
                         for (row, parts) in rows.iter().zip([[plus.re, -minus.im], [plus.im, minus.re]]) {
@@ -248,12 +274,18 @@ impl<'a> Balance<'a> {
                     }
                 }
             };
-        for (h, of_h) in force.iter().enumerate() {
+        for (h, of_h) in forces.force.iter().enumerate() {
             let [compliance, slope] = self.moved(h).compliance(h, motion.omega_squared);
             for j in 0..m {
                 let by: Vec<c64> = (0..m).map(|k| compliance[(j, k)]).collect();
                 let response: c64 = by.iter().zip(of_h).map(|(by, f)| by * f).sum();
-                let faster: c64 = (0..m).map(|k| slope[(j, k)] * of_h[k]).sum();
+                let inertia = &forces.inertia[h];
+                let faster: c64 = (0..m)
+                    .map(|k| {
+                        slope[(j, k)] * of_h[k]
+                            + compliance[(j, k)] * inertia[k] * (1.0 / motion.omega_squared)
+                    })
+                    .sum();
                 let given = if h == 1 { self.column[j] * amplitude } else { c64::ZERO };
                 let off = (motion.harmonics[h][j] - response - given) * (1.0 / scale);
                 let rows = place(m, h, j);
@@ -267,9 +299,10 @@ impl<'a> Balance<'a> {
         }
         // ω² − ω_t² + Re(R_tᴴ F_1)/a, over ω_t².
         let column: Vec<c64> = self.column.iter().map(|row| row.conj()).collect();
-        let modal: c64 = column.iter().zip(&force[1]).map(|(by, f)| by * f).sum();
-        residual[(of_omega, 0)] =
-            motion.omega_squared / self.linear - 1.0 + modal.re / (amplitude * self.linear);
+        let [modal, of_inertia] = [&forces.force[1], &forces.inertia[1]]
+            .map(|force| column.iter().zip(force).map(|(by, f)| by * f).sum::<c64>().re / amplitude);
+        residual[(of_omega, 0)] = (motion.omega_squared + modal) / self.linear - 1.0;
+        tangent[(of_omega, of_omega)] += of_inertia / motion.omega_squared;
         // The force counts with the other sign than in P_h − R… F_h.
         without_force(&mut tangent, 1, &column, [Some(of_omega), None], -scale / (amplitude * self.linear));
         (tangent, residual)

@@ -2,7 +2,7 @@
 
 use faer::{Mat, c64};
 
-use crate::dynamics::bending::{BladeBending, Potential};
+use crate::dynamics::bending::{BladeBending, EnergyForm};
 use crate::dynamics::error::ModelError;
 use crate::dynamics::modal_wheel::natural_modes;
 use crate::dynamics::reduction::ReducedWheel;
@@ -15,7 +15,9 @@ pub struct FreeWheel<'a> {
     /// Modes of nodal diameters 0 to N/2.
     pub modes: Vec<FreeModes>,
     /// Strain energy of a blade beyond the quadratic one.
-    pub potential: &'a Potential,
+    pub potential: &'a EnergyForm,
+    /// Kinetic energy of its displacement of second order.
+    pub inertia: &'a EnergyForm,
 }
 
 /// Modes of a nodal diameter, mass-normalised.
@@ -55,6 +57,6 @@ impl BladeBending {
             Ok(FreeModes { omega, rows: &self.rows[harmonic] * shapes, contact })
         };
         let modes = (0..reduced.harmonics.len()).map(modes).collect::<Result<_, _>>()?;
-        Ok(FreeWheel { sectors: reduced.sectors, modes, potential: &self.potential })
+        Ok(FreeWheel { sectors: reduced.sectors, modes, potential: &self.potential, inertia: &self.inertia })
     }
 }

@@ -5,8 +5,8 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use faer::{Mat, c64};
 
 use super::*;
-use crate::dynamics::bending::tests::{COORDINATES, MODES, NODES, nodes, wheel_of};
-use crate::dynamics::bending::{Bending, BladeBending, Potential, products};
+use crate::dynamics::bending::tests::{COORDINATES, MODES, NODES, inertia, nodes, wheel_of};
+use crate::dynamics::bending::{Bending, BladeBending, EnergyForm, products};
 use crate::dynamics::direction::Direction;
 use crate::dynamics::effects::Effects;
 use crate::dynamics::initial::InitialMode;
@@ -17,16 +17,16 @@ use crate::dynamics::schemes::Scheme;
 
 const LINEAR: f64 = 100.0;
 
-/// Potential B p³ + ½ A p⁴ of one coordinate.
-fn potential(cubic: f64, quartic: f64) -> Potential {
-    Potential::new(&Mat::from_fn(1, 1, |_, _| cubic), &Mat::from_fn(1, 1, |_, _| quartic))
+/// Energies B p³ + ½ A p⁴, or 2 B pṗ² + 2 A p²ṗ², of one coordinate.
+fn form(cubic: f64, quartic: f64) -> EnergyForm {
+    EnergyForm::new(&Mat::from_fn(1, 1, |_, _| cubic), &Mat::from_fn(1, 1, |_, _| quartic))
 }
 
 /// One blade with one mode, whose coordinate is `row` times its modal coordinate and its contact node's displacement twice the coordinate.
-fn oscillator(potential: &Potential, row: f64) -> FreeWheel<'_> {
+fn oscillator<'a>([potential, inertia]: [&'a EnergyForm; 2], row: f64) -> FreeWheel<'a> {
     let one = |value: f64| Mat::from_fn(1, 1, |_, _| c64::new(value, 0.0));
     let modes = FreeModes { omega: vec![LINEAR], rows: one(row), contact: one(2.0 * row) };
-    FreeWheel { sectors: 1, modes: vec![modes], potential }
+    FreeWheel { sectors: 1, modes: vec![modes], potential, inertia }
 }
 
 const FIRST: FreeMode = FreeMode { nodal_diameter: 0, rank: 0 };
@@ -43,19 +43,22 @@ fn motion<'a>(wheel: &'a FreeWheel<'a>, mode: FreeMode, amplitude: f64) -> (Foll
 
 #[test]
 fn a_duffing_oscillator_has_its_exact_period() {
-    // z̈ + ω₀²z + 2A r⁴ z³ = 0, hardening by a third and softening by an eighth.
+    // (1 + 4Γ r⁴ z²) ż²/2 + ω₀²z²/2 + A r⁴ z⁴/2 is constant: hardening by a third and softening by an eighth without inertia, softening with it.
     let row = 0.7;
-    for (quartic, amplitude) in [(LINEAR * LINEAR, 1.0), (-LINEAR * LINEAR, 0.55)] {
-        let potential = potential(0.0, quartic);
-        let wheel = oscillator(&potential, row);
+    for (quartic, inertia, amplitude) in
+        [(LINEAR * LINEAR, 0.0, 1.0), (-LINEAR * LINEAR, 0.0, 0.55), (LINEAR * LINEAR, 1.5, 1.0)]
+    {
+        let (potential, kinetic) = (form(0.0, quartic), form(0.0, inertia));
+        let wheel = oscillator([&potential, &kinetic], row);
         let (follower, omega) = motion(&wheel, FIRST, amplitude / row);
-        let peak: f64 = follower.last.at(0.0)[0] / row;
-        // ż² = (X² − z²)(ω₀² + A r⁴ (X² + z²)); the rule is exact to round-off for a periodic integrand.
+        let peak: f64 = follower.last.at(0.0)[0][0] / row;
+        // (1 + 4Γ r⁴ z²) ż² = (X² − z²)(ω₀² + A r⁴ (X² + z²)); the rule is exact to round-off for a periodic integrand.
         let points = 400;
         let time = |k: usize| {
             let sine = (FRAC_PI_2 * (k as f64 + 0.5) / points as f64).sin();
             let stiffness = quartic * row.powi(4) * peak * peak * (1.0 + sine * sine);
-            1.0 / (LINEAR * LINEAR + stiffness).sqrt()
+            let mass = 1.0 + 4.0 * inertia * row.powi(4) * (peak * sine).powi(2);
+            (mass / (LINEAR * LINEAR + stiffness)).sqrt()
         };
         let quarter = (0..points).map(time).sum::<f64>() * FRAC_PI_2 / points as f64;
         let expected = FRAC_PI_2 / quarter;
@@ -68,8 +71,8 @@ fn a_duffing_oscillator_has_its_exact_period() {
 fn a_small_motion_hardens_and_softens_with_its_square() {
     // z̈ + ω₀²z + 3Bz² + 2Az³ = 0 (Nayfeh and Mook): ω ≈ ω₀ + (9·2A ω₀² − 10·9B²)/(24 ω₀³) a².
     for (cubic, quartic) in [(0.0, 4e3), (2e3, 0.0), (3e3, 5e3)] {
-        let potential = potential(cubic, quartic);
-        let wheel = oscillator(&potential, 1.0);
+        let (potential, still) = (form(cubic, quartic), form(0.0, 0.0));
+        let wheel = oscillator([&potential, &still], 1.0);
         let curve = wheel.backbone(FIRST, 0.02);
         assert_eq!((curve.row, curve.end, curve.points.len()), (0, BackboneEnd::LargestAmplitude, 33));
         assert_eq!((curve.points[0].amplitude, curve.points[0].omega), (0.0, LINEAR));
@@ -88,8 +91,8 @@ fn a_small_motion_hardens_and_softens_with_its_square() {
 #[test]
 fn a_curve_ends_where_nothing_draws_the_blade_back() {
     // From X² = ω₀²/2|A| on the blade does not return; there it rests at either end, and 4/π of that is its first harmonic.
-    let potential = potential(0.0, -LINEAR * LINEAR);
-    let curve = oscillator(&potential, 1.0).backbone(FIRST, 4.0);
+    let (potential, still) = (form(0.0, -LINEAR * LINEAR), form(0.0, 0.0));
+    let curve = oscillator([&potential, &still], 1.0).backbone(FIRST, 4.0);
     assert!(
         matches!(
             curve.end,
@@ -106,7 +109,7 @@ fn a_curve_ends_where_nothing_draws_the_blade_back() {
 #[test]
 fn a_resonance_with_another_mode_is_told() {
     // The second mode has nearly three times the frequency, which the first reaches as it hardens.
-    let potential = Potential::new(
+    let potential = EnergyForm::new(
         &Mat::zeros(2, 3),
         &Mat::from_fn(3, 3, |a, b| [[1.0, 0.2, 0.0], [0.2, 0.1, 0.0], [0.0; 3]][a][b] * LINEAR * LINEAR),
     );
@@ -117,7 +120,8 @@ fn a_resonance_with_another_mode_is_told() {
         contact: Mat::from_fn(1, 2, |_, _| one(1.0)),
     };
     let curve = |second: f64| {
-        let wheel = FreeWheel { sectors: 1, modes: vec![modes(second)], potential: &potential };
+        let modes = vec![modes(second)];
+        let wheel = FreeWheel { sectors: 1, modes, potential: &potential, inertia: &EnergyForm::zero(2) };
         wheel.backbone(FIRST, 0.5)
     };
     let met = Resonance { harmonic: 3, nodal_diameter: 0, rank: 1 };
@@ -134,10 +138,11 @@ fn blade() -> BladeBending {
     BladeBending {
         asked: COORDINATES,
         rows: Vec::new(),
-        potential: Potential::new(
+        potential: EnergyForm::new(
             &Mat::from_fn(COORDINATES, count, |_, _| 1e5 * numbers.next()),
             &(4e7 * (&a.transpose().to_owned() * &a)),
         ),
+        inertia: inertia(),
         linear: Mat::zeros(3 * NODES, COORDINATES),
         second_order: Mat::zeros(3 * NODES, count),
     }
@@ -154,7 +159,8 @@ fn free_wheel<'a>(wheel: &ModalWheel, blade: &'a BladeBending) -> FreeWheel<'a> 
         rows: modes.contact.subrows(3 * NODES, COORDINATES).to_owned(),
         contact: modes.contact.subrows(0, 3 * NODES).to_owned(),
     });
-    FreeWheel { sectors: wheel.sectors, modes: modes.collect(), potential: &blade.potential }
+    let BladeBending { potential, inertia, .. } = blade;
+    FreeWheel { sectors: wheel.sectors, modes: modes.collect(), potential, inertia }
 }
 
 /// Modal coordinates and velocities of a motion at its beginning.
@@ -265,7 +271,8 @@ fn harmonics_are_those_of_the_forces_around_the_wheel() {
                 *p += (turn * free.modes[mode.harmonic].rows[(j, mode.family)] * mode.displacement).re;
             }
         }
-        for (p, expected) in p.iter().zip(follower.last.at(angle)) {
+        let [expected, ..] = follower.last.at(angle);
+        for (p, expected) in p.iter().zip(expected) {
             assert!((p - expected).abs() < 1e-9, "{sector}: {p} {expected}");
         }
     }

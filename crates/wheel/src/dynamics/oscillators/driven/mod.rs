@@ -78,7 +78,8 @@ impl Drive {
             ModalMistuning::new(deviations, wheel, contact_nodes, fourier, oscillators.resolved_families())
         });
         let stiffening = effects.stiffening().map(|bending| {
-            Stiffening::new(bending, wheel, oscillators, fourier, oscillators.resolved_families())
+            let resolved = oscillators.resolved_families();
+            Stiffening::new(bending, wheel, oscillators, fourier, (resolved, step))
         });
         let longest = oscillators.segments.iter().map(|segment| segment.length).max().unwrap_or(0);
         let segments = &oscillators.segments;
@@ -130,6 +131,7 @@ impl Drive {
         oscillators: &mut Oscillators,
         revolutions: f64,
     ) {
+        Arch::new().dispatch(Begin(self, oscillators));
         self.add_to_increments(wheel, initial, oscillators, revolutions, -1.0);
     }
 
@@ -219,8 +221,7 @@ impl Drive {
         }
     }
 
-    /// Strain energy of blades that stiffen beyond the quadratic one, half-way through the last complete step: the mean of both its ends. None
-    /// where blades do not stiffen.
+    /// Energy of blades that stiffen beyond the quadratic one, half-way through the last complete step. None where blades do not stiffen.
     #[inline(always)]
     pub(crate) fn stiffening_energy<S: Simd>(&mut self, simd: S, oscillators: &Oscillators) -> Option<f64> {
         let Self { stiffening, acting, .. } = self;
@@ -231,8 +232,16 @@ impl Drive {
             .iter_mut()
             .zip(state.z.iter().zip(state.d.iter()))
             .for_each(|(before, (z, d))| *before = z - d);
-        let mut at = |z: &[f64]| stiffening.energy(simd, &oscillators.segments, z);
-        Some(0.5 * (at(before) + at(&state.z)))
+        Some(stiffening.energy(simd, &oscillators.segments, [before, &state.z]))
+    }
+
+    /// Computes the forces of mistuning and stiffening at the beginning of a step from the state `z` of the oscillators with these segments.
+    #[inline(always)]
+    fn pull_on<S: Simd>(&mut self, simd: S, segments: &[Segment], z: &[f64]) {
+        self.pull(simd, segments, z);
+        if let Some(stiffening) = &mut self.stiffening {
+            stiffening.remember();
+        }
     }
 
     /// Computes the forces of mistuning and stiffening in the state `z` of the oscillators with these segments.
@@ -243,6 +252,21 @@ impl Drive {
         }
         if let Some(stiffening) = &mut self.stiffening {
             stiffening.force(simd, segments, z, &mut self.acting.stiffening);
+        }
+    }
+}
+
+/// Beginning of a drive beside the step loop: of blades that stiffen the past is free motion.
+struct Begin<'a>(&'a mut Drive, &'a Oscillators);
+
+impl WithSimd for Begin<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Self(drive, oscillators) = self;
+        if let Some(stiffening) = &mut drive.stiffening {
+            stiffening.begin(simd, oscillators);
         }
     }
 }
@@ -319,7 +343,7 @@ impl Oscillators {
             for index in 0..self.segments.len() {
                 self.complete_one(simd, index, drive, loads, &mut sums);
             }
-            drive.pull(simd, &self.segments, &self.state.z);
+            drive.pull_on(simd, &self.segments, &self.state.z);
         }
         for index in 0..self.segments.len() {
             if at_once {
@@ -382,7 +406,7 @@ impl Oscillators {
         work: &mut EffectWork,
     ) -> Exchange {
         let mut sums = DrivenSums::new(simd);
-        drive.pull(simd, &self.segments, &self.state.z);
+        drive.pull_on(simd, &self.segments, &self.state.z);
         for index in 0..self.segments.len() {
             let segment = self.segments[index];
             if let Some(loads) = loads {

@@ -1,8 +1,11 @@
 //! Forces of blades that stiffen as they bend, at the middle instant of a step ([`super::super::super::bending`]).
+//!
+//! The force of inertia needs accelerations at an instant of which only the past is known: p̈ and q̈ are one-sided differences of second order,
+//! h²q̈ ≈ 2q − 5q⁻ + 4q⁻⁻ − q⁻⁻⁻. With them a step is stable while the inertia of second order is below a third of that of first order.
 
 use pulp::Simd;
 
-use super::super::super::bending::{Bending, MOST_COORDINATES, Potential};
+use super::super::super::bending::{Bending, EnergyForm, MOST_COORDINATES, MOST_PRODUCTS};
 use super::super::super::modal_wheel::ModalWheel;
 use super::super::Oscillators;
 use super::super::lanes::padded;
@@ -15,7 +18,10 @@ use rubmap_numerics::sector_fourier::SectorFourier;
 #[derive(Debug)]
 pub(super) struct Stiffening {
     rows: Rows,
-    potential: Potential,
+    potential: EnergyForm,
+    inertia: EnergyForm,
+    /// Step h, s.
+    step: f64,
     /// Columns of the Fourier basis, `[column][sector]`, sectors padded to whole vectors by zeros.
     waves: Aligned,
     /// Coordinates in Fourier coordinates, `[column][coordinate]`, padded.
@@ -24,8 +30,9 @@ pub(super) struct Stiffening {
     force: Vec<f64>,
     /// Indices of all coordinates.
     all: Vec<usize>,
-    /// Coordinates, `[coordinate][sector]`, padded as the waves.
+    /// Coordinates, `[coordinate][sector]`, padded as the waves: now, and at the instants before, latest first.
     p: Aligned,
+    before: [Aligned; 3],
     /// Forces on them, in the same order.
     f: Aligned,
 }
@@ -37,7 +44,7 @@ impl Stiffening {
         wheel: &ModalWheel,
         oscillators: &Oscillators,
         fourier: &SectorFourier,
-        resolved: usize,
+        (resolved, step): (usize, f64),
     ) -> Self {
         let directions: Vec<_> = bending.directions().collect();
         let segments = &oscillators.segments;
@@ -62,26 +69,62 @@ impl Stiffening {
         }
         Self {
             potential: bending.blade.potential.clone(),
+            inertia: bending.blade.inertia.clone(),
+            step,
             waves,
             harmonic: vec![0.0; sectors * stride],
             force: vec![0.0; sectors * stride],
             all: (0..m).collect(),
             p: Aligned::zeros(m * of_wave),
+            before: [(); 3].map(|()| Aligned::zeros(m * of_wave)),
             f: Aligned::zeros(m * of_wave),
             rows,
         }
     }
 
-    /// Writes the modal forces of the state `z`.
+    /// Takes the past of `oscillators` to be free motion.
+    #[inline(always)]
+    pub(super) fn begin<S: Simd>(&mut self, simd: S, oscillators: &Oscillators) {
+        let Oscillators { segments, coefficients, state, .. } = oscillators;
+        let (mut z, mut d) = (state.z.clone(), state.d.clone());
+        for before in 0..3 {
+            for segment in segments {
+                for start in segment.parts() {
+                    for m in 0..segment.integrated {
+                        let (at, mode) = (start + m, segment.modes + m);
+                        z[at] -= d[at];
+                        d[at] = (d[at] + coefficients.pull[mode] * z[at]) / coefficients.keep[mode];
+                    }
+                }
+            }
+            self.read(simd, segments, &z);
+            self.before[before].copy_from_slice(&self.p);
+        }
+    }
+
+    /// Writes the modal forces of the state `z`, one step after the last that was [remembered](Self::remember).
     #[inline(always)]
     pub(super) fn force<S: Simd>(&mut self, simd: S, segments: &[Segment], z: &[f64], out: &mut Aligned) {
         self.read(simd, segments, z);
-        let Self { rows, potential, waves, harmonic: _, force, all, p, f } = self;
+        let Self { rows, potential, inertia, step, waves, harmonic: _, force, all, p, before, f } = self;
         let [p, waves] = [&*p, &*waves].map(|values| S::as_simd_f64s(values).0);
+        let before = before.each_ref().map(|p| S::as_simd_f64s(p).0);
         let f = S::as_mut_simd_f64s(f).0;
         let vectors = p.len() / all.len().max(1);
+        let rate = 1.0 / (*step * *step);
+        let differences = [2.0, -5.0, 4.0, -1.0].map(|c| simd.splat_f64s(rate * c));
         for v in 0..vectors {
-            let forces = potential.forces(simd, &lanes(simd, p, vectors, v));
+            let now = lanes(simd, p, vectors, v);
+            let past = before.map(|p| lanes(simd, p, vectors, v));
+            let q = potential.products_of(simd, &now);
+            let mut accelerations = [simd.splat_f64s(0.0); MOST_COORDINATES];
+            let mut rates = [simd.splat_f64s(0.0); MOST_PRODUCTS];
+            second_differences(simd, differences, &now, &past, &mut accelerations);
+            let past = past.map(|p| potential.products_of(simd, &p));
+            second_differences(simd, differences, &q, &past, &mut rates);
+            let mut forces = [simd.splat_f64s(0.0); MOST_COORDINATES];
+            potential.add_forces(simd, &now, &now, &q, &mut forces);
+            inertia.add_forces(simd, &now, &accelerations, &rates, &mut forces);
             for (f, force) in f.chunks_exact_mut(vectors).zip(forces) {
                 f[v] = force;
             }
@@ -101,16 +144,36 @@ impl Stiffening {
         }
     }
 
-    /// Strain energy beyond the quadratic one in the state `z`.
+    /// Adds the state whose forces were computed last to the past.
+    pub(super) fn remember(&mut self) {
+        self.before.rotate_right(1);
+        self.before[0].copy_from_slice(&self.p);
+    }
+
+    /// Energy beyond the quadratic one half-way between the states `ends` of a step: the mean of the strain energy at both, and the kinetic
+    /// energy of the change.
     #[inline(always)]
-    pub(super) fn energy<S: Simd>(&mut self, simd: S, segments: &[Segment], z: &[f64]) -> f64 {
-        self.read(simd, segments, z);
-        let p = S::as_simd_f64s(&self.p).0;
-        let vectors = p.len() / self.all.len().max(1);
+    pub(super) fn energy<S: Simd>(&mut self, simd: S, segments: &[Segment], ends: [&[f64]; 2]) -> f64 {
+        self.read(simd, segments, ends[0]);
+        let first = self.p.clone();
+        self.read(simd, segments, ends[1]);
+        let [first, last] = [&first, &self.p].map(|p| S::as_simd_f64s(p).0);
+        let vectors = first.len() / self.all.len().max(1);
+        let (half, rate) = (simd.splat_f64s(0.5), simd.splat_f64s(1.0 / self.step));
         let mut energy = simd.splat_f64s(0.0);
         for v in 0..vectors {
-            let of = self.potential.energies(simd, &lanes(simd, p, vectors, v));
-            energy = simd.add_f64s(energy, of);
+            let [mut velocity, last] = [first, last].map(|p| lanes(simd, p, vectors, v));
+            let [mut rates, q] = [&velocity, &last].map(|p| self.potential.products_of(simd, p));
+            for (p, q) in [(&velocity, &rates), (&last, &q)] {
+                energy = simd.mul_add_e_f64s(half, self.potential.values(simd, p, q), energy);
+            }
+            for (velocity, last) in velocity.iter_mut().zip(last) {
+                *velocity = simd.mul_f64s(rate, simd.sub_f64s(last, *velocity));
+            }
+            for (change, q) in rates.iter_mut().zip(q) {
+                *change = simd.mul_f64s(rate, simd.sub_f64s(q, *change));
+            }
+            energy = simd.add_f64s(energy, self.inertia.values(simd, &velocity, &rates));
         }
         simd.reduce_sum_f64s(energy)
     }
@@ -144,4 +207,19 @@ fn lanes<S: Simd>(simd: S, p: &[S::f64s], vectors: usize, v: usize) -> [S::f64s;
         *lane = p[v];
     }
     lanes
+}
+
+/// Writes second differences of `now` and the three instants before into `out`, by these coefficients.
+#[inline(always)]
+fn second_differences<S: Simd, const COUNT: usize>(
+    simd: S,
+    [c0, c1, c2, c3]: [S::f64s; 4],
+    now: &[S::f64s; COUNT],
+    [one, two, three]: &[[S::f64s; COUNT]; 3],
+    out: &mut [S::f64s; COUNT],
+) {
+    for i in 0..COUNT {
+        let older = simd.mul_add_e_f64s(c2, two[i], simd.mul_f64s(c3, three[i]));
+        out[i] = simd.mul_add_e_f64s(c0, now[i], simd.mul_add_e_f64s(c1, one[i], older));
+    }
 }
