@@ -2,10 +2,10 @@
 
 /// Revision of the numerics: raised with every change after which the same request gives other numbers. Results stored under another
 /// revision are computed again.
-pub const REVISION: u32 = 6;
+pub const REVISION: u32 = 7;
 
 /// Version of the code with the revision of its numerics, stamped on every result.
-pub const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), "+numerics.6");
+pub const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), "+numerics.7");
 
 #[cfg(test)]
 mod tests {

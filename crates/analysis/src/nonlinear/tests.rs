@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use faer::linalg::solvers::Solve;
-use faer::{Col, Mat, c64};
+use faer::{Col, ColRef, Mat, c64};
 use nalgebra::Vector3;
 
 use super::condense::{Condensed, condense, held};
@@ -15,7 +15,7 @@ use rubmap_solid::material::Material;
 use rubmap_solid::mesh::{Element, ElementSet, SectorMesh};
 use rubmap_solid::topology::Topology;
 use rubmap_wheel::dynamics::bending::EnergyForm;
-use rubmap_wheel::dynamics::bending::backbone::{BackboneEnd, FreeMode, FreeModes, FreeWheel};
+use rubmap_wheel::dynamics::bending::backbone::{Backbone, BackboneEnd, FreeMode, FreeModes, FreeWheel};
 use rubmap_wheel::dynamics::nodes::{NodeDof, SectorNode};
 
 const YOUNG: f64 = 100e3;
@@ -290,27 +290,55 @@ fn a_small_motion_is_linear_and_no_motion_is_refused() {
     assert_eq!(relaxation.relax(&still).unwrap_err(), NotRelaxed::Still);
 }
 
-/// Second-order bending of one out-of-plane mode of a strip of unit width whose largest displacement is `amplitude`, and its field.
-fn condensed_mode(both_ends: bool, [length, thickness]: [f64; 2], amplitude: f64) -> (Condensed, f64, f64) {
+/// Lowest out-of-plane mode of a strip, its largest displacement given, as the one shape in which the strip bends.
+struct CondensedMode {
+    condensed: Condensed,
+    /// Energy of the linear field, and that of the relaxed one.
+    linear: f64,
+    relaxed: f64,
+    /// Modal mass.
+    mass: f64,
+}
+
+impl CondensedMode {
+    /// Backbone curve up to a largest displacement, in which the amplitude is that of the place that moves most, with these energies; and the
+    /// linear frequency.
+    fn backbone(&self, largest: f64, [potential, inertia]: [&EnergyForm; 2]) -> (Backbone, f64) {
+        let row = Mat::from_fn(1, 1, |_, _| c64::new(1.0 / self.mass.sqrt(), 0.0));
+        let omega = (2.0 * self.linear / self.mass).sqrt();
+        let modes = FreeModes { omega: vec![omega], rows: row.clone(), contact: row };
+        let wheel = FreeWheel { sectors: 1, modes: vec![modes], potential, inertia };
+        (wheel.backbone(FreeMode { nodal_diameter: 0, rank: 0 }, largest), omega)
+    }
+}
+
+fn condensed_mode(both_ends: bool, [length, thickness]: [f64; 2], amplitude: f64) -> CondensedMode {
     let (mesh, nodes) = strip(ElementKind::C3D20, [length, 2.0, thickness], 16, both_ends);
     let sector = HeldSector::new(&mesh, &nodes).unwrap();
     let relaxation = Relaxation::new(&sector).unwrap();
     let bending = out_of_plane(&sector, &relaxation);
     let field = mode(&sector, &relaxation, bending[0], amplitude);
     let relaxed = relaxation.relax(&field).unwrap();
-    (condense(&sector, relaxation.factor(), &[field]), relaxed.linear, relaxed.relaxed)
+    let free = sector.gathered(&field);
+    let inertia = &sector.mass * ColRef::from_slice(&free);
+    CondensedMode {
+        mass: inertia.iter().zip(&free).map(|(f, u)| f * u).sum(),
+        condensed: condense(&sector, relaxation.factor(), &[field]),
+        linear: relaxed.linear,
+        relaxed: relaxed.relaxed,
+    }
 }
 
 #[test]
 fn condensed_energy_is_that_of_the_relaxed_field_and_of_the_closed_form() {
     // Clamped at both ends: energy of fourth order alone, EA/(8L) (∫w′²)², which relaxation finds to its own tolerance.
-    let (condensed, linear, relaxed) = condensed_mode(true, [100.0, 1.0], 1.0);
+    let CondensedMode { condensed, linear, relaxed, .. } = condensed_mode(true, [100.0, 1.0], 1.0);
     let (excess, expected) = (condensed.potential.energy(&[1.0]) / linear, relaxed / linear - 1.0);
     assert!((excess / expected - 1.0).abs() < 0.01, "{excess} {expected}");
     let half = condensed.potential.energy(&[0.5]);
     assert!((16.0 * half / condensed.potential.energy(&[1.0]) - 1.0).abs() < 1e-9);
     // Free at one end: hardly any.
-    let (condensed, linear, _) = condensed_mode(false, [60.0, 0.5], 1.5);
+    let CondensedMode { condensed, linear, .. } = condensed_mode(false, [60.0, 0.5], 1.5);
     let excess = condensed.potential.energy(&[1.0]) / linear;
     assert!(excess.abs() < 2e-3, "{excess}");
     let tip = 60.0f64;
@@ -329,14 +357,9 @@ fn condensed_energy_is_that_of_the_relaxed_field_and_of_the_closed_form() {
 #[test]
 fn the_backbone_of_a_strip_clamped_at_both_ends_is_its_closed_form() {
     let (length, thickness) = (100.0, 1.0);
-    let (condensed, linear, _) = condensed_mode(true, [length, thickness], 1.0);
-    // The shape has a displacement of 1: its coordinate is that of the middle, and its modal mass follows from ½ω²m = `linear`.
-    let omega = 3.0;
-    let row = Mat::from_fn(1, 1, |_, _| c64::new(omega / (2.0 * linear).sqrt(), 0.0));
-    let modes = FreeModes { omega: vec![omega], rows: row.clone(), contact: row };
-    let Condensed { potential, inertia, .. } = &condensed;
-    let wheel = FreeWheel { sectors: 1, modes: vec![modes], potential, inertia };
-    let curve = wheel.backbone(FreeMode { nodal_diameter: 0, rank: 0 }, 2.0 * thickness);
+    let mode = condensed_mode(true, [length, thickness], 1.0);
+    let Condensed { potential, inertia, .. } = &mode.condensed;
+    let (curve, omega) = mode.backbone(2.0 * thickness, [potential, inertia]);
     assert_eq!(curve.end, BackboneEnd::LargestAmplitude);
     let beam = clamped_beam(length, thickness);
     for point in &curve.points[4..] {
@@ -356,8 +379,8 @@ fn the_backbone_of_a_strip_clamped_at_both_ends_is_its_closed_form() {
 fn a_cantilever_hardens_by_its_curvature_and_softens_by_the_inertia_of_its_tip() {
     // An inextensible beam (Crespo da Silva and Glynn), w = qφ: V = ½∫w″²(1 + w′²), T = ½∫ẇ² + ⅛∫(∂/∂t ∫w′²)², so that
     // ω²(1 + ½βa²) = ω₀² + ¾αa² with α = 2∫φ″²φ′² and β = ∫(∫φ′²)² for ∫φ² = 1 and a length of 1.
-    let [length, thickness] = [60.0, 0.5];
-    let (condensed, linear, _) = condensed_mode(false, [length, thickness], 1.0);
+    let length = 60.0;
+    let mode = condensed_mode(false, [length, 1.5], 1.0);
     let (beta, sigma) = (1.875_104_068_711_961, 0.734_095_513_758_536);
     let points = 4000;
     let (mut drawn, mut alpha, mut mass) = (0.0f64, 0.0, 0.0);
@@ -371,21 +394,17 @@ fn a_cantilever_hardens_by_its_curvature_and_softens_by_the_inertia_of_its_tip()
         alpha += 2.0 * (slope * curvature).powi(2) * step;
     }
     assert!((alpha - 40.44).abs() < 0.01 && (mass - 4.597).abs() < 2e-3, "{alpha} {mass}");
-    let omega = 3.0;
-    let row = Mat::from_fn(1, 1, |_, _| c64::new(omega / (2.0 * linear).sqrt(), 0.0));
-    let modes = FreeModes { omega: vec![omega], rows: row.clone(), contact: row };
-    let change = |potential: &EnergyForm, inertia: &EnergyForm| {
-        let wheel = FreeWheel { sectors: 1, modes: vec![modes.clone()], potential, inertia };
-        let curve = wheel.backbone(FreeMode { nodal_diameter: 0, rank: 0 }, 0.05 * length);
+    let change = |energies: [&EnergyForm; 2]| {
+        let (curve, omega) = mode.backbone(0.05 * length, energies);
         let last = curve.points.last().unwrap();
         // φ is 2 at the tip.
         let a = last.amplitude / (2.0 * length);
         ((last.omega / omega).powi(2) - 1.0) / (a * a)
     };
     let still = EnergyForm::zero(1);
-    let Condensed { potential, inertia, .. } = &condensed;
+    let Condensed { potential, inertia, .. } = &mode.condensed;
     let [both, stiffens, softens] =
-        [change(potential, inertia), change(potential, &still), change(&still, inertia)];
+        [[potential, inertia], [potential, &still], [&still, inertia]].map(change);
     let expected = [0.75 * alpha / beta.powi(4), -0.5 * mass];
     println!("{both} {stiffens} {softens}, closed {expected:?}");
     assert!((stiffens / expected[0] - 1.0).abs() < 0.02, "{stiffens}");

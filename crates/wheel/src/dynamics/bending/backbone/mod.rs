@@ -4,7 +4,7 @@
 //! is enough, α = 2π/N:
 //!
 //! ```text
-//! p_s(t) = Re Σ_h P_h e^{jh(ωt + isα)}       P_h = R_k (Λ_k − h²ω²)⁻¹ R_kᴴ F_h,   k = h·i mod N,   f = −∂V/∂p
+//! p_s(t) = Re Σ_h P_h e^{jh(ωt + isα)}       P_h = R_k (Λ_k − h²ω²)⁻¹ R_kᴴ F_h,   k = h·i mod N,   f = −∂V/∂p − d/dt ∂T/∂ṗ + ∂T/∂p
 //! ```
 //!
 //! F_h are the harmonics of f. Harmonic h moves the modes of nodal diameter k; where k is above N/2 those of N − k, with conjugate rows.
