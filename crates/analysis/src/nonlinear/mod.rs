@@ -19,6 +19,8 @@ pub(crate) use measure::{Neglected, PHASE, expected_bytes, relaxing_seconds};
 #[cfg(test)]
 mod calculix;
 #[cfg(test)]
+mod literal_wheel;
+#[cfg(test)]
 mod tests;
 #[cfg(test)]
 mod wheel_tests;

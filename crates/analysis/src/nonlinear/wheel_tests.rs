@@ -5,10 +5,11 @@ use std::sync::{LazyLock, Mutex};
 use faer::{Mat, MatRef, c64};
 use nalgebra::Vector3;
 use rubmap_model::impeller::{ImpellerParameters, generate};
+use rubmap_model::package::raw::RawPackage;
 use rubmap_model::package::{Limits, read, read_mesh, read_nodes, write};
 use rubmap_solid::frame::AxisFrame;
 use rubmap_solid::mesh::SectorMesh;
-use rubmap_wheel::dynamics::bending::products;
+use rubmap_wheel::dynamics::bending::{BladeBending, products};
 use rubmap_wheel::dynamics::casing::arc_lengths;
 use rubmap_wheel::dynamics::integrate::Excursion;
 use rubmap_wheel::dynamics::nodes::SectorNode;
@@ -51,19 +52,24 @@ impl Checkpoints for Bases {
     }
 }
 
-struct Wheel {
+/// Wheel of a generated package, reduced.
+pub(super) struct Wheel {
     sector: SectorModel,
-    mesh: SectorMesh,
-    nodes: Vec<SectorNode>,
-    reduced: ReducedSector,
+    pub(super) mesh: SectorMesh,
+    pub(super) nodes: Vec<SectorNode>,
+    pub(super) reduced: ReducedSector,
     bases: Vec<(usize, Vec<Vec<f64>>)>,
 }
 
 impl Wheel {
     fn new(parameters: &ImpellerParameters, modes: u32) -> Self {
+        Self::of(&generate(parameters).unwrap(), modes)
+    }
+
+    pub(super) fn of(package: &RawPackage, modes: u32) -> Self {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("impeller.zip");
-        write(&generate(parameters).unwrap(), std::fs::File::create(&path).unwrap()).unwrap();
+        write(package, std::fs::File::create(&path).unwrap()).unwrap();
         let limits = Limits::default();
         let sector = read(&path, &limits).unwrap().sector;
         let mesh = read_mesh(&path, &limits).unwrap().unwrap();
@@ -79,6 +85,24 @@ impl Wheel {
             let row = rows[dof].chunks_exact(2).enumerate();
             row.map(|(k, value)| c64::new(value[0], value[1]) * columns[(k, column)]).sum()
         })
+    }
+
+    /// Bending of a blade in so many coordinates.
+    pub(super) fn blade(&self, coordinates: usize) -> BladeBending {
+        let (sector, reduced) = ((&self.mesh, &self.nodes[..]), &*self.reduced.wheel);
+        let mut product = |harmonic: usize, columns: MatRef<'_, c64>| Ok(self.basis(harmonic, columns));
+        let mut project = |harmonic: usize, load: &[f64]| {
+            let (_, rows) = self.bases.iter().find(|(of, _)| *of == harmonic).unwrap();
+            let mut sums = vec![c64::ZERO; rows[0].len() / 2];
+            for (row, load) in rows.iter().zip(load) {
+                for (sum, value) in sums.iter_mut().zip(row.chunks_exact(2)) {
+                    *sum += c64::new(value[0], -value[1]) * load;
+                }
+            }
+            Ok(sums)
+        };
+        let maps: (BasisProduct<'_>, BasisProjection<'_>) = (&mut product, &mut project);
+        blade_bending(sector, reduced, coordinates, maps, &Unwatched).unwrap()
     }
 
     fn facts(&self) -> ModelFacts {
@@ -372,18 +396,7 @@ fn condensed_beside_relaxed(wheel: &Wheel, coordinates: usize, rpm: f64, scale: 
     worst.coordinates.iter_mut().flat_map(|(_, column)| column).for_each(|z| *z *= scale);
     let (sector, reduced) = ((&wheel.mesh, &wheel.nodes[..]), &*wheel.reduced.wheel);
     let mut product = |harmonic: usize, columns: MatRef<'_, c64>| Ok(wheel.basis(harmonic, columns));
-    let mut project = |harmonic: usize, load: &[f64]| {
-        let (_, rows) = wheel.bases.iter().find(|(of, _)| *of == harmonic).unwrap();
-        let mut sums = vec![c64::ZERO; rows[0].len() / 2];
-        for (row, load) in rows.iter().zip(load) {
-            for (sum, value) in sums.iter_mut().zip(row.chunks_exact(2)) {
-                *sum += c64::new(value[0], -value[1]) * load;
-            }
-        }
-        Ok(sums)
-    };
-    let maps: (BasisProduct<'_>, BasisProjection<'_>) = (&mut product, &mut project);
-    let blade = blade_bending(sector, reduced, coordinates, maps, &Unwatched).unwrap();
+    let blade = wheel.blade(coordinates);
     let field = fields(sector, reduced, std::slice::from_ref(&worst), &mut product).unwrap().remove(0);
     let p: Vec<f64> = (0..blade.coordinates())
         .map(|j| {
