@@ -18,7 +18,7 @@ use crate::tokens::Principal;
 
 /// Download the backbone curves of a modal analysis: frequency of free vibration over its amplitude.
 ///
-/// In csv a line is a point.
+/// In csv a line is a point, with whether its curve is complete, its end and the resonances passed.
 #[utoipa::path(get, path = "/v1/jobs/{id}/backbones", operation_id = "get_backbones", tag = "results",
     params(("id" = String, Path, description = "Id of a modal analysis with `backbones`."), DownloadQuery),
     responses(

@@ -15,10 +15,12 @@ use super::state::AppState;
 use super::stream;
 use super::verdict::Judged;
 use crate::analysis::kinds::document::Document;
-use crate::analysis::kinds::modal_analysis::{CAMPBELL, MODAL_ANALYSIS};
+use crate::analysis::kinds::modal_analysis::{BACKBONES, CAMPBELL, MODAL_ANALYSIS};
 use crate::analysis::kinds::sweep::{CRITICAL_SPEEDS, ERRORS, HISTORIES, SWEEP};
 use crate::analysis::resolved::ResolvedSweep;
-use crate::analysis::result::{Campbell, CriticalSpeeds, InteractionMap, SpeedHistories, SpeedSpectra};
+use crate::analysis::result::{
+    Backbones, Campbell, CriticalSpeeds, InteractionMap, SpeedHistories, SpeedSpectra,
+};
 use crate::analysis::run::{self, ModelFacts, VERSION};
 use crate::kinds::JobKind;
 use crate::plot::report::{self, Head, Sweep};
@@ -183,7 +185,10 @@ impl Found<'_> {
                 };
                 Ok(report::sweep(&head, &found))
             }
-            (_, _, Some(campbell)) => Ok(report::modal_analysis(&head, campbell)),
+            (_, _, Some(campbell)) => {
+                let backbones = self.document::<Backbones>(self.job.id, BACKBONES)?;
+                Ok(report::modal_analysis(&head, campbell, backbones.as_ref()))
+            }
             // Deleted since it was found.
             _ => Err(StoreError::Unseen),
         }

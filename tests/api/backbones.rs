@@ -62,6 +62,15 @@ async fn frequencies_change_with_the_amplitude() {
     let csv = get(api, &format!("{path}?format=csv"), &[]).await.good();
     let columns = "nodal_diameter,family,amplitude_um,frequency_hz,change_percent";
     assert!(csv.text().starts_with(columns), "{}", csv.text());
+    let header = csv.text().lines().next().unwrap();
+    assert!(header.ends_with("harmonics_percent,complete,end,passed"), "{header}");
+    let ends =
+        csv.text().lines().filter(|line| line.contains(",true,the largest amplitude is reached,")).count();
+    let complete = curves.iter().filter(|curve| curve["complete"] == true);
+    let points: usize = complete.map(|curve| curve["points"].as_array().unwrap().len()).sum();
+    assert!(points > 0 && ends == points, "{ends} {points}");
+    let report = get(api, &format!("/v1/jobs/{id}/report"), &[]).await.good();
+    assert!(report.text().contains("Backbone curves at 8,594 rpm"), "{}", report.text());
     let figure = api.get(&format!("{path}?format=plotly")).await.body;
     assert_eq!(figure["layout"]["meta"]["kind"], "backbones");
     let svg = get(api, &format!("{path}?format=svg"), &[]).await.good();
@@ -71,7 +80,9 @@ async fn frequencies_change_with_the_amplitude() {
     let seconds = |plan: Value| plan["computing_time_s"].as_f64().unwrap();
     let plan = |request: Value| async move { api.post("/v1/modal-analyses/plan", &request).await.body };
     let (with, without) = (plan(request).await, plan(modal_analysis_of(&model)).await);
-    assert!(seconds(with) > seconds(without));
+    assert!(without.get("backbones_time_s").is_none(), "{without}");
+    let curves = with["backbones_time_s"].as_f64().unwrap();
+    assert!(curves > 0.0 && seconds(with) > curves);
 }
 
 #[tokio::test]

@@ -206,6 +206,24 @@ def test_a_remedy_switches_on_blades_that_bend_far(service, new_page):
     assert mended('`scene.geometric_nonlinearity.include` of "full"', bent) == ["“Included” set to “full”", full]
 
 
+def test_validity_is_about_the_theory_of_the_scene(service, swept, new_page):
+    def bending(route):
+        answer = route.fetch()
+        job = answer.json()
+        job["request"]["scene"]["geometric_nonlinearity"] = {"include": "full", "coordinates": 4}
+        route.fulfill(response=answer, json=job)
+
+    page = new_page(f"{service.url}/#/jobs/{swept}?view=critical")
+    page.get_by_role("columnheader", name="Linear theory").wait_for()
+    page.route(f"**/v1/jobs/{swept}", bending)
+    page.goto(f"{service.url}/#/jobs/{swept}?view=critical&of=sensor")
+    page.get_by_role("columnheader", name="Bending simulated").wait_for()
+    assert page.get_by_role("columnheader", name="Linear theory").count() == 0
+    page.goto(f"{service.url}/#/jobs/{swept}?view=credentials")
+    page.get_by_text("Bending simulated").wait_for()
+    assert page.get_by_text("inear theory").count() == 0
+
+
 def test_nothing_is_counted_before_a_speed_has_finished(service, swept, new_page):
     def emptied(route):
         answer = route.fetch()

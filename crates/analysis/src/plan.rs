@@ -146,7 +146,7 @@ pub(crate) fn plan_modal_analysis(
         coriolis: request.coriolis,
         ..Scene::default()
     };
-    let curves = request.backbones.as_ref().map_or(0.0, |asked| {
+    let curves = request.backbones.as_ref().map(|asked| {
         let count = asked.nodal_diameters.len() * request.families as usize;
         bending_seconds(asked.coordinates, facts) + count as f64 * curve_seconds(asked.coordinates)
     });
@@ -159,7 +159,8 @@ pub(crate) fn plan_modal_analysis(
         basis_bytes_at_most: basis_bytes(facts, reduced, request.modes_per_speed(), request.fields()),
         speeds: speeds.len() as u32,
         nodal_diameters: harmonic_count(facts.sectors as usize) as u32,
-        computing_time_s: reduced.and_then(one).map(|frequencies| frequencies + curves),
+        computing_time_s: reduced.and_then(one).map(|frequencies| frequencies + curves.unwrap_or(0.0)),
+        backbones_time_s: curves,
         choice: None,
         warnings: warnings(&scene, facts, reduced),
         settings: request.clone().into(),

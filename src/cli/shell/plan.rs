@@ -208,6 +208,9 @@ fn modal_analysis(plan: &ModalAnalysisPlan) -> String {
     if let Some(seconds) = plan.computing_time_s {
         let _ = writeln!(words, "time        {}", in_words(seconds));
     }
+    if let Some(seconds) = plan.backbones_time_s {
+        let _ = writeln!(words, "backbones   {}", in_words(seconds));
+    }
     warnings(words, &plan.warnings)
 }
 

@@ -11,7 +11,7 @@ import { table } from '../../lib/table.js';
 import { unitOf } from '../../lib/units.js';
 import { select, sensors } from './choices.js';
 import { fromHere } from './from-here.js';
-import { LINEAR, SETTLED, SETTLING, VALIDITY } from './sweep-credentials.js';
+import { SETTLED, SETTLING, theory, validityColumn } from './sweep-credentials.js';
 
 export async function show(place, context, signal) {
   const { job, query } = context;
@@ -33,7 +33,7 @@ export async function show(place, context, signal) {
       select('Ranked by', [['', of === 'sensor' ? 'speed' : 'severity'], ['utilisation', 'utilisation of the strength']], rank ?? '', (chosen) => context.go({ rank: chosen }))),
     verdict(found),
     of === 'wheel' ? wheelTable(found, context, signal) : sensorTable(found, context, signal),
-    legend(),
+    legend(job.request),
     figure);
   if (of === 'wheel') return;
   try {
@@ -67,23 +67,23 @@ export function at(each) {
 const SEVERITY = 'Tip motion (half peak to peak) over the running clearance; where a node has none, over the length of the contact line. At 1 the tip moves by its whole clearance.';
 
 /** Words of the columns, for readers without a pointer. */
-function legend() {
+function legend(request) {
   return h('details', {}, h('summary', {}, 'What the columns mean'), h('dl', { class: 'facts' }, [
     ['Severity', SEVERITY],
     ['Peak', 'Resolved: the neighbouring speeds show its top. Not resolved: the true peak may be higher and elsewhere; finer speeds show it.'],
     ['Error', 'Estimated error of the response, from control runs.'],
     ...Object.entries(SETTLED).map(([name, word]) => [word, SETTLING[name]]),
-    ['Linear theory', 'Whether displacements are small enough: holds, not checked, doubtful, or beyond it.'],
+    [theory(request).name, theory(request).legend],
     ['Off by', 'Distance of the peak from the linear prediction (nodal diameter, family, superharmonic), as a share of the prediction.'],
   ].map(([name, words]) => [h('dt', {}, name), h('dd', {}, words)])));
 }
 
 const open = (context) => (each) => context.go({ view: 'point', speed: each.index });
-const common = [
+const common = ({ request }) => [
   { name: 'Peak', cell: (each) => peakWords(each), sort: (each) => Number(each.resolved) },
   { name: 'Error', number: true, cell: (each) => percent(each.amplitude_error), sort: (each) => each.amplitude_error },
   { name: 'Steady state', cell: (each) => h('span', { title: SETTLING[each.settling] }, SETTLED[each.settling] ?? each.settling), sort: (each) => each.settling },
-  { name: 'Linear theory', cell: (each) => h('span', { title: VALIDITY[each.validity] }, LINEAR[each.validity] ?? '–'), sort: (each) => each.validity },
+  validityColumn(request, (each) => each.validity),
   { name: 'Utilisation', number: true, cell: (each) => percent(each.utilisation), sort: (each) => each.utilisation },
 ];
 
@@ -104,7 +104,7 @@ function sensorTable(found, context, signal) {
       { name: `Half peak to peak, ${unit}`, number: true, cell: (each) => number(each.half_peak_to_peak), sort: (each) => each.half_peak_to_peak },
       { name: 'Nearest linear prediction', cell: (each) => predicted(each.nearest_crossing) },
       { name: 'Off by', number: true, cell: offWords, sort: off },
-      ...common,
+      ...common(context.job),
       next(context, signal),
     ],
   });
@@ -139,7 +139,7 @@ function wheelTable(found, context, signal) {
       { name: `Tip motion, ${length}`, number: true, cell: (each) => number(each.tip.half_peak_to_peak), sort: (each) => each.tip.half_peak_to_peak },
       { name: 'Clearance consumption', title: 'Largest share of its clearance that the outward motion of a node uses', number: true, cell: (each) => percent(each.clearance_consumption), sort: (each) => each.clearance_consumption },
       { name: `Force, ${force}`, title: 'Largest sum of all contact forces', number: true, cell: (each) => number(each.peak_force), sort: (each) => each.peak_force },
-      ...common,
+      ...common(context.job),
       next(context, signal),
     ],
   });

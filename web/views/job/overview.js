@@ -15,6 +15,7 @@ import { mendable } from '../request/mend.js';
 import { select } from './choices.js';
 import { fromHere } from './from-here.js';
 import { recordedSpeeds } from './recorded.js';
+import { theory } from './sweep-credentials.js';
 import { wheelPicture } from './wheel-picture.js';
 
 /** Quantities that are judged, called as where limits are asked for. */
@@ -41,18 +42,18 @@ function standingWords({ standing, error, above_percent: above }) {
 }
 
 /** Questions that are open at a speed, in a few words; those of errors are told beside the limit. */
-const QUESTIONS = {
+const questionWords = (request) => ({
   speeds_missing: 'no result yet',
   speeds_failed: 'not computed',
   not_settled: 'motion not settled',
   unsound_stiffness: 'stiffness at speed unsound',
-  beyond_linear_theory: 'beyond linear theory',
-  linear_theory_not_checked: 'linear theory not checked',
   error_across_limit: null,
   error_unknown: null,
   value_unknown: 'value not known',
   peak_unresolved: 'peak not resolved',
-};
+  beyond_linear_theory: theory(request).words.beyond,
+  linear_theory_not_checked: theory(request).words.not_checked,
+});
 
 export async function show(place, context, signal) {
   const { job, query } = context;
@@ -146,9 +147,10 @@ function valueWords({ limit, value, error }, units) {
 /** The worst speeds as cards: what, where, which limit by how much, what would decide, and the wheel. */
 function worst(verdict, recorded, context, signal) {
   if (verdict.worst.length === 0) return null;
+  const known = questionWords(context.job.request);
   const card = (one) => {
     const asked = verdict.would_decide.filter((question) => (question.speeds ?? []).includes(one.index));
-    const open = [...new Set(asked.map(({ what, finding }) => (what in QUESTIONS ? QUESTIONS[what] : inWords(finding))).filter(Boolean))];
+    const open = [...new Set(asked.map(({ what, finding }) => (what in known ? known[what] : inWords(finding))).filter(Boolean))];
     return h('li', { class: 'card' },
       h('h3', {}, h('a', { href: context.address({ view: 'point', speed: one.index }) }, speed(one.speed_rad_s))),
       h('p', { class: 'small' }, [responseWords(one), verdict.ranges_given ? positionWords(one.ranges) : null].filter(Boolean).join('; ')),

@@ -40,7 +40,7 @@ export async function show(place, context, signal) {
     point.status === 'completed' ? fromHere(job, point.speed_rad_s, signal) : null,
     point.message ? h('p', { class: 'note warning' }, point.message) : null,
     h('div', { class: 'columns' }, h('div', {}, h('h3', {}, 'Spectrum'), spectrum, h('h3', {}, 'Histories'), histories),
-      h('aside', {}, h('h3', {}, 'Credentials'), credentials(point, map))));
+      h('aside', {}, h('h3', {}, 'Credentials'), credentials(job, point, map))));
   // Arrow keys go from speed to speed, unless they are needed by what has the focus.
   document.addEventListener('keydown', (event) => {
     if (event.target.closest('input, select, textarea, canvas, [role="region"], .js-plotly-plot') || event.ctrlKey || event.altKey || event.metaKey) return;
@@ -97,7 +97,7 @@ function marchWords(march) {
 }
 
 /** What is known of one speed. */
-function credentials(point, map) {
+function credentials({ request }, point, map) {
   const error = map.errors?.points.find((each) => each.index === point.index);
   const { length, force } = map.units;
   const settling = point.settling;
@@ -107,7 +107,7 @@ function credentials(point, map) {
     ['Marched', marchWords(point.march)],
     ['Periodic response', steadyWords(point.steady)],
     ['Largest change between periods', settling?.largest_change === undefined ? null : percent(settling.largest_change)],
-    ['Validity', validityWords(point.validity)],
+    ['Validity', validityWords(request, point.validity)],
     ['Estimated error', error ? `${percent(error.estimated_error)}${error.controlled ? ', simulated again' : ', interpolated from its neighbours'}` : 'not estimated'],
     ['Energy residual', point.energy_residual?.toExponential(1)],
     ['Work of stiffening blades against their energy', point.energy?.bending_residual?.toExponential(1)],

@@ -10,7 +10,7 @@ import { problem } from '../../lib/problem.js';
 import { table } from '../../lib/table.js';
 import { select } from './choices.js';
 import { has } from './recorded.js';
-import { LINEAR, VALIDITY } from './sweep-credentials.js';
+import { validityColumn } from './sweep-credentials.js';
 
 export async function show(place, context, signal) {
   const { job, query } = context;
@@ -51,7 +51,7 @@ export async function show(place, context, signal) {
         ].filter(({ sort }) => worst.some((row) => Number.isFinite(sort(row)))),
         { name: 'Node', number: true, cell: ({ cycle }) => cycle?.node ?? '–' },
         { name: 'Blade', number: true, cell: ({ cycle }) => cycle?.sector ?? '–' },
-        { name: 'Linear theory', cell: ({ at }) => h('span', { title: VALIDITY[at.validity?.verdict] }, LINEAR[at.validity?.verdict] ?? '–') },
+        validityColumn(job.request, ({ at }) => at.validity?.verdict),
       ],
     }));
   await plot(figure, await api.figure(path, { speed: query.get('speed'), colour }, { signal }), { signal, label: 'Haigh diagram' });

@@ -1,4 +1,4 @@
-// Credentials of a sweep in words: steady state, error bars, validity of linear theory.
+// Credentials of a sweep in words: steady state, error bars, validity of its theory.
 
 import { api } from '../../lib/api.js';
 import { h, replace, facts } from '../../lib/dom.js';
@@ -12,8 +12,6 @@ export const SETTLING = {
 };
 /** Settling in one word, for tables. */
 export const SETTLED = { periodic: 'periodic', subharmonic: 'subharmonic', aperiodic: 'aperiodic', not_settled: 'not settled' };
-/** Validity of linear theory in one word, for tables. */
-export const LINEAR = { linear: 'holds', not_checked: 'not checked', doubtful: 'doubtful', beyond: 'beyond' };
 export const STABILITY = {
   stable: 'stable',
   narrow: 'stable against very small disturbances only',
@@ -22,20 +20,40 @@ export const STABILITY = {
   neimark_sacker: 'unstable: a second frequency appears',
   undecided: 'stability could not be decided',
 };
-export const VALIDITY = {
-  linear: 'within linear theory',
-  not_checked: 'linear theory not checked',
-  doubtful: 'linear theory is doubtful',
-  beyond: 'beyond linear theory',
+
+/** Verdicts in one word, for tables. */
+const VERDICTS = { linear: 'holds', not_checked: 'not checked', doubtful: 'doubtful', beyond: 'beyond' };
+const LINEAR = {
+  name: 'Linear theory',
+  legend: 'Whether displacements are small enough: holds, not checked, doubtful, or beyond it.',
+  words: {
+    linear: 'within linear theory',
+    not_checked: 'linear theory not checked',
+    doubtful: 'linear theory is doubtful',
+    beyond: 'beyond linear theory',
+  },
+};
+const BENDING = {
+  name: 'Bending simulated',
+  legend: 'Whether the bending that the scene simulates is enough: holds, not checked, doubtful, or beyond it.',
+  words: {
+    linear: 'within what the scene simulates',
+    not_checked: 'not checked whether the scene simulates enough',
+    doubtful: 'doubtful: the scene may simulate too little',
+    beyond: 'beyond what the scene simulates',
+  },
 };
 
-/** Validity where blades bend far, so that linear theory is not what is judged. */
-const BENDING = {
-  linear: 'within what the scene simulates',
-  not_checked: 'not checked whether the scene simulates enough',
-  doubtful: 'doubtful: the scene may simulate too little',
-  beyond: 'beyond what the scene simulates',
-};
+/** Theory that a request's validity is about, its name and words: linear theory, or what the scene simulates of blades that bend far. */
+export function theory(request) {
+  return request.scene.geometric_nonlinearity ? BENDING : LINEAR;
+}
+
+/** Column of a table with the verdict on the theory that `verdict` reads of a row. */
+export function validityColumn(request, verdict) {
+  const { name, words } = theory(request);
+  return { name, cell: (each) => h('span', { title: words[verdict(each)] }, VERDICTS[verdict(each)] ?? '–'), sort: verdict };
+}
 
 const MEASURED = {
   excess_energy: 'excess energy',
@@ -44,12 +62,11 @@ const MEASURED = {
 };
 
 /** Verdict on the theory at a speed, with what was measured for it. */
-export function validityWords(validity) {
+export function validityWords(request, validity) {
   if (!validity) return null;
   const measured = validity.checks.filter((check) => check.what in MEASURED);
   const scaled = measured.some((check) => check.scaled_from !== undefined);
-  const words = measured.some((check) => check.what === 'outside_coordinates') ? BENDING : VALIDITY;
-  return [words[validity.verdict], ...measured.map((check) => `${MEASURED[check.what]} ${percent(check.value)}`), scaled ? 'scaled from a larger motion' : null]
+  return [theory(request).words[validity.verdict], ...measured.map((check) => `${MEASURED[check.what]} ${percent(check.value)}`), scaled ? 'scaled from a larger motion' : null]
     .filter(Boolean).join('; ');
 }
 
@@ -80,7 +97,7 @@ export async function sweepCredentials(element, { job }, signal) {
     facts([
       ['Speeds', `${count(map.points.length, 'speed')} finished${lost.length > 0 ? `, ${lost.length} of them diverged or failed and have no amplitude` : ''}`],
       ['Steady state', tally(map.points, (point) => point.settling?.verdict, SETTLING)],
-      ['Linear theory', tally(map.points, (point) => point.validity?.verdict, VALIDITY)],
+      [theory(job.request).name, tally(map.points, (point) => point.validity?.verdict, theory(job.request).words)],
       ['Estimated error', errors ? `at most ${percent(errors.largest)}${errors.largest_of_stress ? `, of stress ${percent(errors.largest_of_stress)}` : ''}. ${errors.message}` : 'not estimated: the request asked for no control runs'],
       ['Energy identity', `violated by at most ${energy.toExponential(1)} of the largest energy`],
       ['Stiffening', map.stiffening && map.stiffening !== 'sound' && map.stiffening !== 'absent' ? map.stiffening : null],

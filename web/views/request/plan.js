@@ -88,6 +88,7 @@ function shown(whole) {
     facts([
       ['Time', time?.includes(' to ') ? `${time}: the more contact, the longer` : time],
       ['Computing time', computing === time ? null : computing],
+      ['Backbone curves', plan.backbones_time_s === undefined ? null : `${duration(plan.backbones_time_s)} to compute`],
       ['Designs', plan.designs_at_most > plan.designs ? `${plan.designs}, at most ${plan.designs_at_most}` : plan.designs],
       ['Speeds', plan.speeds],
       ['Runs', runs(plan.runs)],

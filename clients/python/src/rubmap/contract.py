@@ -2205,6 +2205,7 @@ class ForceMap(TypedDict):
 
 
 class ModalAnalysisPlan(TypedDict):
+    backbones_time_s: NotRequired[float]
     basis_bytes_at_most: NotRequired[int]
     choice: NotRequired[ModesChoice]
     computing_time_s: NotRequired[float]

@@ -86,6 +86,8 @@ class Plan(dict[str, Any]):
             )
         elif (seconds := self.get("computing_time_s")) is not None:
             yield "time", _time(seconds)
+        if (curves := self.get("backbones_time_s")) is not None:
+            yield "backbones", _time(curves)
         if (memory := estimate.get("memory_bytes", self.get("memory_bytes"))) is not None:
             yield "memory", _size(memory)
         if (steps := estimate.get("steps", self.get("steps"))) is not None:

@@ -38,6 +38,9 @@ _COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#
 #: Dashes of nodal diameters, again and again.
 _DASHES = ("-", "--", ":", "-.")
 
+#: Marks of nodal diameters where dashes repeat.
+_DIAMETER_MARKS = ("o", "s", "^", "D", "v", "h")
+
 
 def interaction_map(
     found: xr.Dataset,
@@ -127,6 +130,13 @@ def _level_of_map(found: xr.Dataset, quantity: str) -> pd.DataFrame:
     return points
 
 
+def _of_diameter(diameter: int) -> dict[str, Any]:
+    """Dashes and marks of a nodal diameter."""
+    turn, dashes = divmod(diameter, len(_DASHES))
+    mark = _DIAMETER_MARKS[(turn - 1) % len(_DIAMETER_MARKS)] if turn > 0 else ""
+    return {"linestyle": _DASHES[dashes], "marker": mark, "markersize": 4.0}
+
+
 def campbell(
     found: xr.Dataset, ax: Axes | None = None, lobes: int | None = None, crossings: pd.DataFrame | None = None
 ) -> Axes:
@@ -194,14 +204,17 @@ def casing(found: pd.DataFrame, ax: Axes | None = None) -> Axes:
 
 
 def backbones(found: pd.DataFrame, ax: Axes | None = None) -> Axes:
-    """Amplitude over the change of the frequency, of :meth:`ModalAnalysis.backbones`: families in colours, nodal diameters by dashes."""
+    """Amplitude over the change of the frequency, of :meth:`ModalAnalysis.backbones`: families in colours, nodal diameters by dashes and marks."""
     ax = _axes(ax)
     column = next(name for name in found.columns if name.startswith("amplitude_"))
-    families = int(found["family"].max())
-    for _, curve in found.groupby(["nodal_diameter", "family"]):
-        diameter, family = int(curve["nodal_diameter"].iloc[0]), int(curve["family"].iloc[0])
-        look = {"color": _of_family(family, families), "linestyle": _DASHES[diameter % len(_DASHES)]}
-        ax.plot(curve["change_percent"], curve[column], label=f"family {family}, nodal diameter {diameter}", **look)
+    families = sorted({int(family) for family in found["family"]})
+    for (diameter, family), curve in found.groupby(["nodal_diameter", "family"]):
+        colour = _of_family(int(family), families[-1])
+        ax.plot(curve["change_percent"], curve[column], color=colour, markevery=8, **_of_diameter(int(diameter)))
+    for family in families:
+        ax.plot([], [], color=_of_family(family, families[-1]), label=f"family {family}")
+    for diameter in sorted({int(diameter) for diameter in found["nodal_diameter"]}):
+        ax.plot([], [], color="grey", label=f"nodal diameter {diameter}", **_of_diameter(diameter))
     ax.set_xlabel("change of the natural frequency, %")
     ax.set_ylabel(f"amplitude, {column.removeprefix('amplitude_')}")
     ax.legend(fontsize="small")

@@ -259,6 +259,9 @@ pub struct ModalAnalysisPlan {
     /// to be computed or where that speed has none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub computing_time_s: Option<f64>,
+    /// Computing time of backbone curves alone, s. Absent without them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub backbones_time_s: Option<f64>,
     /// Modes that the stored reductions choose for the accuracy asked for; absent until they do.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub choice: Option<ModesChoice>,

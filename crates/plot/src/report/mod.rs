@@ -14,7 +14,8 @@ mod warnings;
 use crate::SurfaceView;
 use maud::{Markup, html};
 use rubmap_analysis::result::{
-    Campbell, CriticalSpeeds, FieldSurface, ForceMap, InteractionMap, SpeedHistories, Strengths, SweepLevel,
+    Backbones, Campbell, CriticalSpeeds, FieldSurface, ForceMap, InteractionMap, SpeedHistories, Strengths,
+    SweepLevel,
 };
 use serde_json::Value;
 
@@ -83,7 +84,7 @@ pub fn sweep(head: &Head, sweep: &Sweep) -> String {
 }
 
 /// Renders the report of a modal analysis, as HTML. All texts of users are escaped.
-pub fn modal_analysis(head: &Head, campbell: &Campbell) -> String {
+pub fn modal_analysis(head: &Head, campbell: &Campbell, backbones: Option<&Backbones>) -> String {
     let body = html! {
         (asked::modal_analysis(&campbell.settings))
         (warnings::section(&warnings::reduction(&campbell.reduction)))
@@ -92,6 +93,11 @@ pub fn modal_analysis(head: &Head, campbell: &Campbell) -> String {
         (drawing(&super::campbell(campbell)))
         h2 { "Crossings that the lobes can drive" }
         (tables::driven_crossings(&campbell.driven_crossings))
+        @if let Some(found) = backbones.filter(|found| !found.curves.is_empty()) {
+            h2 { "Backbone curves" }
+            (drawing(&super::backbones(found)))
+            (tables::backbones(found))
+        }
         (settings(serde_json::to_value(&campbell.settings).unwrap_or_default()))
     };
     page(head, &html! {}, &body)

@@ -2,7 +2,8 @@
 
 use maud::{Markup, html};
 use rubmap_analysis::result::{
-    CriticalSpeed, CriticalSpeeds, DrivenCrossing, InteractionMap, Point, SensorResponse, SweepLevel, Verdict,
+    Backbones, CriticalSpeed, CriticalSpeeds, DrivenCrossing, InteractionMap, Point, SensorResponse,
+    SweepLevel, Verdict,
 };
 
 use crate::axis::significant;
@@ -127,6 +128,28 @@ pub(super) fn driven_crossings(crossings: &[DrivenCrossing]) -> Markup {
                         td { (crossing.family) }
                         td { (format!("{:.0}", rpm(crossing.speed_rad_s))) }
                         td { (format!("{:.1}", crossing.frequency_hz)) }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Table of backbone curves: change of the frequency where each ends.
+pub(super) fn backbones(found: &Backbones) -> Markup {
+    html! {
+        table class="numbers" {
+            tr {
+                th { "family" } th { "nodal diameter" } th { "up to, " (found.units.length) } th { "change of frequency" } th { "end" }
+            }
+            @for curve in &found.curves {
+                @if let Some(last) = curve.points.last() {
+                    tr {
+                        td { (curve.family) }
+                        td { (curve.nodal_diameter) }
+                        td { (significant(last.amplitude)) }
+                        td { (format!("{:+.2} %", last.change_percent)) }
+                        td { (curve.end) }
                     }
                 }
             }

@@ -1,5 +1,7 @@
 //! Properties of figures: their numbers are those of the results, and the page decides its own style.
 
+use std::collections::BTreeSet;
+
 use serde_json::{Value, json};
 
 use super::drawings::{credentials, mm};
@@ -8,9 +10,9 @@ use super::fixtures::{contact, recorded, spectra, worn};
 use super::pens::figure;
 use super::stresses::{of_sweep, stressed_map};
 use super::studies::{RUNS, study};
-use super::{SPEEDS_RPM, critical, map, modes};
+use super::{SPEEDS_RPM, backbones, critical, map, modes};
 use crate::{ForceQuantity, Frame, HaighColour, HistoryQuantity, LevelColour, VerticalAxis, Window};
-use rubmap_analysis::result::Quantity;
+use rubmap_analysis::result::{BackboneCurve, Quantity};
 
 /// Finds the trace of this name.
 pub(super) fn trace<'a>(figure: &'a Value, name: &str) -> &'a Value {
@@ -45,6 +47,37 @@ fn colours_of_the_page_are_left_to_the_page() {
         }
         assert!(layout.get("width").is_none(), "{name}");
     }
+}
+
+/// Nodal diameters beyond the kinds of dashes have marks: no two of 28 look alike, and all are named.
+#[test]
+fn backbone_curves_of_many_nodal_diameters_look_different() {
+    let mut found = backbones();
+    let first = found.curves[0].clone();
+    found.curves = (0..28).map(|nodal_diameter| BackboneCurve { nodal_diameter, ..first.clone() }).collect();
+    let figure = json!(figure::backbones(&found));
+    let look = |i: u32| {
+        let named = trace(&figure, &format!("nodal diameter {i}"));
+        let symbol = if i < 4 { String::new() } else { named["marker"]["symbol"].to_string() };
+        format!("{} {symbol}", named["line"]["dash"])
+    };
+    let looks: BTreeSet<String> = (0..28).map(look).collect();
+    assert_eq!(looks.len(), 28, "{looks:?}");
+    let marked = traces(&figure, "family 1").filter(|trace| trace["mode"] == "markers");
+    let marks: Vec<usize> = marked.map(|trace| numbers(&trace["x"]).len()).collect();
+    assert_eq!(marks, [4; 24]);
+}
+
+/// Changes that the harmonics do not resolve are drawn as none, and larger ones as they are.
+#[test]
+fn a_backbone_curve_of_round_off_is_straight() {
+    let mut found = backbones();
+    for point in &mut found.curves[1].points {
+        point.change_percent *= 1e-5;
+    }
+    let figure = json!(figure::backbones(&found));
+    assert!(numbers(&trace(&figure, "family 2")["x"]).iter().all(|change| *change == 0.0));
+    assert!(numbers(&trace(&figure, "family 1")["x"]).iter().any(|change| *change > 5.0));
 }
 
 /// Amplitudes in the row of `map()`: 0.01 at engine order 1 and 0.5 at 2; its third speed diverged.

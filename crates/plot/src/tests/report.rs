@@ -5,10 +5,11 @@ use roxmltree::Document;
 
 use super::impeller::impeller;
 use super::stresses::{strengths, stressed_critical, stressed_map};
-use super::{critical, map, modes};
+use super::{backbones, critical, map, modes};
 use crate::report;
 use rubmap_analysis::result::{
-    CriticalSpeeds, FieldSurface, InteractionMap, Strengths, SweepLevel, ValidityMeasure, ValidityVerdict,
+    Backbones, CriticalSpeeds, FieldSurface, InteractionMap, Strengths, SweepLevel, ValidityMeasure,
+    ValidityVerdict,
 };
 
 /// Converts a page to XML: elements of HTML without an end get one.
@@ -90,13 +91,37 @@ fn a_report_of_a_sweep_says_all_and_needs_nothing() {
 #[test]
 fn a_report_of_a_modal_analysis_has_its_crossings() {
     let campbell = modes();
-    let page = report::modal_analysis(&report::Head::default(), &campbell);
+    let page = report::modal_analysis(&report::Head::default(), &campbell, None);
     let xml = as_xml(&page);
     let read = Document::parse(&xml).unwrap();
     let text: String = read.descendants().filter_map(|node| node.text()).collect::<Vec<_>>().join(" ");
     assert!(text.contains("Crossings that the lobes can drive") && text.contains("None."), "{text}");
     for crossing in &campbell.driven_crossings {
         assert!(text.contains(&format!("{:.1}", crossing.frequency_hz)));
+    }
+}
+
+/// Report of a modal analysis with backbone curves: figure and table; none without curves.
+#[test]
+fn a_report_of_a_modal_analysis_has_its_backbone_curves() {
+    let text = |backbones: Option<&Backbones>| {
+        let xml = as_xml(&report::modal_analysis(&report::Head::default(), &modes(), backbones));
+        let read = Document::parse(&xml).unwrap();
+        read.descendants().filter_map(|node| node.text()).collect::<Vec<_>>().join("|")
+    };
+    let found = backbones();
+    let with = text(Some(&found));
+    assert!(with.contains("Backbone curves at 14,000 rpm"), "{with}");
+    for end in ["the largest amplitude is reached", "no larger motion was found"] {
+        assert!(with.contains(end), "{end}: {with}");
+    }
+    // 4 % at an amplitude of 1, and 6 % there of a curve that ends at 0.6.
+    for change in ["+5.76 %", "+2.16 %"] {
+        assert!(with.contains(change), "{change}: {with}");
+    }
+    let empty = Backbones { curves: Vec::new(), ..found };
+    for without in [None, Some(&empty)] {
+        assert!(!text(without).contains("Backbone"));
     }
 }
 
