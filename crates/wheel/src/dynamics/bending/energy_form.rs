@@ -68,10 +68,15 @@ impl EnergyForm {
         self.coordinates
     }
 
+    /// Coordinates of each product.
+    pub(crate) fn products(&self) -> &[(usize, usize)] {
+        &self.products
+    }
+
     /// Strain energy V at `p`.
     pub fn energy(&self, p: &[f64]) -> f64 {
         let p = padded(p);
-        self.values(pulp::Scalar, &p, &self.products_of(pulp::Scalar, &p))
+        self.values(pulp::Scalar, &p, &self.products_of(&p))
     }
 
     /// Kinetic energy T at `p` and the velocity ṗ.
@@ -87,7 +92,7 @@ impl EnergyForm {
     pub fn force(&self, p: &[f64]) -> Vec<f64> {
         let p = padded(p);
         let mut force = [0.0; MOST_COORDINATES];
-        self.add_forces(pulp::Scalar, &p, &p, &self.products_of(pulp::Scalar, &p), &mut force);
+        self.add_forces(pulp::Scalar, &p, &p, &self.products_of(&p), &mut force);
         force[..self.coordinates].to_vec()
     }
 
@@ -110,7 +115,7 @@ impl EnergyForm {
 
     /// Stiffness ∂²V/∂p² at `p`.
     pub fn stiffness(&self, p: &[f64]) -> Mat<f64> {
-        let q = self.products_of(pulp::Scalar, &padded(p));
+        let q = self.products_of(&padded(p));
         let curved = self.curved(p, &q);
         let slopes = self.slopes(p);
         let cubic = self.cubic_matrix() * &slopes;
@@ -121,7 +126,7 @@ impl EnergyForm {
     pub(crate) fn inertia_derivatives(&self, motion: Motion<'_>) -> Derivatives {
         let slopes = self.slopes(motion.p);
         let cubic = self.cubic_matrix();
-        let by_rates = &cubic + slopes.transpose() * self.quartic_matrix();
+        let by_rates = cubic + slopes.transpose() * self.quartic_matrix();
         let accelerated = &by_rates * self.slopes(motion.acceleration);
         Derivatives {
             by_acceleration: &by_rates * &slopes + slopes.transpose() * cubic.transpose(),
@@ -211,16 +216,11 @@ impl EnergyForm {
         }
     }
 
-    /// Products q of the coordinates `p` of each lane.
-    #[inline(always)]
-    pub(crate) fn products_of<S: Simd>(
-        &self,
-        simd: S,
-        p: &[S::f64s; MOST_COORDINATES],
-    ) -> [S::f64s; MOST_PRODUCTS] {
-        let mut q = [simd.splat_f64s(0.0); MOST_PRODUCTS];
+    /// Products q of the coordinates `p`.
+    fn products_of(&self, p: &[f64; MOST_COORDINATES]) -> [f64; MOST_PRODUCTS] {
+        let mut q = [0.0; MOST_PRODUCTS];
         for (q, &(j, k)) in q.iter_mut().zip(&self.products) {
-            *q = simd.mul_f64s(p[j], p[k]);
+            *q = p[j] * p[k];
         }
         q
     }

@@ -1,9 +1,12 @@
 //! Contact operator of a tuned wheel: one block-circulant table per speed and step (docs/method.md, Contact).
 
+use std::ops::Range;
+
 use faer::{Mat, c64};
 
 use super::super::bending::MOST_COORDINATES;
 use super::super::oscillators::lanes::LANES;
+use super::slopes::{Slopes, add_column};
 use rubmap_numerics::aligned::Aligned;
 use rubmap_numerics::complementarity::{ContactOperator, any_below};
 use rubmap_numerics::sector_fourier::{SectorFourier, is_single};
@@ -14,8 +17,6 @@ pub(crate) struct Delassus {
     sectors: usize,
     /// Rows of a sector: contact nodes, and behind them coordinates of blades that bend far.
     nodes: usize,
-    /// Number of these coordinates.
-    coordinates: usize,
     stride: usize,
     /// Entries of W, `[sector distance][column node][row node]`.
     table: Aligned,
@@ -24,21 +25,21 @@ pub(crate) struct Delassus {
     largest: Vec<f64>,
     /// Sector and node of every index.
     places: Vec<(usize, usize)>,
-    /// Motion of contact nodes per unit of a coordinate of their sector, `[sector][coordinate][node]`, padded; empty without coordinates.
-    slopes: Vec<f64>,
-    /// Largest share by which slopes make any entry larger than the largest of the table: (1 + Σ |slope|)².
+    /// Motion of contact nodes by the coordinates of their sector, if there are any.
+    slopes: Option<Slopes>,
+    /// Largest share by which slopes make any entry larger than the largest of the table, at most: (1 + Σ |slope|)².
     steepest: f64,
 }
 
 impl Delassus {
     /// Operator W = Σ_i w_i² Re(W_i e^{jiα(s−s')}) from the `nodes × nodes` blocks W_i of the nodal diameters, with the
-    /// [`ridge`](super::flexibility::ridge) of the blocks without friction. The last of the nodes are so many `coordinates` of blades that
-    /// bend far, at most [`MOST_COORDINATES`].
+    /// [`ridge`](super::flexibility::ridge) of the blocks without friction. The last of the nodes are the coordinates of blades that
+    /// bend far, by which contact nodes move with `slopes`.
     pub(crate) fn new(
         blocks: &[Mat<c64>],
         ridge: f64,
         stride: usize,
-        coordinates: usize,
+        slopes: Option<Slopes>,
         fourier: &SectorFourier,
     ) -> Self {
         let (sectors, nodes) = (fourier.sectors(), blocks[0].nrows());
@@ -47,18 +48,8 @@ impl Delassus {
             table[(distance * nodes + from) * stride + to] += value;
         });
         let places = (0..sectors * stride).map(|index| (index / stride, index % stride)).collect();
-        let mut this = Self {
-            sectors,
-            nodes,
-            coordinates,
-            stride,
-            table,
-            ridge,
-            largest: Vec::new(),
-            places,
-            slopes: vec![0.0; sectors * coordinates * stride],
-            steepest: 1.0,
-        };
+        let mut this =
+            Self { sectors, nodes, stride, table, ridge, largest: Vec::new(), places, slopes, steepest: 1.0 };
         this.find_largest();
         this
     }
@@ -83,95 +74,74 @@ impl Delassus {
 
     /// Number of contact nodes of a sector.
     pub(crate) fn contact_nodes(&self) -> usize {
-        self.nodes - self.coordinates
+        self.nodes - self.slopes.as_ref().map_or(0, Slopes::coordinates)
     }
 
-    /// Lets `write` set the motion of contact nodes per unit of a coordinate of their sector, `[sector][coordinate][node]`, padded by zeros: W
-    /// becomes J W Jᵀ, J reading a node and by its slopes the coordinates.
+    /// Takes the coordinates of all sectors from `linear`, `[sector][row]`, the linear displacement of nodes and coordinates: W becomes J W Jᵀ, J
+    /// reading a node and by its slopes the coordinates.
     #[inline(always)]
-    pub(crate) fn bend(&mut self, write: impl FnOnce(&mut [f64])) {
-        write(&mut self.slopes);
-        let mut steepest = [0.0f64; LANES];
-        for of_sector in self.slopes.chunks_exact((self.coordinates * self.stride).max(1)) {
-            for first in (0..self.stride).step_by(LANES) {
-                let mut sums = [0.0; LANES];
-                for slopes in of_sector[first..].chunks(self.stride) {
-                    sums.iter_mut().zip(slopes).for_each(|(sum, slope)| *sum += slope.abs());
-                }
-                steepest
-                    .iter_mut()
-                    .zip(sums)
-                    .for_each(|(most, sum)| *most = if sum > *most { sum } else { *most });
-            }
+    pub(crate) fn bend(&mut self, linear: &[f64]) {
+        if let Some(slopes) = &mut self.slopes {
+            self.steepest = (1.0 + slopes.move_to(linear)).powi(2);
         }
-        self.steepest = (1.0 + steepest.iter().fold(0.0, |most: f64, &of| most.max(of))).powi(2);
     }
 
-    /// Motion of the node of an index per unit of each coordinate of its sector; nothing without coordinates.
+    /// Motion of nodes by coordinates, if there are any.
     #[inline(always)]
-    pub(crate) fn slope(&self, index: usize) -> impl Iterator<Item = f64> {
-        let (sector, node) = self.place(index);
-        self.slopes_of(sector).iter().skip(node).step_by(self.stride).copied()
-    }
-
-    /// Slopes of a sector, `[coordinate][node]`.
-    #[inline(always)]
-    fn slopes_of(&self, sector: usize) -> &[f64] {
-        let count = self.coordinates * self.stride;
-        &self.slopes[sector * count..][..count]
+    pub(crate) fn slopes(&self) -> Option<&Slopes> {
+        self.slopes.as_ref()
     }
 
     /// Entry that the slopes add to that of the table.
-    fn bent_entry(&self, i: usize, j: usize) -> f64 {
+    fn bent_entry(&self, slopes: &Slopes, i: usize, j: usize) -> f64 {
         let ((to_sector, to), (from_sector, from)) = (self.place(i), self.place(j));
-        let (distance, first) = (self.distance(to_sector, from_sector), self.contact_nodes());
-        let along = |column: &[f64]| self.slope(i).zip(&column[first..]).map(|(s, w)| s * w).sum::<f64>();
-        let own = along(self.column(distance, from));
-        let pushed = self.slope(j).enumerate().map(|(b, slope)| {
-            let column = self.column(distance, first + b);
-            slope * (column[to] + along(column))
-        });
-        own + pushed.sum::<f64>()
+        let (distance, coordinates) = (self.distance(to_sector, from_sector), self.coordinates(slopes));
+        // Motion of the coordinates, and of the node but for its slopes.
+        let mut moved = [0.0; MOST_COORDINATES];
+        add_scaled(&mut moved, &self.column(distance, from)[coordinates.clone()], 1.0);
+        let mut entry = 0.0;
+        for (column, slope) in coordinates.clone().zip(slopes.of(from_sector, from)) {
+            let column = self.column(distance, column);
+            entry += slope * column[to];
+            add_scaled(&mut moved, &column[coordinates.clone()], slope);
+        }
+        for (slope, moved) in slopes.of(to_sector, to).iter().zip(moved) {
+            entry += slope * moved;
+        }
+        entry
+    }
+
+    /// Rows and columns of the coordinates.
+    #[inline(always)]
+    fn coordinates(&self, slopes: &Slopes) -> Range<usize> {
+        self.nodes - slopes.coordinates()..self.nodes
     }
 
     /// Adds to the gaps of `sector` what bending adds to W λ.
     #[inline(always)]
-    fn add_bent(&self, sector: usize, active: &[usize], lambda: &[f64], gap: &mut [f64]) {
-        let (first, m) = (self.contact_nodes(), self.coordinates);
-        let gap = gap.as_chunks_mut::<LANES>().0;
+    fn add_bent(&self, slopes: &Slopes, sector: usize, active: &[usize], lambda: &[f64], gap: &mut [f64]) {
+        let coordinates = self.coordinates(slopes);
         let mut moved = [0.0; MOST_COORDINATES];
-        let mut read = |column: &[f64], force: f64| {
-            moved.iter_mut().zip(&column[first..first + m]).for_each(|(moved, w)| *moved += w * force);
-        };
-        let mut add = |column: &[f64], by: f64| {
-            for (gap, column) in gap.iter_mut().zip(column.as_chunks::<LANES>().0) {
-                gap.iter_mut().zip(column).for_each(|(gap, w)| *gap += w * by);
-            }
-        };
         let mut loads = active.iter().zip(lambda).peekable();
         while let Some(&(&index, _)) = loads.peek() {
             let from_sector = self.place(index).0;
             let distance = self.distance(sector, from_sector);
             // Forces of one sector push the same coordinates.
             let mut pushed = [0.0; MOST_COORDINATES];
-            while let Some((&index, lambda)) =
+            while let Some((&index, &lambda)) =
                 loads.next_if(|&(&index, _)| self.place(index).0 == from_sector)
             {
-                pushed
-                    .iter_mut()
-                    .zip(self.slope(index))
-                    .for_each(|(pushed, slope)| *pushed += slope * lambda);
-                read(self.column(distance, self.place(index).1), *lambda);
+                let from = self.place(index).1;
+                add_scaled(&mut pushed, &slopes.of(from_sector, from), lambda);
+                add_scaled(&mut moved, &self.column(distance, from)[coordinates.clone()], lambda);
             }
-            for (b, &force) in pushed[..m].iter().enumerate() {
-                let column = self.column(distance, first + b);
-                read(column, force);
-                add(column, force);
+            for (column, force) in coordinates.clone().zip(pushed) {
+                let column = self.column(distance, column);
+                add_scaled(&mut moved, &column[coordinates.clone()], force);
+                add_column(column, force, gap);
             }
         }
-        for (slopes, &moved) in self.slopes_of(sector).chunks_exact(self.stride).zip(&moved) {
-            add(slopes, moved);
-        }
+        slopes.add(sector, &moved, gap);
     }
 
     /// Sector and contact node of an index.
@@ -211,6 +181,14 @@ impl Delassus {
     }
 }
 
+/// Adds `by` times `values` to the numbers of coordinates.
+#[inline(always)]
+fn add_scaled(sums: &mut [f64; MOST_COORDINATES], values: &[f64], by: f64) {
+    for (sum, value) in sums.iter_mut().zip(values) {
+        *sum += value * by;
+    }
+}
+
 /// Sums Σ_i w_i² Re(B_i e^{jiα(s−s')}) of the blocks B_i of the nodal diameters, term by term: `add(sector distance, to, from, term)`.
 pub(super) fn circulant(
     blocks: &[Mat<c64>],
@@ -246,7 +224,10 @@ impl ContactOperator for Delassus {
         let ((to_sector, to), (from_sector, from)) = (self.place(i), self.place(j));
         let entry = self.column(self.distance(to_sector, from_sector), from)[to]
             + if i == j { self.ridge } else { 0.0 };
-        if self.coordinates == 0 { entry } else { entry + self.bent_entry(i, j) }
+        match &self.slopes {
+            Some(slopes) => entry + self.bent_entry(slopes, i, j),
+            None => entry,
+        }
     }
 
     #[inline(always)]
@@ -271,8 +252,8 @@ impl ContactOperator for Delassus {
                 }
                 *gap = sums;
             }
-            if self.coordinates > 0 {
-                self.add_bent(sector, active, lambda, gap);
+            if let Some(slopes) = &self.slopes {
+                self.add_bent(slopes, sector, active, lambda, gap);
             }
         }
     }
@@ -299,7 +280,7 @@ mod tests {
             })
         };
         let blocks: Vec<_> = (0..=SECTORS / 2).map(block).collect();
-        let w = Delassus::new(&blocks, 0.0, LANES, 0, &fourier);
+        let w = Delassus::new(&blocks, 0.0, LANES, None, &fourier);
         let mut kept = 0;
         for turn in 0..SECTORS {
             // Candidates may have forces of either sign.

@@ -15,3 +15,4 @@ pub mod disc;
 pub(crate) mod disc_operator;
 pub mod flexibility;
 pub mod friction;
+pub(crate) mod slopes;

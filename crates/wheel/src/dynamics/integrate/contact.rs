@@ -2,7 +2,7 @@
 
 use pulp::Simd;
 
-use super::super::bending::Bending;
+use super::super::bending::{Bending, MOST_COORDINATES};
 use super::super::casing::Casing;
 use super::super::clearance_change::ClearanceChange;
 use super::super::clearance_drift::ClearanceDrift;
@@ -82,7 +82,7 @@ impl Contact {
         let gaps = Gaps::new(simulation, casing, stride);
         let elastic = gaps.shift.as_ref().and_then(|shift| shift.casing.as_ref());
         let law = Law::new(simulation, oscillators, fourier, elastic, stride);
-        let delassus = delassus(simulation, oscillators, fourier, stride, elastic);
+        let delassus = delassus(simulation, oscillators, fourier, &gaps);
         let sliding = effects.sliding().map(|friction| Sliding::new(simulation, friction));
         let force_stride = applied(&rows, sliding.as_ref(), &law).stride;
         let Effects { coating, orbit, clearance_change, clearance_drift, .. } = effects;
@@ -162,8 +162,8 @@ impl Contact {
         work: &mut EffectWork,
     ) -> Result<(), ComplementarityError> {
         let Self { law, gaps, delassus, .. } = self;
-        if let Some(second_order) = &gaps.second_order {
-            delassus.bend(|slopes| second_order.slopes(&gaps.linear, slopes));
+        if gaps.second_order.is_some() {
+            delassus.bend(&gaps.linear);
             law.operator_changed();
         }
         loop {
@@ -188,6 +188,7 @@ impl Contact {
         statistics.pivots = pivots;
         let disc = law.disc();
         let mut casing = gaps.shift.as_mut().and_then(|shift| shift.casing.as_mut());
+        let mut pushed = [0.0; MOST_COORDINATES];
         let mut impulse = 0.0;
         for (number, (&index, lambda)) in active.iter().zip(lambda).enumerate() {
             let (sector, row) = delassus.place(index);
@@ -208,8 +209,16 @@ impl Contact {
                 press(self.force_rows * row + direction, force);
             }
             let lambda = *lambda;
-            for (coordinate, slope) in delassus.slope(index).enumerate() {
-                press(delassus.contact_nodes() + coordinate, slope * lambda);
+            if let Some(slopes) = delassus.slopes() {
+                for (pushed, slope) in pushed.iter_mut().zip(slopes.of(sector, row)) {
+                    *pushed += slope * lambda;
+                }
+                // Forces of one sector push the same coordinates.
+                if active.get(number + 1).is_none_or(|&next| delassus.place(next).0 != sector) {
+                    for (coordinate, force) in pushed[..slopes.coordinates()].iter_mut().enumerate() {
+                        press(delassus.contact_nodes() + coordinate, std::mem::take(force));
+                    }
+                }
             }
             if let Some(sliding) = &self.sliding {
                 work.friction_heat += sliding.heat[row] * lambda;
@@ -329,8 +338,7 @@ fn delassus(
     simulation: &Simulation<'_>,
     oscillators: &Oscillators,
     fourier: &SectorFourier,
-    stride: usize,
-    casing: Option<&CasingMotion>,
+    gaps: &Gaps,
 ) -> Delassus {
     let directions = read(simulation);
     let symmetric = symmetric_flexibility(simulation, oscillators, &directions, &directions);
@@ -339,15 +347,16 @@ fn delassus(
     let of_normals: Vec<_> =
         symmetric.iter().map(|block| block.submatrix(0, 0, nodes, nodes).to_owned()).collect();
     let ridge = ridge(&of_normals, simulation.wheel.sectors);
-    let coordinates = directions.len() - nodes;
+    let slopes = gaps.second_order.as_ref().map(|second_order| second_order.slopes(fourier.sectors()));
     let mut delassus = match simulation.effects.sliding() {
-        None if !simulation.wheel.turns() => Delassus::new(&symmetric, ridge, stride, coordinates, fourier),
+        None if !simulation.wheel.turns() => Delassus::new(&symmetric, ridge, gaps.stride, slopes, fourier),
         friction => {
             let from = friction.map_or(directions.as_slice(), |friction| friction.directions);
             let blocks = step_flexibility(simulation, oscillators, &directions, from);
-            Delassus::new(&blocks, ridge, stride, coordinates, fourier)
+            Delassus::new(&blocks, ridge, gaps.stride, slopes, fourier)
         }
     };
+    let casing = gaps.shift.as_ref().and_then(|shift| shift.casing.as_ref());
     if let Some(casing) = casing {
         delassus.add(|distance, to, from| casing.operator(distance, to, from));
     }

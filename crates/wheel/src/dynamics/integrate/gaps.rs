@@ -27,7 +27,7 @@ pub(super) struct Gaps {
     /// Clearances c_k, padded with +∞.
     pub(super) clearance: Vec<f64>,
     /// Number of contact nodes of a sector, padded to whole vectors.
-    stride: usize,
+    pub(super) stride: usize,
     /// Normal displacements of the integrated modes, `[Fourier column][node]`; behind them the coordinates of blades that bend far.
     pub(super) harmonic: Vec<f64>,
     /// Upper bounds of nᵀu in any sector.

@@ -3,8 +3,9 @@
 use pulp::Simd;
 
 use super::super::bending::{Bending, MOST_COORDINATES, products};
+use super::super::contact::slopes::{Slopes, add_column};
 use super::super::direction::{COMPONENTS, Direction};
-use super::super::oscillators::lanes::{LANES, padded};
+use super::super::oscillators::lanes::padded;
 use super::super::sector::ContactNode;
 use rubmap_numerics::aligned::Aligned;
 use rubmap_numerics::sector_fourier::SectorFourier;
@@ -75,11 +76,10 @@ impl SecondOrder {
             coordinates(fourier, sector, &harmonic[*rows..], *stride, &mut p[..*m]);
             moved.fill(0.0);
             for (c, &(j, k)) in curvature.chunks_exact(*stride).zip(&*products) {
-                let q = p[j] * p[k];
-                moved.iter_mut().zip(c).for_each(|(moved, c)| *moved += c * q);
+                add_column(c, p[j] * p[k], moved);
             }
-            for (&row, column) in fourier.row(sector).iter().zip(harmonic.chunks_exact_mut(*stride)) {
-                column.iter_mut().zip(&*moved).for_each(|(sum, moved)| *sum += row * moved);
+            for (row, column) in fourier.row(sector).iter().zip(harmonic.chunks_exact_mut(*stride)) {
+                add_column(moved, *row, column);
             }
         }
     }
@@ -103,24 +103,10 @@ impl SecondOrder {
         smallest
     }
 
-    /// Writes the derivatives of the displacement by the coordinates, `[sector][coordinate][row]`, padded. `linear` is the linear displacement
-    /// of rows and coordinates of all sectors, padded.
-    #[inline(always)]
-    pub(super) fn slopes(&self, linear: &[f64], slopes: &mut [f64]) {
-        let Self { rows, coordinates: m, stride, curvature, products, .. } = self;
-        let of_sectors = slopes.chunks_exact_mut((m * stride).max(1)).zip(linear.chunks_exact(*stride));
-        for (slopes, linear) in of_sectors {
-            let p = &linear[*rows..][..*m];
-            slopes.fill(0.0);
-            for (c, &(j, k)) in curvature.chunks_exact(*stride).zip(products) {
-                for (of, by) in [(j, p[k]), (k, p[j])] {
-                    let slope = slopes[of * stride..][..*stride].as_chunks_mut::<LANES>().0;
-                    for (slope, c) in slope.iter_mut().zip(c.as_chunks::<LANES>().0) {
-                        slope.iter_mut().zip(c).for_each(|(slope, c)| *slope += c * by);
-                    }
-                }
-            }
-        }
+    /// Derivatives of the displacement by the coordinates.
+    pub(super) fn slopes(&self, sectors: usize) -> Slopes {
+        let Self { rows, coordinates, stride, curvature, products, .. } = self;
+        Slopes::new(sectors, (*rows, *coordinates), curvature.clone(), *stride, products.clone())
     }
 }
 

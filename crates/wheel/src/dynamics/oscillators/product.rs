@@ -50,12 +50,17 @@ impl RowBlock {
         stride: usize,
         out: &mut [f64],
     ) {
-        let out = &mut out[..segment.size()];
+        let reached = self.re.length.min(segment.length);
         if segment.single {
+            let (out, beyond) = out[..segment.length].split_at_mut(reached);
+            beyond.fill(0.0);
             simd.vectorize(LoadSingle { block: self, loaded, force, out });
         } else {
             let (force_re, force_im) = force.split_at(stride);
-            let (re, im) = out.split_at_mut(segment.length);
+            let (re, im) = out[..segment.size()].split_at_mut(segment.length);
+            let ((re, beyond_re), (im, beyond_im)) = (re.split_at_mut(reached), im.split_at_mut(reached));
+            beyond_re.fill(0.0);
+            beyond_im.fill(0.0);
             simd.vectorize(LoadPair { block: self, loaded, force_re, force_im, re, im });
         }
     }
@@ -71,10 +76,12 @@ impl RowBlock {
         rows: usize,
         stride: usize,
     ) {
+        let reached = self.re.length.min(segment.length);
         if segment.single {
-            simd.vectorize(ProjectSingle { block: self, z, out: &mut out[..rows] });
+            simd.vectorize(ProjectSingle { block: self, z: &z[..reached], out: &mut out[..rows] });
         } else {
             let (re, im) = z.split_at(segment.length);
+            let (re, im) = (&re[..reached], &im[..reached]);
             let (out_re, out_im) = out.split_at_mut(stride);
             let (out_re, out_im) = (&mut out_re[..rows], &mut out_im[..rows]);
             simd.vectorize(ProjectPair { block: self, re, im, out_re, out_im });

@@ -43,10 +43,10 @@ pub(super) struct RowBlock {
     pub(super) im: Matrix,
 }
 
-/// Matrix in row-major order `[row][mode]`, modes padded to `length`.
+/// Matrix in row-major order `[row][mode]`, modes padded to `length`; modes of the segment behind them have no part in it.
 #[derive(Debug, Clone)]
 pub(super) struct Matrix {
-    length: usize,
+    pub(super) length: usize,
     values: Aligned,
 }
 

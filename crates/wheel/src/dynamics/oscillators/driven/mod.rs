@@ -79,7 +79,7 @@ impl Drive {
         });
         let stiffening = effects.stiffening().map(|bending| {
             let resolved = oscillators.resolved_families();
-            Stiffening::new(bending, wheel, oscillators, fourier, (resolved, step))
+            Stiffening::new(bending, wheel, fourier, (resolved, step))
         });
         let longest = oscillators.segments.iter().map(|segment| segment.length).max().unwrap_or(0);
         let segments = &oscillators.segments;

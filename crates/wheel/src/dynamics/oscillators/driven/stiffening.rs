@@ -3,9 +3,11 @@
 //! The force of inertia needs accelerations at an instant of which only the past is known: p̈ and q̈ are one-sided differences of second order,
 //! h²q̈ ≈ 2q − 5q⁻ + 4q⁻⁻ − q⁻⁻⁻. With them a step is stable while the inertia of second order is below a third of that of first order.
 
+use std::ops::Range;
+
 use pulp::Simd;
 
-use super::super::super::bending::{Bending, EnergyForm, MOST_COORDINATES, MOST_PRODUCTS};
+use super::super::super::bending::{Bending, EnergyForm, MOST_COORDINATES, MOST_PRODUCTS, products};
 use super::super::super::modal_wheel::ModalWheel;
 use super::super::Oscillators;
 use super::super::lanes::padded;
@@ -30,10 +32,10 @@ pub(super) struct Stiffening {
     force: Vec<f64>,
     /// Indices of all coordinates.
     all: Vec<usize>,
-    /// Coordinates, `[coordinate][sector]`, padded as the waves: now, and at the instants before, latest first.
-    p: Aligned,
+    /// Coordinates and behind them their products, `[row][sector]`, padded as the waves: now, and at the instants before, latest first.
+    now: Aligned,
     before: [Aligned; 3],
-    /// Forces on them, in the same order.
+    /// Forces on the coordinates, `[coordinate][sector]`, padded as the waves.
     f: Aligned,
 }
 
@@ -42,26 +44,14 @@ impl Stiffening {
     pub(super) fn new(
         bending: Bending<'_>,
         wheel: &ModalWheel,
-        oscillators: &Oscillators,
         fourier: &SectorFourier,
         (resolved, step): (usize, f64),
     ) -> Self {
         let directions: Vec<_> = bending.directions().collect();
-        let segments = &oscillators.segments;
-        let integrated = |modes: usize| {
-            let alike = wheel.harmonics.iter().position(|harmonic| harmonic.omega.len() == modes);
-            alike.map_or(modes, |index| segments[index].integrated)
-        };
-        let rows = Rows::new(wheel, &directions, integrated);
-        let rows = rows.map(|_, block| {
-            let mut slow = block.to_owned();
-            for mode in resolved..slow.ncols() {
-                slow.col_mut(mode).fill(faer::c64::ZERO);
-            }
-            slow
-        });
+        let rows = Rows::new(wheel, &directions, |modes| resolved.min(modes));
         let (m, sectors, stride) = (directions.len(), fourier.sectors(), rows.stride);
         let of_wave = padded(sectors);
+        let moving = (m + products(m).count()) * of_wave;
         let mut waves = Aligned::zeros(sectors * of_wave);
         for sector in 0..sectors {
             let columns = waves.iter_mut().skip(sector).step_by(of_wave);
@@ -75,8 +65,8 @@ impl Stiffening {
             harmonic: vec![0.0; sectors * stride],
             force: vec![0.0; sectors * stride],
             all: (0..m).collect(),
-            p: Aligned::zeros(m * of_wave),
-            before: [(); 3].map(|()| Aligned::zeros(m * of_wave)),
+            now: Aligned::zeros(moving),
+            before: [(); 3].map(|()| Aligned::zeros(moving)),
             f: Aligned::zeros(m * of_wave),
             rows,
         }
@@ -98,7 +88,7 @@ impl Stiffening {
                 }
             }
             self.read(simd, segments, &z);
-            self.before[before].copy_from_slice(&self.p);
+            self.before[before].copy_from_slice(&self.now);
         }
     }
 
@@ -106,26 +96,30 @@ impl Stiffening {
     #[inline(always)]
     pub(super) fn force<S: Simd>(&mut self, simd: S, segments: &[Segment], z: &[f64], out: &mut Aligned) {
         self.read(simd, segments, z);
-        let Self { rows, potential, inertia, step, waves, harmonic: _, force, all, p, before, f } = self;
-        let [p, waves] = [&*p, &*waves].map(|values| S::as_simd_f64s(values).0);
-        let before = before.each_ref().map(|p| S::as_simd_f64s(p).0);
+        let Self { rows, potential, inertia, step, waves, harmonic: _, force, all, now, before, f } = self;
+        let (now, waves) = (S::as_simd_f64s(now).0, S::as_simd_f64s(waves).0);
+        let [one, two, three] = &*before;
+        let before = [S::as_simd_f64s(one).0, S::as_simd_f64s(two).0, S::as_simd_f64s(three).0];
         let f = S::as_mut_simd_f64s(f).0;
-        let vectors = p.len() / all.len().max(1);
+        let m = all.len();
+        let vectors = f.len() / m.max(1);
         let rate = 1.0 / (*step * *step);
-        let differences = [2.0, -5.0, 4.0, -1.0].map(|c| simd.splat_f64s(rate * c));
+        let mut differences = [simd.splat_f64s(rate); 4];
+        for (difference, c) in differences.iter_mut().zip([2.0, -5.0, 4.0, -1.0]) {
+            *difference = simd.splat_f64s(rate * c);
+        }
         for v in 0..vectors {
-            let now = lanes(simd, p, vectors, v);
-            let past = before.map(|p| lanes(simd, p, vectors, v));
-            let q = potential.products_of(simd, &now);
+            let p = lanes(simd, now, vectors, v, 0..m);
+            let q = lanes(simd, now, vectors, v, m..now.len() / vectors);
             let mut accelerations = [simd.splat_f64s(0.0); MOST_COORDINATES];
             let mut rates = [simd.splat_f64s(0.0); MOST_PRODUCTS];
-            second_differences(simd, differences, &now, &past, &mut accelerations);
-            let past = past.map(|p| potential.products_of(simd, &p));
-            second_differences(simd, differences, &q, &past, &mut rates);
+            second_differences(simd, differences, now, before, (vectors, v), 0, &mut accelerations[..m]);
+            let count = now.len() / vectors - m;
+            second_differences(simd, differences, now, before, (vectors, v), m, &mut rates[..count]);
             let mut forces = [simd.splat_f64s(0.0); MOST_COORDINATES];
-            potential.add_forces(simd, &now, &now, &q, &mut forces);
-            inertia.add_forces(simd, &now, &accelerations, &rates, &mut forces);
-            for (f, force) in f.chunks_exact_mut(vectors).zip(forces) {
+            potential.add_forces(simd, &p, &p, &q, &mut forces);
+            inertia.add_forces(simd, &p, &accelerations, &rates, &mut forces);
+            for (f, &force) in f.chunks_exact_mut(vectors).zip(&forces) {
                 f[v] = force;
             }
         }
@@ -147,7 +141,7 @@ impl Stiffening {
     /// Adds the state whose forces were computed last to the past.
     pub(super) fn remember(&mut self) {
         self.before.rotate_right(1);
-        self.before[0].copy_from_slice(&self.p);
+        std::mem::swap(&mut self.before[0], &mut self.now);
     }
 
     /// Energy beyond the quadratic one half-way between the states `ends` of a step: the mean of the strain energy at both, and the kinetic
@@ -155,15 +149,18 @@ impl Stiffening {
     #[inline(always)]
     pub(super) fn energy<S: Simd>(&mut self, simd: S, segments: &[Segment], ends: [&[f64]; 2]) -> f64 {
         self.read(simd, segments, ends[0]);
-        let first = self.p.clone();
+        let first = self.now.clone();
         self.read(simd, segments, ends[1]);
-        let [first, last] = [&first, &self.p].map(|p| S::as_simd_f64s(p).0);
-        let vectors = first.len() / self.all.len().max(1);
+        let (first, last) = (S::as_simd_f64s(&first).0, S::as_simd_f64s(&self.now).0);
+        let m = self.all.len();
+        let vectors = S::as_simd_f64s(&self.f).0.len() / m.max(1);
         let (half, rate) = (simd.splat_f64s(0.5), simd.splat_f64s(1.0 / self.step));
         let mut energy = simd.splat_f64s(0.0);
         for v in 0..vectors {
-            let [mut velocity, last] = [first, last].map(|p| lanes(simd, p, vectors, v));
-            let [mut rates, q] = [&velocity, &last].map(|p| self.potential.products_of(simd, p));
+            let products = m..first.len() / vectors;
+            let mut velocity = lanes(simd, first, vectors, v, 0..m);
+            let mut rates = lanes(simd, first, vectors, v, products.clone());
+            let (q, last) = (lanes(simd, last, vectors, v, products), lanes(simd, last, vectors, v, 0..m));
             for (p, q) in [(&velocity, &rates), (&last, &q)] {
                 energy = simd.mul_add_e_f64s(half, self.potential.values(simd, p, q), energy);
             }
@@ -178,16 +175,17 @@ impl Stiffening {
         simd.reduce_sum_f64s(energy)
     }
 
-    /// Reads the coordinates of all sectors in the state `z`.
+    /// Reads the coordinates of all sectors, and their products, in the state `z`.
     #[inline(always)]
     fn read<S: Simd>(&mut self, simd: S, segments: &[Segment], z: &[f64]) {
-        let Self { rows, waves, harmonic, p, .. } = self;
+        let Self { rows, potential, waves, harmonic, all, now, .. } = self;
         for (index, &segment) in segments.iter().enumerate() {
             rows.project(simd, index, segment, z, harmonic);
         }
         let waves = S::as_simd_f64s(waves).0;
         let vectors = waves.len() / (harmonic.len() / rows.stride);
-        for (j, p) in S::as_mut_simd_f64s(p).0.chunks_exact_mut(vectors).enumerate() {
+        let (p, q) = S::as_mut_simd_f64s(now).0.split_at_mut(all.len() * vectors);
+        for (j, p) in p.chunks_exact_mut(vectors).enumerate() {
             p.fill(simd.splat_f64s(0.0));
             for (column, wave) in harmonic.chunks_exact(rows.stride).zip(waves.chunks_exact(vectors)) {
                 let value = simd.splat_f64s(column[j]);
@@ -196,30 +194,47 @@ impl Stiffening {
                 }
             }
         }
+        for (q, &(j, k)) in q.chunks_exact_mut(vectors).zip(potential.products()) {
+            for (v, q) in q.iter_mut().enumerate() {
+                *q = simd.mul_f64s(p[j * vectors + v], p[k * vectors + v]);
+            }
+        }
     }
 }
 
-/// Vector `v` of every coordinate in `p`, `vectors` of each.
+/// Vector `v` of some of the rows in `moving`, `vectors` of each.
 #[inline(always)]
-fn lanes<S: Simd>(simd: S, p: &[S::f64s], vectors: usize, v: usize) -> [S::f64s; MOST_COORDINATES] {
-    let mut lanes = [simd.splat_f64s(0.0); MOST_COORDINATES];
-    for (lane, p) in lanes.iter_mut().zip(p.chunks_exact(vectors)) {
-        *lane = p[v];
+fn lanes<S: Simd, const COUNT: usize>(
+    simd: S,
+    moving: &[S::f64s],
+    vectors: usize,
+    v: usize,
+    rows: Range<usize>,
+) -> [S::f64s; COUNT] {
+    let mut lanes = [simd.splat_f64s(0.0); COUNT];
+    for (lane, row) in
+        lanes.iter_mut().zip(moving[rows.start * vectors..rows.end * vectors].chunks_exact(vectors))
+    {
+        *lane = row[v];
     }
     lanes
 }
 
-/// Writes second differences of `now` and the three instants before into `out`, by these coefficients.
+/// Writes second differences of rows from `first` on into `out`, by these coefficients of now and the three instants before: vector `v` of
+/// `vectors` of each.
 #[inline(always)]
-fn second_differences<S: Simd, const COUNT: usize>(
+fn second_differences<S: Simd>(
     simd: S,
     [c0, c1, c2, c3]: [S::f64s; 4],
-    now: &[S::f64s; COUNT],
-    [one, two, three]: &[[S::f64s; COUNT]; 3],
-    out: &mut [S::f64s; COUNT],
+    now: &[S::f64s],
+    [one, two, three]: [&[S::f64s]; 3],
+    (vectors, v): (usize, usize),
+    first: usize,
+    out: &mut [S::f64s],
 ) {
-    for i in 0..COUNT {
-        let older = simd.mul_add_e_f64s(c2, two[i], simd.mul_f64s(c3, three[i]));
-        out[i] = simd.mul_add_e_f64s(c0, now[i], simd.mul_add_e_f64s(c1, one[i], older));
+    for (i, out) in out.iter_mut().enumerate() {
+        let at = (first + i) * vectors + v;
+        let older = simd.mul_add_e_f64s(c2, two[at], simd.mul_f64s(c3, three[at]));
+        *out = simd.mul_add_e_f64s(c0, now[at], simd.mul_add_e_f64s(c1, one[at], older));
     }
 }
