@@ -8,7 +8,7 @@ use rubmap::analysis::monitor::Unwatched;
 use rubmap::analysis::request::{SchemeChoice, SweepRequest};
 use rubmap::analysis::result::{Point, SpeedResult};
 use rubmap::analysis::run::{MeshFacts, ModelFacts, ReducedSector, check, resolve_sweep, run_speed};
-use rubmap::dynamics::bending::{BladeBending, Potential};
+use rubmap::dynamics::bending::{BladeBending, EnergyForm};
 use rubmap::dynamics::sector::SectorModel;
 use rubmap::numerics::sector_fourier::is_single;
 use serde_json::{Value, json};
@@ -85,9 +85,13 @@ fn bending(reduced: ReducedSector) -> ReducedSector {
     let blade = BladeBending {
         asked: 2,
         rows: rows.collect(),
-        potential: Potential::new(
+        potential: EnergyForm::new(
             &Mat::from_fn(2, 3, |j, a| number(j + 2 * a)),
             &Mat::from_fn(3, 3, |a, b| 20.0 * f64::from(u8::from(a == b))),
+        ),
+        inertia: EnergyForm::new(
+            &Mat::from_fn(2, 3, |j, a| 0.01 * number(j + 2 * a)),
+            &Mat::from_fn(3, 3, |a, b| 0.2 * f64::from(u8::from(a == b))),
         ),
         linear: Mat::from_fn(3 * nodes, 2, |row, j| 0.1 * number(row + 60 * j)),
         second_order: Mat::from_fn(3 * nodes, 3, |row, a| 0.05 * number(row + 30 * a)),
