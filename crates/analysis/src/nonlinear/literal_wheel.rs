@@ -111,6 +111,9 @@ fn reduced(wheel: &Wheel, scene: &Scene, blade: Option<&BladeBending>, stiffens:
 /// Place of a component of a node's displacement: own DOF, whether it is the next sector's, and its direction in space.
 type Place = (usize, bool, Vector3<f64>);
 
+/// Solution M⁻¹f in place.
+type MassSolution<'a> = &'a dyn Fn(&mut [f64]);
+
 /// Finite elements of a whole wheel; unknowns are the own DOF of one sector after the other.
 struct Literal<'a> {
     wheel: &'a Wheel,
@@ -275,7 +278,7 @@ impl<'a> Literal<'a> {
         &self,
         contact: &[[usize; 3]],
         casing: &Casing,
-        (solve, h): (&dyn Fn(&mut [f64]), f64),
+        (solve, h): (MassSolution<'_>, f64),
         [u, d]: [&mut Vec<f64>; 2],
     ) {
         let nodes = &self.wheel.reduced.wheel.contact;
