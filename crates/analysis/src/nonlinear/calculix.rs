@@ -134,7 +134,7 @@ struct Bent {
     stiffness: f64,
     cubic: f64,
     quartic: f64,
-    /// Γ.
+    /// Inertia Γ = vᵀMv of the displacement of second order.
     inertia: f64,
 }
 
@@ -353,13 +353,14 @@ fn a_cantilever_vibrates_as_its_tip_is_drawn_back() {
     let (loaded, mass) = strip([60.0, 2.0, 1.0], false);
     let bent = Bent::new(&loaded);
     let stiffer = Bent { inertia: 0.0, ..bent.clone() };
-    for (amplitude, allowed) in [(0.5, 5e-4), (6.0, 1e-3), (12.0, 4e-3)] {
+    // CalculiX's own period is longer by 3.3e-4 for its step, at every amplitude.
+    for amplitude in [0.5, 6.0, 12.0] {
         let Some((p, expected)) = vibration(&loaded, &bent, mass, amplitude) else { return };
         let off = bent.period(p, mass) / expected - 1.0;
         let without = stiffer.period(p, mass) / expected - 1.0;
         let linear = bent.period(0.0, mass) / expected - 1.0;
         println!("p {p:.4} mm: period off {off:.1e}, without inertia {without:.1e}, linear {linear:.1e}");
-        assert!(off.abs() < allowed, "{amplitude}: {off}");
+        assert!(off.abs() < 5e-4, "{amplitude}: {off}");
         assert!(amplitude < 1.0 || without.abs() > 4.0 * off.abs(), "{amplitude}: {off} {without}");
     }
 }

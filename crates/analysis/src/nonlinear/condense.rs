@@ -5,6 +5,8 @@
 //! C_ja = Ψ_jᵀ M v_a,   Γ_ab = v_aᵀ M v_b
 //! ```
 //!
+//! M is that of the free displacements: what couples them to the cyclic faces, where v is 0, is left out.
+//!
 //! V₃ and V₄ are those of the shapes, V = V₃ + V₄ + ½ vᵀKv + vᵀg its minimum over v to fourth order in p: exact, for v is of second order.
 //! The loads K u of the shapes do no work on v, as in [`super::relax`].
 
@@ -73,18 +75,22 @@ pub(super) fn condense(
             quartic[(a, b)] += of_free + of_beta;
         }
     }
-    let quartic: Mat<f64> = Mat::from_fn(count, count, |a, b| 0.5 * (quartic[(a, b)] + quartic[(b, a)]));
+    let quartic = symmetric(&quartic);
     let moved: Mat<f64> = Mat::from_fn(sector.rows.len(), count, |row, a| follows[a].0[row]);
     let gathered: Vec<Vec<f64>> = shapes.iter().map(|shape| sector.gathered(shape)).collect();
     let gathered: Mat<f64> = Mat::from_fn(sector.rows.len(), shapes.len(), |row, j| gathered[j][row]);
-    let heavy = &sector.mass * &moved;
-    let of_followers: Mat<f64> = moved.transpose() * &heavy;
-    let of_followers = Mat::from_fn(count, count, |a, b| 0.5 * (of_followers[(a, b)] + of_followers[(b, a)]));
+    let mass_moved = &sector.mass * &moved;
+    let gamma = symmetric(&(moved.transpose() * &mass_moved));
     Condensed {
-        inertia: EnergyForm::new(&(gathered.transpose() * &heavy), &of_followers),
+        inertia: EnergyForm::new(&(gathered.transpose() * &mass_moved), &gamma),
         potential: EnergyForm::new(&cubic, &quartic),
         second_order: follows.iter().map(|(moved, _)| sector.spread(moved)).collect(),
     }
+}
+
+/// Symmetric part of a square matrix.
+fn symmetric(of: &Mat<f64>) -> Mat<f64> {
+    Mat::from_fn(of.nrows(), of.ncols(), |a, b| 0.5 * (of[(a, b)] + of[(b, a)]))
 }
 
 /// Vectors that the loads K u of the shapes deform, orthonormal in K.

@@ -93,7 +93,7 @@ pub struct EnergyReport {
     /// Work of blades that stiffen as they bend: minus the change of their energy beyond the quadratic one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bending_work: Option<f64>,
-    /// Largest difference between that work and energy over the largest mechanical energy; of second order in the step.
+    /// Largest difference between that work and energy over the largest mechanical energy; of second order in the step where nothing touches.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bending_residual: Option<f64>,
     /// Work of the contact forces on the elastic casing.

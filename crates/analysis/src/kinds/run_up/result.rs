@@ -100,7 +100,7 @@ pub struct RunUpEnd {
     /// Largest violation of the energy identity within a segment, relative to the largest energy.
     pub energy_residual: f64,
     /// Largest difference between work and energy of blades that stiffen as they bend within a segment, relative to the largest energy; of second
-    /// order in the step.
+    /// order in the step where nothing touches.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bending_residual: Option<f64>,
     /// Work of the changing stiffness, force·length: energy that comes from the shaft.

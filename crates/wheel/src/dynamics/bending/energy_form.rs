@@ -6,7 +6,7 @@ use pulp::Simd;
 /// Largest number of coordinates of a sector.
 pub const MOST_COORDINATES: usize = 8;
 
-/// Largest number of their products.
+/// Largest number of products of the coordinates of a sector.
 pub(crate) const MOST_PRODUCTS: usize = MOST_COORDINATES * (MOST_COORDINATES + 1) / 2;
 
 /// Form Σ_ja B_ja x_j y_a + ½ Σ_ab A_ab y_a y_b of vectors x of coordinates and y of products. With p and q = pp it is the strain energy V, with
@@ -39,7 +39,7 @@ pub(crate) struct Derivatives {
     pub(crate) by_coordinates: Mat<f64>,
 }
 
-/// Products p_j p_k of so many coordinates, j ≤ k, in their order.
+/// Index pairs (j, k), j ≤ k, of the products p_j p_k of so many coordinates, row by row.
 pub fn products(coordinates: usize) -> impl Iterator<Item = (usize, usize)> {
     (0..coordinates).flat_map(move |j| (j..coordinates).map(move |k| (j, k)))
 }
@@ -104,7 +104,7 @@ impl EnergyForm {
         force[..self.coordinates].to_vec()
     }
 
-    /// q̈ in a motion.
+    /// Second time derivatives q̈ of the products.
     fn second_rates(&self, Motion { p, velocity: v, acceleration: a }: Motion<'_>) -> [f64; MOST_PRODUCTS] {
         let mut rates = [0.0; MOST_PRODUCTS];
         for (rate, &(j, k)) in rates.iter_mut().zip(&self.products) {
@@ -135,7 +135,7 @@ impl EnergyForm {
         }
     }
 
-    /// ∂²q_a/∂p² times the slope by y_a at x and y.
+    /// Matrix Σ_a (Bᵀx + A y)_a ∂²q_a/∂p².
     fn curved(&self, x: &[f64], y: &[f64]) -> Mat<f64> {
         let mut curved = Mat::zeros(self.coordinates, self.coordinates);
         let (cubic, quartic) = (self.cubic_matrix(), self.quartic_matrix());
@@ -298,7 +298,7 @@ mod tests {
                     let (p, v) = at(t);
                     slope(|by| form.kinetic_energy(&p, &moved(&v, j, by)))
                 };
-                // The momentum is of sixth order in t: short steps.
+                // The momentum is of fifth order in t, the difference exact to fourth: short steps.
                 let h = 1e-3;
                 let rate = (8.0 * (momentum(h) - momentum(-h)) - (momentum(2.0 * h) - momentum(-2.0 * h)))
                     / (12.0 * h);

@@ -8,7 +8,7 @@
 //! ```
 //!
 //! V is what remains of the cubic and the quartic part of the strain energy once everything that carries no motion has followed statically, T
-//! the kinetic energy of what follows: C = ΨᵀMv, Γ = vᵀMv.
+//! the kinetic energy that the displacement v q adds: C = ΨᵀMv, Γ = vᵀMv, M the mass of the free displacements.
 
 pub mod backbone;
 mod energy_form;

@@ -27,7 +27,7 @@ pub(crate) struct Delassus {
     places: Vec<(usize, usize)>,
     /// Motion of contact nodes by the coordinates of their sector, if there are any.
     slopes: Option<Slopes>,
-    /// Largest share by which slopes make any entry larger than the largest of the table, at most: (1 + Σ |slope|)².
+    /// Upper bound of the factor by which slopes enlarge the largest entry: (1 + Σ |slope|)².
     steepest: f64,
 }
 

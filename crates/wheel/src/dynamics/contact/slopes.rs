@@ -28,7 +28,8 @@ impl Slopes {
     /// Slopes of the first `nodes` of `stride` rows at p = 0.
     pub(crate) fn new(
         sectors: usize,
-        (nodes, coordinates): (usize, usize),
+        nodes: usize,
+        coordinates: usize,
         curvature: Aligned,
         stride: usize,
         products: Vec<(usize, usize)>,
@@ -82,7 +83,7 @@ impl Slopes {
         slopes
     }
 
-    /// Adds what the nodes of a sector move by where its coordinates move by `moved`.
+    /// Adds the motion of the nodes of a sector when its coordinates move by `moved`.
     #[inline(always)]
     pub(crate) fn add(&self, sector: usize, moved: &[f64; MOST_COORDINATES], out: &mut [f64]) {
         let p = &self.p[sector];

@@ -106,7 +106,7 @@ impl SecondOrder {
     /// Derivatives of the displacement by the coordinates.
     pub(super) fn slopes(&self, sectors: usize) -> Slopes {
         let Self { rows, coordinates, stride, curvature, products, .. } = self;
-        Slopes::new(sectors, (*rows, *coordinates), curvature.clone(), *stride, products.clone())
+        Slopes::new(sectors, *rows, *coordinates, curvature.clone(), *stride, products.clone())
     }
 }
 

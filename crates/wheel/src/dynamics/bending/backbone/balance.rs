@@ -244,8 +244,8 @@ impl<'a> Balance<'a> {
         let omega = motion.omega_squared.max(0.0).sqrt();
         let mut tangent = Mat::<f64>::identity(size, size);
         let mut residual = Mat::<f64>::zeros(size, 1);
-        // Entries of a row of the equations that has −`unit` times `by` F_h.
-        let without_force =
+        // Adds to the tangent the derivatives of −`unit`·`by`·F_h by all harmonics.
+        let subtract_force =
             |tangent: &mut Mat<f64>, h: usize, by: &[c64], rows: [Option<usize>; 2], unit: f64| {
                 for l in 0..=most {
                     let (h, l_signed) = (h as isize, l as isize);
@@ -294,7 +294,7 @@ impl<'a> Balance<'a> {
                     residual[(row, 0)] = off;
                     tangent[(row, of_omega)] = -faster * self.linear / scale;
                 }
-                without_force(&mut tangent, h, &by, rows, 1.0);
+                subtract_force(&mut tangent, h, &by, rows, 1.0);
             }
         }
         // ω² − ω_t² + Re(R_tᴴ F_1)/a, over ω_t².
@@ -303,8 +303,8 @@ impl<'a> Balance<'a> {
             .map(|force| column.iter().zip(force).map(|(by, f)| by * f).sum::<c64>().re / amplitude);
         residual[(of_omega, 0)] = (motion.omega_squared + modal) / self.linear - 1.0;
         tangent[(of_omega, of_omega)] += of_inertia / motion.omega_squared;
-        // The force counts with the other sign than in P_h − R… F_h.
-        without_force(&mut tangent, 1, &column, [Some(of_omega), None], -scale / (amplitude * self.linear));
+        // F_1 enters with plus here, with minus in the rows of P_h: a negative unit.
+        subtract_force(&mut tangent, 1, &column, [Some(of_omega), None], -scale / (amplitude * self.linear));
         (tangent, residual)
     }
 

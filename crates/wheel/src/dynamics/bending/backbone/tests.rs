@@ -248,6 +248,7 @@ fn a_wheel_integrated_in_time_repeats_after_the_period() {
             off / size
         };
         let (coarse, fine) = (error(400), error(1600));
+        println!("{sectors} {nodal_diameter} {rank}: frequency changed by {change:.3}");
         assert!(change.abs() > 5e-3, "{sectors} {nodal_diameter}: {change}");
         assert!(fine < 2e-5 && fine < 0.1 * coarse, "{sectors} {nodal_diameter}: {coarse} {fine}");
     }

@@ -79,7 +79,7 @@ impl Drive {
         });
         let stiffening = effects.stiffening().map(|bending| {
             let resolved = oscillators.resolved_families();
-            Stiffening::new(bending, wheel, fourier, (resolved, step))
+            Stiffening::new(bending, wheel, fourier, resolved, step)
         });
         let longest = oscillators.segments.iter().map(|segment| segment.length).max().unwrap_or(0);
         let segments = &oscillators.segments;
@@ -235,9 +235,10 @@ impl Drive {
         Some(stiffening.energy(simd, &oscillators.segments, [before, &state.z]))
     }
 
-    /// Computes the forces of mistuning and stiffening at the beginning of a step from the state `z` of the oscillators with these segments.
+    /// Computes the forces of mistuning and stiffening at the beginning of a step from the state `z` of the oscillators with these segments, once
+    /// per step, and stores the state as past.
     #[inline(always)]
-    fn pull_on<S: Simd>(&mut self, simd: S, segments: &[Segment], z: &[f64]) {
+    fn pull_and_remember<S: Simd>(&mut self, simd: S, segments: &[Segment], z: &[f64]) {
         self.pull(simd, segments, z);
         if let Some(stiffening) = &mut self.stiffening {
             stiffening.remember();
@@ -256,7 +257,7 @@ impl Drive {
     }
 }
 
-/// Beginning of a drive beside the step loop: of blades that stiffen the past is free motion.
+/// Fills the past of blades that stiffen, before the step loop.
 struct Begin<'a>(&'a mut Drive, &'a Oscillators);
 
 impl WithSimd for Begin<'_> {
@@ -343,7 +344,7 @@ impl Oscillators {
             for index in 0..self.segments.len() {
                 self.complete_one(simd, index, drive, loads, &mut sums);
             }
-            drive.pull_on(simd, &self.segments, &self.state.z);
+            drive.pull_and_remember(simd, &self.segments, &self.state.z);
         }
         for index in 0..self.segments.len() {
             if at_once {
@@ -406,7 +407,7 @@ impl Oscillators {
         work: &mut EffectWork,
     ) -> Exchange {
         let mut sums = DrivenSums::new(simd);
-        drive.pull_on(simd, &self.segments, &self.state.z);
+        drive.pull_and_remember(simd, &self.segments, &self.state.z);
         for index in 0..self.segments.len() {
             let segment = self.segments[index];
             if let Some(loads) = loads {

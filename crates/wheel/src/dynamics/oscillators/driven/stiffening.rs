@@ -1,7 +1,8 @@
 //! Forces of blades that stiffen as they bend, at the middle instant of a step ([`super::super::super::bending`]).
 //!
-//! The force of inertia needs accelerations at an instant of which only the past is known: p̈ and q̈ are one-sided differences of second order,
-//! h²q̈ ≈ 2q − 5q⁻ + 4q⁻⁻ − q⁻⁻⁻. With them a step is stable while the inertia of second order is below a third of that of first order.
+//! The force of inertia needs accelerations at an instant of which only the past is known: p̈ and q̈ are backward differences of second order,
+//! h²q̈ ≈ 2q − 5q⁻ + 4q⁻⁻ − q⁻⁻⁻. A step is stable while the inertia of second order is below (1 − ω²h²/4)/3 of the linear one: a third for slow
+//! modes, a twelfth at ω²h² = 3, the fastest that a step resolves.
 
 use std::ops::Range;
 
@@ -28,13 +29,16 @@ pub(super) struct Stiffening {
     waves: Aligned,
     /// Coordinates in Fourier coordinates, `[column][coordinate]`, padded.
     harmonic: Vec<f64>,
-    /// Forces on them, in the same order.
+    /// Forces on the coordinates in Fourier coordinates, in the same order.
     force: Vec<f64>,
     /// Indices of all coordinates.
     all: Vec<usize>,
-    /// Coordinates and behind them their products, `[row][sector]`, padded as the waves: now, and at the instants before, latest first.
+    /// Coordinates of all sectors, and behind them their products, `[row][sector]`, padded as the waves.
     now: Aligned,
+    /// Values of `now` at the three instants before, latest first.
     before: [Aligned; 3],
+    /// Values of `now` at the first end of a step whose energy is asked for.
+    first: Aligned,
     /// Forces on the coordinates, `[coordinate][sector]`, padded as the waves.
     f: Aligned,
 }
@@ -45,7 +49,8 @@ impl Stiffening {
         bending: Bending<'_>,
         wheel: &ModalWheel,
         fourier: &SectorFourier,
-        (resolved, step): (usize, f64),
+        resolved: usize,
+        step: f64,
     ) -> Self {
         let directions: Vec<_> = bending.directions().collect();
         let rows = Rows::new(wheel, &directions, |modes| resolved.min(modes));
@@ -67,12 +72,13 @@ impl Stiffening {
             all: (0..m).collect(),
             now: Aligned::zeros(moving),
             before: [(); 3].map(|()| Aligned::zeros(moving)),
+            first: Aligned::zeros(moving),
             f: Aligned::zeros(m * of_wave),
             rows,
         }
     }
 
-    /// Takes the past of `oscillators` to be free motion.
+    /// Fills the past with the free motion that leads to the state of `oscillators`.
     #[inline(always)]
     pub(super) fn begin<S: Simd>(&mut self, simd: S, oscillators: &Oscillators) {
         let Oscillators { segments, coefficients, state, .. } = oscillators;
@@ -96,7 +102,7 @@ impl Stiffening {
     #[inline(always)]
     pub(super) fn force<S: Simd>(&mut self, simd: S, segments: &[Segment], z: &[f64], out: &mut Aligned) {
         self.read(simd, segments, z);
-        let Self { rows, potential, inertia, step, waves, harmonic: _, force, all, now, before, f } = self;
+        let Self { rows, potential, inertia, step, waves, force, all, now, before, f, .. } = self;
         let (now, waves) = (S::as_simd_f64s(now).0, S::as_simd_f64s(waves).0);
         let [one, two, three] = &*before;
         let before = [S::as_simd_f64s(one).0, S::as_simd_f64s(two).0, S::as_simd_f64s(three).0];
@@ -149,9 +155,9 @@ impl Stiffening {
     #[inline(always)]
     pub(super) fn energy<S: Simd>(&mut self, simd: S, segments: &[Segment], ends: [&[f64]; 2]) -> f64 {
         self.read(simd, segments, ends[0]);
-        let first = self.now.clone();
+        std::mem::swap(&mut self.first, &mut self.now);
         self.read(simd, segments, ends[1]);
-        let (first, last) = (S::as_simd_f64s(&first).0, S::as_simd_f64s(&self.now).0);
+        let (first, last) = (S::as_simd_f64s(&self.first).0, S::as_simd_f64s(&self.now).0);
         let m = self.all.len();
         let vectors = S::as_simd_f64s(&self.f).0.len() / m.max(1);
         let (half, rate) = (simd.splat_f64s(0.5), simd.splat_f64s(1.0 / self.step));
