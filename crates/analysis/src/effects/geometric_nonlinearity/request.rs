@@ -25,7 +25,7 @@ pub struct GeometricNonlinearity {
 pub enum Bending {
     /// Displacement of second order: gaps, the directions of contact forces, and sensors and tips at contact nodes.
     Kinematics,
-    /// Stiffening as well: forces from the strain energy of third and fourth order.
+    /// Stiffening as well: forces from the strain energy of third and fourth order, and of the inertia of the displacement of second order.
     Full,
 }
 
