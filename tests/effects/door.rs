@@ -90,8 +90,8 @@ fn bending(reduced: ReducedSector) -> ReducedSector {
             &Mat::from_fn(3, 3, |a, b| 20.0 * f64::from(u8::from(a == b))),
         ),
         inertia: EnergyForm::new(
-            &Mat::from_fn(2, 3, |j, a| 0.01 * number(j + 2 * a)),
-            &Mat::from_fn(3, 3, |a, b| 0.2 * f64::from(u8::from(a == b))),
+            &Mat::from_fn(2, 3, |j, a| 1e-8 * number(j + 2 * a)),
+            &Mat::from_fn(3, 3, |a, b| 2e-7 * f64::from(u8::from(a == b))),
         ),
         linear: Mat::from_fn(3 * nodes, 2, |row, j| 0.1 * number(row + 60 * j)),
         second_order: Mat::from_fn(3 * nodes, 3, |row, a| 0.05 * number(row + 30 * a)),

@@ -163,7 +163,7 @@ mistuning|Mistuning||Sectors that differ in stiffness.
 geometric_nonlinearity|Blades that bend far||Off: linear theory. Needs a mesh; not with friction.
 # geometric_nonlinearity
 include|Included||Full: tips draw back as blades bend, and blades stiffen. Kinematics: tips draw back, stiffness stays linear; takes less time.
-coordinates|Coordinates of a blade||Shapes in which a blade bends far: compare runs with 4, 6 and 8.
+coordinates|Coordinates of a blade||Shapes in which a blade bends far: compare runs with 6, 7 and 8.
 # mistuning
 spread|Standard deviation|of the stiffness
 deviations|Deviations|of the stiffness
