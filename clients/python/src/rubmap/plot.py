@@ -208,9 +208,10 @@ def backbones(found: pd.DataFrame, ax: Axes | None = None) -> Axes:
     ax = _axes(ax)
     column = next(name for name in found.columns if name.startswith("amplitude_"))
     families = sorted({int(family) for family in found["family"]})
-    for (diameter, family), curve in found.groupby(["nodal_diameter", "family"]):
-        colour = _of_family(int(family), families[-1])
-        ax.plot(curve["change_percent"], curve[column], color=colour, markevery=8, **_of_diameter(int(diameter)))
+    for _, curve in found.groupby(["nodal_diameter", "family"]):
+        diameter, family = (int(curve[name].iloc[0]) for name in ("nodal_diameter", "family"))
+        colour = _of_family(family, families[-1])
+        ax.plot(curve["change_percent"], curve[column], color=colour, markevery=8, **_of_diameter(diameter))
     for family in families:
         ax.plot([], [], color=_of_family(family, families[-1]), label=f"family {family}")
     for diameter in sorted({int(diameter) for diameter in found["nodal_diameter"]}):
