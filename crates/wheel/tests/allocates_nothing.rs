@@ -155,7 +155,7 @@ fn with_each_effect_and_with_all() {
         load: vec![1e-3; MODES],
     };
     // Coordinates are the displacements of contact node 0.
-    let blade = BladeBending::alike(3, NODES, Vec::new(), 1e-9);
+    let blade = BladeBending::alike(3, NODES, Vec::new(), 1e-4);
     let bending = Bending { blade: &blade, first: 0, stiffens: true };
     let bending = Effects { bending: Some(bending), ..Effects::default() };
     let all = Effects {

@@ -51,15 +51,17 @@ pub struct Bending<'a> {
 }
 
 impl BladeBending {
-    /// Blade of no particular shape, every coefficient `size`, to measure what bending costs. Without rows its coordinates are read elsewhere.
+    /// Blade of no particular shape, every coefficient `size` but those of inertia, which are 1e-8 of it, as at 10⁴ rad/s: to measure what bending
+    /// costs. Without rows its coordinates are read elsewhere.
     pub fn alike(coordinates: usize, contact_nodes: usize, rows: Vec<Mat<c64>>, size: f64) -> Self {
         let (count, places) = (products(coordinates).count(), COMPONENTS * contact_nodes);
         let alike = |rows, columns| Mat::from_fn(rows, columns, |_, _| size);
+        let inertia = |rows, columns| 1e-8 * alike(rows, columns);
         Self {
             asked: coordinates,
             rows,
             potential: EnergyForm::new(&alike(coordinates, count), &alike(count, count)),
-            inertia: EnergyForm::new(&alike(coordinates, count), &alike(count, count)),
+            inertia: EnergyForm::new(&inertia(coordinates, count), &inertia(count, count)),
             linear: alike(places, coordinates),
             second_order: alike(places, count),
         }
