@@ -3,13 +3,14 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use anyhow::bail;
 use clap::Args;
 use serde_json::{Value, json};
 
 use super::client::Client;
 use super::session::{Session, impeller, save, upload};
 use super::{progress, request};
-use crate::analysis::result::SpeedHistories;
+use crate::analysis::result::{PointStatus, SpeedHistories};
 use crate::cli::stdout::narrate;
 use crate::plot::{self, HistoryQuantity};
 
@@ -44,7 +45,7 @@ const DRAWINGS: [(&str, HistoryQuantity); 5] = [
 /// Runs the case study; 130, as shells say it, if a signal stopped it.
 ///
 /// # Errors
-/// A file or folder that cannot be used, or a step that the service refuses.
+/// A file or folder that cannot be used, a step that the service refuses, or a speed that cannot be computed.
 pub(super) fn run(args: &CaseArgs) -> anyhow::Result<ExitCode> {
     let body = match &args.request {
         Some(file) => request::read(file, "/v1/case-studies")?,
@@ -76,6 +77,11 @@ async fn play(args: &CaseArgs, client: &Client, body: Value) -> anyhow::Result<(
     let out = &args.out;
     let path = job.link("histories")?;
     let histories: SpeedHistories = client.download(path, &out.join("histories.json")).await?;
+    let point = &histories.point;
+    if point.status != PointStatus::Completed {
+        let reason = point.message.as_deref().unwrap_or("the reason is not known");
+        bail!("{:.1} rad/s could not be computed: {reason}; nothing is drawn", point.speed_rad_s);
+    }
     client.save(&format!("{path}?format=csv"), &out.join("histories.csv")).await?;
     for (name, what) in DRAWINGS {
         save(&out.join(format!("{name}.svg")), &plot::speed_histories(&histories, what, 0).svg())?;
@@ -89,11 +95,8 @@ async fn play(args: &CaseArgs, client: &Client, body: Value) -> anyhow::Result<(
 fn tell(histories: &SpeedHistories) -> anyhow::Result<()> {
     let point = &histories.point;
     let (length, force) = (&histories.units.length, &histories.units.force);
-    narrate(&format!(
-        "\n{:.1} rad/s: {}",
-        point.speed_rad_s,
-        point.message.as_deref().unwrap_or("completed")
-    ))?;
+    let message = point.message.as_deref().unwrap_or("completed");
+    narrate(&format!("\n{:.1} rad/s: {message}", point.speed_rad_s))?;
     for response in &point.responses {
         narrate(&format!("  {}: rms {:.4} {length}", response.sensor, response.rms))?;
     }

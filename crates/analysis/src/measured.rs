@@ -23,8 +23,8 @@ const MOST: usize = 6;
 
 /// Largest number of speeds of this sweep at which validity is measured; 0 where it cannot be.
 pub(crate) fn most(request: &ResolvedSweep, facts: &ModelFacts) -> u32 {
-    let can = facts.mesh.is_some() && request.fields() != Some(false);
-    if can { request.speeds.count().min(chosen_at_most(request) as u32) } else { 0 }
+    let asked = request.fields() != Some(false) && !request.scene.blades_stiffen();
+    if asked && facts.mesh.is_some() { request.speeds.count().min(chosen_at_most(request) as u32) } else { 0 }
 }
 
 /// Most speeds that are chosen: a single one in a sweep up or down, since all speeds before it are simulated, too.
@@ -57,18 +57,19 @@ pub(crate) fn with_cost(
     all.followed_by(measuring)
 }
 
-/// Speeds of a finished sweep at which validity is to be measured, ascending by index: of those that geometry leaves open, the largest motion
-/// and the most severe peaks.
+/// Speeds of a finished sweep at which validity is to be measured, ascending by index: of those that geometry leaves open, the largest motion,
+/// the most severe peaks, and the smallest motion, whose shape is another.
 pub fn speeds_to_measure(request: &ResolvedSweep, reduced: &ReducedSector, points: &[Point]) -> Vec<u32> {
     let open = |point: &Point| {
         let validity = point.validity.as_ref().filter(|validity| is_open(validity, request))?;
         Some((point.index, displacement(validity, reduced, request)?))
     };
     let candidates: Vec<(u32, f64)> = points.iter().filter_map(open).collect();
-    let Some(&(largest, _)) = candidates.iter().max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0))) else {
-        return Vec::new();
-    };
-    let mut chosen = vec![largest];
+    let larger = |a: &&(u32, f64), b: &&(u32, f64)| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0));
+    let ends = [candidates.iter().max_by(larger), candidates.iter().min_by(larger)];
+    let mut chosen: Vec<u32> = ends.into_iter().flatten().map(|&(index, _)| index).collect();
+    chosen.dedup();
+    chosen.truncate(chosen_at_most(request));
     let is_candidate = |index: &u32| candidates.iter().any(|(candidate, _)| candidate == index);
     let peaks = wheel_peaks(request, points, None);
     for index in peaks.iter().map(|peak| peak.index).filter(is_candidate) {
@@ -116,9 +117,9 @@ pub fn largest_motion(
     }
 }
 
-/// Puts measures in the place of guesses by geometry. Where geometry leaves a speed open that was not measured, measures of larger
-/// motions are scaled down, and the worst of them counts: the excess energy in proportion to the motion, in which it is of first order for a
-/// blade that is curved, the second-order motion by its square. A speed without a measure is told why.
+/// Puts measures in the place of guesses by geometry. Where geometry leaves a speed open that was not measured, those of the other
+/// motions are scaled, if one of them is larger, and the worst counts, since shapes differ: the excess energy in proportion to the motion, in which it is of first
+/// order for a blade that is curved, the second-order motion by its square. A speed without a measure is told why.
 pub fn judge_by_measures(
     points: &mut [Point],
     (reduced, request): (&ReducedSector, &ResolvedSweep),
@@ -134,8 +135,10 @@ pub fn judge_by_measures(
             Err(error) => point.validity = Some(unmeasured(validity, &error.to_string())),
             Ok(measured) => {
                 let own = measured.iter().find(|motion| motion.index == point.index);
-                let larger = measured.iter().filter(|motion| motion.displacement >= displacement);
-                let candidates: Vec<&MeasuredMotion> = own.map_or_else(|| larger.collect(), |own| vec![own]);
+                let is_larger = |motion: &&MeasuredMotion| motion.displacement >= displacement;
+                let bounded = measured.iter().any(|motion| is_larger(&motion) && motion.neglected.is_ok());
+                let others = || measured.iter().filter(|motion| bounded || is_larger(motion)).collect();
+                let candidates: Vec<&MeasuredMotion> = own.map_or_else(others, |own| vec![own]);
                 let worst = |of: &dyn Fn(&Neglected, f64) -> Option<f64>| {
                     let value = |motion: &&MeasuredMotion| {
                         let neglected = motion.neglected.as_ref().ok()?;

@@ -100,7 +100,7 @@ pub(super) fn reason(validity: &Validity) -> Option<String> {
         ValidityVerdict::Beyond if bends => "beyond what the scene simulates",
         verdict => words(verdict),
     };
-    let scaled = if check.scaled_from.is_some() { ", scaled from a larger motion" } else { "" };
+    let scaled = if check.scaled_from.is_some() { ", scaled from another motion" } else { "" };
     Some(format!(
         "{words}: {} is {}, above {}{scaled}",
         measure(check.what),

@@ -66,7 +66,7 @@ export function validityWords(request, validity) {
   if (!validity) return null;
   const measured = validity.checks.filter((check) => check.what in MEASURED);
   const scaled = measured.some((check) => check.scaled_from !== undefined);
-  return [theory(request).words[validity.verdict], ...measured.map((check) => `${MEASURED[check.what]} ${percent(check.value)}`), scaled ? 'scaled from a larger motion' : null]
+  return [theory(request).words[validity.verdict], ...measured.map((check) => `${MEASURED[check.what]} ${percent(check.value)}`), scaled ? 'scaled from another motion' : null]
     .filter(Boolean).join('; ');
 }
 

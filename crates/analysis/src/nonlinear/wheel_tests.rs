@@ -207,6 +207,7 @@ fn measures_are_scaled_to_smaller_motions_only() {
         neglected,
     };
     let curved = measure(1, Ok(Neglected { excess: -0.3, gap: Some(0.01) }));
+    let curved_more = Ok(Neglected { excess: 0.2, gap: None });
     let slight = measure(2, Ok(Neglected { excess: 0.01, gap: None }));
     let guessed = points.clone();
     let measured = Ok(vec![curved, slight]);
@@ -224,6 +225,13 @@ fn measures_are_scaled_to_smaller_motions_only() {
     let (verdict, checks) = told(0);
     assert_eq!((verdict, checks[0].2, checks[1].2), (ValidityVerdict::Beyond, Some(1), Some(1)));
     assert!((checks[0].1 - 0.15).abs() < 1e-12 && (checks[1].1 - 0.0025).abs() < 1e-12, "{checks:?}");
+    // A smaller motion of another shape that bends blades more for its size.
+    let mut points_between = points.clone();
+    points_between[0].validity = guessed[0].validity.clone();
+    let shaped = MeasuredMotion { index: 9, displacement: 0.5 * sizes[0], ..measure(1, curved_more) };
+    judge_by_measures(&mut points_between, (reduced, &request), &Ok(vec![curved, shaped]));
+    let checks = &points_between[0].validity.as_ref().unwrap().checks;
+    assert!((checks[0].value - 0.4).abs() < 1e-12 && checks[0].scaled_from == Some(9), "{checks:?}");
     // Geometry: without a doubt, and beyond all that was measured.
     assert_eq!((told(3).0, told(4).0), (ValidityVerdict::Linear, ValidityVerdict::Doubtful));
     // A relaxation that fails is told at its own speed and takes nothing from the others: speed 0 has the measure of speed 2, of a larger motion.

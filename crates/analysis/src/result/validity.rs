@@ -60,7 +60,7 @@ pub struct ValidityCheck {
     /// Limit above which the response is beyond linear theory; absent for guesses by geometry, which are never worse than doubtful.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub beyond_above: Option<f64>,
-    /// Index of the speed at which a larger motion was measured, from which the value is scaled down; absent where the value is the speed's own.
+    /// Index of the speed whose measured motion the value is scaled from; absent where the value is the speed's own.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub scaled_from: Option<u32>,
 }

@@ -10,7 +10,7 @@ use crate::request::{AutoOr, SweepDirection};
 use crate::resolved::ResolvedSweep;
 use crate::result::{
     LimitKind, OpenKind, OpenQuestion, Point, RangeVerdict, Stability, Standing, StiffeningVerdict,
-    ValidityMeasure, ValidityVerdict, Verdict,
+    ValidityMeasure, ValidityVerdict, Verdict, WheelCriticalSpeed,
 };
 use crate::span::Span;
 
@@ -32,6 +32,7 @@ pub(super) fn questions(evidence: &RangeEvidence) -> Vec<OpenQuestion> {
     found.extend(evidence.still());
     found.extend(evidence.without_result());
     found.extend(evidence.not_trusted());
+    found.extend(evidence.moved_into_range());
     found.extend(evidence.of_peaks());
     for &(kind, allowed) in &evidence.seen.asked.limits {
         found.extend(evidence.of_limit(kind, allowed));
@@ -74,10 +75,17 @@ impl RangeEvidence<'_> {
             OpenKind::SpeedsFailed,
             &self.range.failed,
             "that could not be computed",
-            "read the reason (`message` of these speeds), and ask for speeds close beside them",
+            if self.request.scene.blades_stiffen() {
+                "read the reason (`message` of these speeds), and ask for speeds close beside them or a scene with smaller motions"
+            } else {
+                "read the reason (`message` of these speeds), and ask for speeds close beside them"
+            },
         );
+        let none_completed =
+            self.completed.is_empty() && !(self.range.failed.is_empty() && self.range.diverged.is_empty());
         // Refinement, control runs and measured validity are still to come.
-        let unended = (self.range.missing.is_empty() && self.seen.driven.is_none()).then(|| {
+        let unended = self.range.missing.is_empty() && self.seen.driven.is_none() && !none_completed;
+        let unended = unended.then(|| {
             let finding = match self.seen.unfinished {
                 true => "the job may still add speeds and estimate errors",
                 false => "the job ended before speeds were added and errors estimated",
@@ -153,6 +161,36 @@ impl RangeEvidence<'_> {
         ]
         .into_iter()
         .flatten()
+    }
+
+    /// Question about critical speeds outside the range that stiffer or softer blades may have in it. A frequency changes by half the excess
+    /// energy; the side is left open, since limits are on its size.
+    fn moved_into_range(&self) -> Option<OpenQuestion> {
+        if self.request.scene.blades_stiffen() {
+            return None;
+        }
+        let excess = |point: &Point| {
+            let mut checks = point.validity.iter().flat_map(|validity| &validity.checks);
+            checks.find(|check| check.what == ValidityMeasure::ExcessEnergy && check.is_doubtful())
+        };
+        let may_be_in = |peak: &&WheelCriticalSpeed| {
+            let point = self.seen.finished.points.iter().find(|point| point.index == peak.index);
+            let moved = 0.5 * point.and_then(excess).map_or(0.0, |check| check.value);
+            let (from, to) = (peak.speed_rad_s * (1.0 - moved), peak.speed_rad_s * (1.0 + moved));
+            !self.span.reaches(peak.speed_rad_s) && from <= self.span.highest() && to >= self.span.lowest()
+        };
+        let mut speeds: Vec<u32> = self.seen.peaks.iter().filter(may_be_in).map(|peak| peak.index).collect();
+        speeds.sort_unstable();
+        self.about(
+            OpenKind::BeyondLinearTheory,
+            &speeds,
+            "beside the range, critical by linear theory, whose excess energy may move the peak into it",
+            if self.request.scene.friction.is_some() {
+                "a separation that reaches the peak: `separation_percent`"
+            } else {
+                "a geometrically non-linear calculation: `scene.geometric_nonlinearity.include` of \"full\"; or a separation that reaches the peak"
+            },
+        )
     }
 
     /// Remedy where linear theory ends. Blades that bend far help where their bending was measured, which takes a mesh.

@@ -258,6 +258,27 @@ fn blades_that_bend_far_are_proposed_where_they_help_and_are_not_computed_yet() 
 }
 
 #[test]
+fn a_peak_beside_the_range_that_bending_may_move_into_it_is_open() {
+    let at_118 = |excess: f64, scene: Value| {
+        let check =
+            json!({"what": "excess_energy", "value": excess, "doubtful_above": 0.02, "beyond_above": 0.1});
+        let validity = json!({"verdict": "doubtful", "checks": [check]});
+        Scene::peak(118.0, 0.5).asking("scene", scene).with([18], "/validity", &validity)
+    };
+    let linear = json!({"contact": {}});
+    // 118 less 2.5 % is 115.05, less 2.6 % 114.93; the range ends at 115.
+    assert_eq!(at_118(0.050, linear.clone()).word(), Clear);
+    let moved = at_118(0.052, linear.clone());
+    assert_eq!((moved.word(), moved.open()), (Undecided, vec![OpenKind::BeyondLinearTheory]));
+    assert_eq!(moved.verdict().would_decide[0].speeds, [18]);
+    // A separation that reaches the peak counts it, and blades that stiffen are simulated.
+    let reached = at_118(0.052, linear).ranges(json!([range("run", 105.0, 115.0, 3.0)]));
+    assert_eq!(reached.word(), Watch);
+    let stiffens = json!({"contact": {}, "geometric_nonlinearity": {"include": "full"}});
+    assert_eq!(at_118(0.052, stiffens).word(), Clear);
+}
+
+#[test]
 fn a_reason_to_act_beyond_linear_theory_says_so() {
     let passed = Scene::flat(0.1).with([7], "/tip/half_peak_to_peak", &json!(1.5));
     let sentence = |scene: Scene| scene.verdict().sentence;
