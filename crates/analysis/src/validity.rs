@@ -23,9 +23,11 @@ const OVER_CHORD: Limits = (0.05, None);
 const ROTATION: Limits = (0.1, None);
 /// Limit of rotation of blades that stiffen, rad: their energy is exact to the fourth order, and the fifth is φ³ of the linear one, 1 %.
 const ROTATION_OF_STIFFENING: Limits = (0.2, None);
+/// Share of a motion outside the coordinates of blades that bend far beyond which the answer is mostly that of linear theory.
+pub(crate) const MOST_OUTSIDE: f64 = 1.0 / 3.0;
 /// Limits of the share of the tips' motion that the coordinates of blades that bend far do not carry: forces of second and third order are off
-/// by about as much, and beyond a third the answer is mostly that of linear theory. More may be outside where that alone would be linear.
-const OUTSIDE_COORDINATES: Limits = (0.1, Some(1.0 / 3.0));
+/// by about as much. More may be outside where that alone would be linear.
+const OUTSIDE_COORDINATES: Limits = (0.1, Some(MOST_OUTSIDE));
 /// Limits of stress over yield strength. Materials are linear up to about nine tenths of the yield strength, and not beyond it.
 const OVER_YIELD: Limits = (0.9, Some(1.0));
 /// Limits of the approach of neighbouring tips: at 1 they meet, and no contact between them is simulated.

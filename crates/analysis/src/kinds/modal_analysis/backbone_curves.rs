@@ -36,7 +36,7 @@ pub struct BackboneCurve {
     /// Component in which it moves most.
     pub component: Component,
     /// Share of the displacement of the contact nodes in the mode that the coordinates do not carry: it stays linear, so that a curve of which much is
-    /// outside changes too little.
+    /// outside changes too little, and one with more than a third is not followed.
     pub outside_coordinates: f64,
     /// Points in ascending amplitude, the first without motion.
     pub points: Vec<BackbonePoint>,

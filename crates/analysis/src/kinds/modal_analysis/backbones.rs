@@ -16,6 +16,7 @@ use crate::monitor::Monitor;
 use crate::request::Component;
 use crate::resolve::findings::{Findings, check_reach};
 use crate::resolve::limits;
+use crate::validity::MOST_OUTSIDE;
 use rubmap_wheel::dynamics::bending::BladeBending;
 use rubmap_wheel::dynamics::bending::backbone::{self, Backbone, BackboneEnd, FreeMode, FreeModes};
 use rubmap_wheel::dynamics::direction::COMPONENTS;
@@ -103,9 +104,9 @@ pub(super) fn backbones(
         let ranks = ranks(campbell, nodal_diameter as usize);
         let follow = |(family, rank): (usize, usize)| {
             let mode = FreeMode { nodal_diameter: nodal_diameter as usize, rank };
-            let found = wheel.backbone(mode, largest);
-            let modes = &wheel.modes[nodal_diameter as usize];
-            curve(nodal_diameter, family as u32 + 1, found, outside(blade, modes, rank))
+            let outside = outside(blade, &wheel.modes[nodal_diameter as usize], rank);
+            let reach = if outside > MOST_OUTSIDE { 0.0 } else { largest };
+            curve(nodal_diameter, family as u32 + 1, wheel.backbone(mode, reach), outside)
         };
         let ranks: Vec<_> = ranks.into_iter().enumerate().collect();
         curves.extend(ranks.into_par_iter().map(follow).collect::<Vec<_>>());
@@ -148,6 +149,14 @@ fn curve(nodal_diameter: u32, family: u32, found: Backbone, outside_coordinates:
         change_percent: 100.0 * (point.omega / linear - 1.0),
         harmonics_percent: 100.0 * point.truncation,
     };
+    let is_carried = outside_coordinates <= MOST_OUTSIDE;
+    let end = match is_carried {
+        true => found.end.to_string(),
+        false => format!(
+            "not followed: {:.0} % of the motion lies outside the coordinates; ask for more `coordinates`",
+            100.0 * outside_coordinates
+        ),
+    };
     BackboneCurve {
         nodal_diameter,
         family,
@@ -156,7 +165,7 @@ fn curve(nodal_diameter: u32, family: u32, found: Backbone, outside_coordinates:
         outside_coordinates,
         points: found.points.iter().map(point).collect(),
         passed: found.passed.iter().map(ToString::to_string).collect(),
-        complete: found.end == BackboneEnd::LargestAmplitude,
-        end: found.end.to_string(),
+        complete: is_carried && found.end == BackboneEnd::LargestAmplitude,
+        end,
     }
 }
