@@ -171,11 +171,12 @@ impl RangeEvidence<'_> {
         }
         let excess = |point: &Point| {
             let mut checks = point.validity.iter().flat_map(|validity| &validity.checks);
-            checks.find(|check| check.what == ValidityMeasure::ExcessEnergy && check.is_doubtful())
+            let energy = checks.find(|check| check.what == ValidityMeasure::ExcessEnergy)?;
+            energy.is_doubtful().then_some(energy.value)
         };
         let may_be_in = |peak: &&WheelCriticalSpeed| {
             let point = self.seen.finished.points.iter().find(|point| point.index == peak.index);
-            let moved = 0.5 * point.and_then(excess).map_or(0.0, |check| check.value);
+            let moved = 0.5 * point.and_then(excess).unwrap_or(0.0);
             let (from, to) = (peak.speed_rad_s * (1.0 - moved), peak.speed_rad_s * (1.0 + moved));
             !self.span.reaches(peak.speed_rad_s) && from <= self.span.highest() && to >= self.span.lowest()
         };
