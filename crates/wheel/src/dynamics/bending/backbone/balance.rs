@@ -5,7 +5,8 @@ use std::f64::consts::TAU;
 use faer::linalg::solvers::Solve;
 use faer::{Mat, c64};
 
-use super::end::{BackboneEnd, Resonance};
+use super::UNRESOLVED;
+
 use super::free_wheel::{FreeMode, FreeModes, FreeWheel};
 use crate::dynamics::bending::{Derivatives, Motion};
 
@@ -15,11 +16,13 @@ const CONVERGED: f64 = 1e-9;
 /// Number of steps after which Newton's method is given up: from a neighbour it takes three or four.
 const ITERATIONS: usize = 12;
 
-/// Amplitude of a mode over that of the curve above which a harmonic that passes its frequency is reported.
-const TAKES_PART: f64 = 1e-3;
+/// Distance of a motion from the extrapolated one, over the linear motion, above which it belongs to another branch: a quarter of the 1/√27 with
+/// which a mode takes part amid a resonance with the third harmonic.
+const STRAY_MOTION: f64 = 0.05;
 
-/// Distance of a harmonic from the frequency of a mode, relative, within which they are said to be in resonance.
-const NEAR: f64 = 0.05;
+/// Distance of a frequency from the extrapolated one, over the linear one, above which its motion belongs to another branch: the largest truncation
+/// of a curve.
+const STRAY_FREQUENCY: f64 = UNRESOLVED;
 
 /// Motion of a sector: harmonics P_h of its coordinates, and ω².
 #[derive(Debug, Clone, PartialEq)]
@@ -39,14 +42,19 @@ impl Series {
         Self { harmonics, ..*self }
     }
 
-    /// Motion that lies `share` of the way from `before` to here beyond this one.
-    pub(super) fn extrapolated(&self, before: &Self, share: f64) -> Self {
+    /// Motion `by` times as large, of the same frequency.
+    pub(super) fn scaled(&self, by: f64) -> Self {
+        let harmonics = self.harmonics.iter().map(|harmonic| harmonic.iter().map(|p| p * by).collect());
+        Self { harmonics: harmonics.collect(), ..*self }
+    }
+
+    /// Motion that lies `share` of the way from `before` to here beyond this one, its ω² `share_of_frequency`.
+    pub(super) fn extrapolated(&self, before: &Self, share: f64, share_of_frequency: f64) -> Self {
         let mut next = self.clone();
-        for (h, harmonic) in next.harmonics.iter_mut().enumerate() {
-            let Some(before) = before.harmonics.get(h) else { continue };
+        for (harmonic, before) in next.harmonics.iter_mut().zip(&before.harmonics) {
             harmonic.iter_mut().zip(before).for_each(|(p, b)| *p += (*p - *b) * share);
         }
-        next.omega_squared += share * (self.omega_squared - before.omega_squared);
+        next.omega_squared += share_of_frequency * (self.omega_squared - before.omega_squared);
         next
     }
 
@@ -75,7 +83,7 @@ pub(super) struct Balance<'a> {
     pub(super) wheel: &'a FreeWheel<'a>,
     mode: FreeMode,
     /// Column R_t of the mode.
-    column: Vec<c64>,
+    pub(super) column: Vec<c64>,
     /// ω_t².
     linear: f64,
 }
@@ -90,7 +98,7 @@ pub(super) struct Moved<'a> {
 }
 
 impl Moved<'_> {
-    fn row(&self, coordinate: usize, mode: usize) -> c64 {
+    pub(super) fn row(&self, coordinate: usize, mode: usize) -> c64 {
         let row = self.modes.rows[(coordinate, mode)];
         if self.conjugate { row.conj() } else { row }
     }
@@ -101,7 +109,7 @@ impl Moved<'_> {
     }
 
     /// Modes that follow the forces.
-    fn following(&self) -> impl Iterator<Item = usize> {
+    pub(super) fn following(&self) -> impl Iterator<Item = usize> {
         (0..self.modes.omega.len()).filter(|&mode| Some(mode) != self.left_out)
     }
 
@@ -135,7 +143,7 @@ pub(super) struct Forces {
 
 impl Forces {
     /// Derivative −∂f_row/∂p_column of harmonic c by harmonic l of a motion with the frequency ω: K + jlω D − l²ω² M.
-    fn derivative(&self, c: isize, l: isize, omega: f64, row: usize, column: usize) -> c64 {
+    pub(super) fn derivative(&self, c: isize, l: isize, omega: f64, row: usize, column: usize) -> c64 {
         let [k, d, m] = self.derivatives[c.unsigned_abs()].each_ref().map(|of| {
             let value = of[(row, column)];
             if c < 0 { value.conj() } else { value }
@@ -152,15 +160,16 @@ impl<'a> Balance<'a> {
         Self { wheel, mode, column, linear: modes.omega[mode.rank].powi(2) }
     }
 
-    pub(super) fn at_rest(&self, harmonics: usize) -> Series {
-        self.linear(harmonics, 0.0)
-    }
-
     /// Linear motion of amplitude a.
     pub(super) fn linear(&self, harmonics: usize, amplitude: f64) -> Series {
         let mut motion = vec![vec![c64::ZERO; self.column.len()]; harmonics + 1];
         motion[1] = self.column.iter().map(|&row| row * amplitude).collect();
         Series { harmonics: motion, omega_squared: self.linear }
+    }
+
+    /// Size of the linear motion of amplitude a.
+    fn scale(&self, amplitude: f64) -> f64 {
+        amplitude * self.column.iter().map(|row| row.norm_sqr()).sum::<f64>().sqrt()
     }
 
     pub(super) fn moved(&self, h: usize) -> Moved<'_> {
@@ -209,7 +218,7 @@ impl<'a> Balance<'a> {
     /// Motion of amplitude a near `guess`, if Newton's method finds one.
     pub(super) fn solve(&self, guess: Series, amplitude: f64) -> Option<Series> {
         let (m, most) = (self.column.len(), guess.harmonics.len() - 1);
-        let scale = amplitude * self.column.iter().map(|row| row.norm_sqr()).sum::<f64>().sqrt();
+        let scale = self.scale(amplitude);
         let mut motion = guess;
         for _ in 0..ITERATIONS {
             let (tangent, residual) = self.equations(&motion, amplitude, scale);
@@ -308,47 +317,13 @@ impl<'a> Balance<'a> {
         (tangent, residual)
     }
 
-    /// Amplitudes of the modes that follow, over a, and the distances of their frequencies from the harmonics that move them.
-    fn modes(&self, motion: &Series, amplitude: f64) -> Vec<(Resonance, f64, f64)> {
-        let Forces { force, .. } = self.forces(motion);
-        let omega = motion.omega_squared.sqrt();
-        let mut found = Vec::new();
-        for (h, force) in force.iter().enumerate().skip(1) {
-            let moved = self.moved(h);
-            for rank in moved.following() {
-                let own = moved.modes.omega[rank];
-                let gain = 1.0 / (own * own - (h * h) as f64 * motion.omega_squared);
-                let size = (moved.force(rank, force) * gain).norm() / amplitude;
-                let of = Resonance { harmonic: h, nodal_diameter: moved.nodal_diameter, rank };
-                found.push((of, size, own / (h as f64 * omega) - 1.0));
-            }
-        }
-        found
-    }
-
-    /// Reason why nothing was found beyond a motion: of the resonances near it, the one with the largest amplitude, if there is one.
-    pub(super) fn nearest(&self, motion: &Series, amplitude: f64) -> BackboneEnd {
-        if amplitude == 0.0 {
-            return BackboneEnd::NotFound;
-        }
-        let modes = self.modes(motion, amplitude).into_iter();
-        let near = modes.filter(|(_, size, distance)| *size > TAKES_PART && distance.abs() < NEAR);
-        let nearest = near.max_by(|a, b| a.1.total_cmp(&b.1));
-        nearest.map_or(BackboneEnd::NotFound, |(resonance, ..)| BackboneEnd::AtResonance(resonance))
-    }
-
-    /// Resonances that lie between two motions and take part in one of them.
-    pub(super) fn passed(&self, before: (&Series, f64), after: (&Series, f64)) -> Vec<Resonance> {
-        if before.1 == 0.0 {
-            return Vec::new();
-        }
-        let [before, after] = [before, after].map(|(motion, amplitude)| self.modes(motion, amplitude));
-        let both = after.into_iter().filter_map(|(resonance, size, distance)| {
-            let (_, size_before, distance_before) = before.iter().find(|(of, ..)| *of == resonance)?;
-            let passes = distance * distance_before < 0.0 && size.max(*size_before) > TAKES_PART;
-            passes.then_some(resonance)
-        });
-        both.collect()
+    /// Whether a motion of amplitude a lies so far from the extrapolated one that it belongs to another branch.
+    pub(super) fn strays(&self, found: &Series, extrapolated: &Series, amplitude: f64) -> bool {
+        let extrapolated = extrapolated.of(found.harmonics.len() - 1);
+        let both = found.harmonics.iter().flatten().zip(extrapolated.harmonics.iter().flatten());
+        let off = both.map(|(p, e)| (p - e).norm_sqr()).sum::<f64>().sqrt();
+        let change = (found.omega_squared - extrapolated.omega_squared).abs();
+        off > STRAY_MOTION * self.scale(amplitude) || change > 2.0 * STRAY_FREQUENCY * self.linear
     }
 }
 

@@ -15,6 +15,7 @@
 mod balance;
 mod end;
 mod free_wheel;
+mod response;
 
 use std::ops::RangeInclusive;
 
@@ -73,29 +74,12 @@ impl FreeWheel<'_> {
         let harmonics = *HARMONICS.start();
         let rest = BackbonePoint { amplitude: 0.0, omega: linear, truncation: 0.0, harmonics };
         let mut curve =
-            Backbone { row, points: vec![rest], passed: Vec::new(), end: BackboneEnd::LargestAmplitude };
-        if size == 0.0 {
-            curve.end = BackboneEnd::StillContact;
-            return curve;
-        }
-        let whole = largest / size / STEPS;
-        let mut follower = Follower::new(self, mode);
-        let mut step = whole;
-        // The last step may end a round-off short of the largest amplitude.
-        while follower.amplitude < whole * (STEPS - 1e-9) {
-            let next = (follower.amplitude + step).min(whole * STEPS);
-            match follower.reach(next) {
-                Ok(found) => {
-                    curve.points.push(BackbonePoint { amplitude: next * size, ..found });
-                    curve.passed.extend(follower.passed());
-                    step = whole.min(2.0 * step);
-                }
-                Err(_) if step > whole * SHORTEST => step *= 0.5,
-                Err(failure) => {
-                    curve.end = failure;
-                    break;
-                }
-            }
+            Backbone { row, points: vec![rest], passed: Vec::new(), end: BackboneEnd::StillContact };
+        if size > 0.0 {
+            curve.end = Follower::new(self, mode).march(largest / size, |follower, found| {
+                curve.points.push(BackbonePoint { amplitude: size * found.amplitude, ..found });
+                curve.passed.extend(follower.passed());
+            });
         }
         curve
     }
@@ -107,8 +91,9 @@ struct Follower<'a> {
     harmonics: usize,
     /// Amplitude a of the last point.
     amplitude: f64,
-    /// Motions at the last point and at that before.
+    /// Motion at the last point.
     last: Series,
+    /// Amplitude of the point before, and its motion per amplitude.
     before: Option<(f64, Series)>,
 }
 
@@ -116,51 +101,91 @@ impl<'a> Follower<'a> {
     fn new(wheel: &'a FreeWheel<'a>, mode: FreeMode) -> Self {
         let balance = Balance::new(wheel, mode);
         let harmonics = *HARMONICS.start();
-        let last = balance.at_rest(harmonics);
+        let last = balance.linear(harmonics, 0.0);
         Self { balance, harmonics, amplitude: 0.0, last, before: None }
+    }
+
+    /// Goes on to the modal amplitude `largest`, and calls `reached` at every point. Returns why it ends.
+    fn march(&mut self, largest: f64, mut reached: impl FnMut(&Self, BackbonePoint)) -> BackboneEnd {
+        let whole = largest / STEPS;
+        let mut step = whole;
+        // The last step may end a round-off short of the largest amplitude.
+        while self.amplitude < whole * (STEPS - 1e-9) {
+            match self.reach((self.amplitude + step).min(largest)) {
+                Ok(found) => {
+                    reached(self, found);
+                    step = whole.min(2.0 * step);
+                }
+                Err(_) if step > whole * SHORTEST => step *= 0.5,
+                Err(failure) => return failure,
+            }
+        }
+        BackboneEnd::LargestAmplitude
     }
 
     /// Goes on to an amplitude; stays where it is on failure.
     fn reach(&mut self, amplitude: f64) -> Result<BackbonePoint, BackboneEnd> {
-        let guess = match &self.before {
-            None => self.balance.linear(self.harmonics, amplitude),
-            Some((before, motion)) => {
-                let share = (amplitude - self.amplitude) / (self.amplitude - before);
-                self.last.extrapolated(motion, share)
-            }
-        };
+        let guess = self.guess(amplitude);
         let mut harmonics = self.harmonics;
-        let mut coarse = self.solved(guess.of(harmonics), amplitude)?;
+        let mut coarse = self.solved(guess.of(harmonics), amplitude, &guess)?;
         loop {
-            let fine = self.solved(coarse.of(2 * harmonics), amplitude)?;
+            let fine = self.solved(coarse.of(2 * harmonics), amplitude, &guess)?;
             let omega = fine.omega_squared.sqrt();
             let truncation = (omega - coarse.omega_squared.sqrt()).abs() / omega;
             if truncation <= TRUNCATION || 2 * harmonics > *HARMONICS.end() {
                 if truncation > UNRESOLVED {
                     return Err(BackboneEnd::Unresolved { harmonics: 2 * harmonics });
                 }
-                let before = std::mem::replace(&mut self.last, fine);
-                self.before = Some((self.amplitude, before));
-                (self.amplitude, self.harmonics) = (amplitude, harmonics);
-                // `FreeWheel::backbone` replaces the modal amplitude by the displacement.
+                let shape = self.shape();
+                self.before = Some((self.amplitude, shape));
+                (self.amplitude, self.last, self.harmonics) = (amplitude, fine, harmonics);
                 return Ok(BackbonePoint { amplitude, omega, truncation, harmonics: 2 * harmonics });
             }
             (coarse, harmonics) = (fine, 2 * harmonics);
         }
     }
 
-    fn solved(&self, guess: Series, amplitude: f64) -> Result<Series, BackboneEnd> {
-        match self.balance.solve(guess, amplitude) {
+    /// Motion per amplitude at the last point.
+    fn shape(&self) -> Series {
+        match self.amplitude {
+            0.0 => self.balance.linear(self.harmonics, 1.0),
+            amplitude => self.last.scaled(1.0 / amplitude),
+        }
+    }
+
+    /// Motion of an amplitude as the last two points lead to it: motion per amplitude by a straight line over the amplitude, ω² over its square,
+    /// of which it is a function where nothing is near.
+    fn guess(&self, amplitude: f64) -> Series {
+        let shape = self.shape();
+        let Some((before, shape_before)) = &self.before else { return shape.scaled(amplitude) };
+        let share = (amplitude - self.amplitude) / (self.amplitude - before);
+        let of_squares = share * (amplitude + self.amplitude) / (self.amplitude + before);
+        shape.extrapolated(shape_before, share, of_squares).scaled(amplitude)
+    }
+
+    /// Motion that Newton's method finds from `first`, on the branch that leads to `extrapolated`.
+    fn solved(&self, first: Series, amplitude: f64, extrapolated: &Series) -> Result<Series, BackboneEnd> {
+        let found = self.balance.solve(first, amplitude);
+        match found.filter(|found| !self.balance.strays(found, extrapolated, amplitude)) {
             Some(found) if found.omega_squared > 0.0 => Ok(found),
             Some(_) => Err(BackboneEnd::NoRestoringForce),
-            None => Err(self.balance.nearest(&self.last, self.amplitude)),
+            None => Err(self.end(amplitude)),
         }
+    }
+
+    /// Reason why nothing was found at an amplitude beyond the last point. At rest no mode responds: the linear motion tells.
+    fn end(&self, amplitude: f64) -> BackboneEnd {
+        let resonance = match self.amplitude {
+            0.0 => self.balance.nearest(&self.guess(amplitude), amplitude),
+            last => self.balance.nearest(&self.last, last),
+        };
+        resonance.map_or(BackboneEnd::NotFound, BackboneEnd::AtResonance)
     }
 
     /// Resonances between the last two points.
     fn passed(&self) -> Vec<Resonance> {
-        let Some((before_amplitude, before)) = &self.before else { return Vec::new() };
-        self.balance.passed((before, *before_amplitude), (&self.last, self.amplitude))
+        let Some((amplitude, shape)) = &self.before else { return Vec::new() };
+        self.balance.passed((&shape.scaled(*amplitude), *amplitude), (&self.last, self.amplitude))
     }
 }
 

@@ -31,13 +31,12 @@ fn oscillator<'a>([potential, inertia]: [&'a EnergyForm; 2], row: f64) -> FreeWh
 
 const FIRST: FreeMode = FreeMode { nodal_diameter: 0, rank: 0 };
 
-/// Motion of a mode at so many steps up to the amplitude a.
+/// Motion of a mode at the modal amplitude a, and its frequency.
 fn motion<'a>(wheel: &'a FreeWheel<'a>, mode: FreeMode, amplitude: f64) -> (Follower<'a>, f64) {
     let mut follower = Follower::new(wheel, mode);
     let mut omega = 0.0;
-    for step in 1..=16 {
-        omega = follower.reach(amplitude * f64::from(step) / 16.0).unwrap().omega;
-    }
+    let end = follower.march(amplitude, |_, found| omega = found.omega);
+    assert_eq!(end, BackboneEnd::LargestAmplitude);
     (follower, omega)
 }
 
@@ -106,29 +105,97 @@ fn a_curve_ends_where_nothing_draws_the_blade_back() {
     assert!(curve.points.iter().all(|point| point.truncation < UNRESOLVED));
 }
 
-#[test]
-fn a_resonance_with_another_mode_is_told() {
-    // The second mode has nearly three times the frequency, which the first reaches as it hardens.
-    let potential = EnergyForm::new(
-        &Mat::zeros(2, 3),
-        &Mat::from_fn(3, 3, |a, b| [[1.0, 0.2, 0.0], [0.2, 0.1, 0.0], [0.0; 3]][a][b] * LINEAR * LINEAR),
-    );
+/// Strain energy ω₀²(½ A p₁⁴ + C p₁³p₂ + ½ D p₁²p₂² + ½ E p₂⁴) of two coordinates.
+fn coupled([a, c, d, e]: [f64; 4]) -> EnergyForm {
+    let quartic = [[a, c, 0.0], [c, d, 0.0], [0.0, 0.0, e]];
+    EnergyForm::new(&Mat::zeros(2, 3), &Mat::from_fn(3, 3, |i, j| quartic[i][j] * LINEAR * LINEAR))
+}
+
+/// One blade with two modes, one for each coordinate; the second has `second` times the frequency of the first.
+fn two_modes<'a>(second: f64, potential: &'a EnergyForm, still: &'a EnergyForm) -> FreeWheel<'a> {
     let one = |value: f64| c64::new(value, 0.0);
-    let modes = |second: f64| FreeModes {
+    let modes = FreeModes {
         omega: vec![LINEAR, second * LINEAR],
         rows: Mat::from_fn(2, 2, |i, j| one(if i == j { 1.0 } else { 0.0 })),
         contact: Mat::from_fn(1, 2, |_, _| one(1.0)),
     };
-    let curve = |second: f64| {
-        let modes = vec![modes(second)];
-        let wheel = FreeWheel { sectors: 1, modes, potential: &potential, inertia: &EnergyForm::zero(2) };
-        wheel.backbone(FIRST, 0.5)
-    };
-    let met = Resonance { harmonic: 3, nodal_diameter: 0, rank: 1 };
-    let found = curve(3.15);
-    assert_eq!(found.passed, [met], "{found:?}");
-    let far = curve(8.37);
+    FreeWheel { sectors: 1, modes: vec![modes], potential, inertia: still }
+}
+
+fn met(harmonic: usize) -> Resonance {
+    Resonance { harmonic, nodal_diameter: 0, rank: 1 }
+}
+
+#[test]
+fn a_resonance_with_another_mode_is_told() {
+    // The first mode reaches a third of the frequency of the second as it hardens, or as the second softens by its motion, whose frequency it
+    // never reaches without motion.
+    let still = EnergyForm::zero(2);
+    let curve = |second: f64, energy| two_modes(second, &coupled(energy), &still).backbone(FIRST, 0.5);
+    for (second, energy) in [(3.15, [1.0, 0.02, 0.1, 0.0]), (3.05, [0.0, 0.005, -8.0, 0.0])] {
+        let found = curve(second, energy);
+        assert_eq!(
+            (found.end, &found.passed[..]),
+            (BackboneEnd::LargestAmplitude, &[met(3)][..]),
+            "{second}"
+        );
+    }
+    let far = curve(8.37, [1.0, 0.2, 0.1, 0.0]);
     assert_eq!((far.end, far.passed.len()), (BackboneEnd::LargestAmplitude, 0));
+}
+
+#[test]
+fn a_curve_does_not_jump_to_another_branch() {
+    // Steps a twentieth as long hardly change the motion even amid the resonance: the reference is continuous.
+    let still = EnergyForm::zero(2);
+    for (second, energy) in [(3.3, [1.0, 0.4, 0.1, 0.0]), (3.05, [0.0, 0.4, -8.0, 0.0])] {
+        let potential = coupled(energy);
+        let wheel = two_modes(second, &potential, &still);
+        let curve = wheel.backbone(FIRST, 0.5);
+        let mut fine = Follower::new(&wheel, FIRST);
+        let mut compared = 0;
+        for pair in curve.points.windows(2) {
+            let [from, to] = [0, 1].map(|k| pair[k].amplitude);
+            let within = (1..=20).try_fold(0.0, |_, k| {
+                fine.reach(from + (to - from) * f64::from(k) / 20.0).map(|found| found.omega)
+            });
+            let Ok(expected) = within else { break };
+            let omega = pair[1].omega;
+            assert!((omega / expected - 1.0).abs() < 1e-5, "{second} at {to}: {omega} {expected}");
+            compared += 1;
+        }
+        println!("{second}: {compared} points up to {:?}, {}", curve.points.last(), curve.end);
+        assert!(compared >= 20, "{second}: {compared}");
+    }
+}
+
+#[test]
+fn a_curve_ends_at_a_resonance_beyond_which_it_turns_back() {
+    // Second mode at nearly the frequency of the first. With p₁ = a cos ωt and p₂ = b cos ωt alone:
+    // ω² = ω₀² + ω₀²(3/2 A a² + 9/4 C a b + 3/4 D b²),  (ω₂² − ω²) b + ω₀²(3/4 C a³ + 3/4 D a² b + 3/2 E b³) = 0.
+    let (second, [a, c, d, e]) = (1.05, [1.0, 0.02, 0.1, -5.0]);
+    let off = |amplitude: f64, b: f64| {
+        let squares = 1.5 * a * amplitude.powi(2) + 2.25 * c * amplitude * b + 0.75 * d * b * b;
+        (second * second - 1.0 - squares) * b
+            + 0.75 * (c * amplitude.powi(3) + d * amplitude.powi(2) * b)
+            + 1.5 * e * b.powi(3)
+    };
+    // Up to the fold a small b < 0 solves this: the sign changes from b = 0 down.
+    let solved = |amplitude: f64| (1..4000).any(|k| off(amplitude, -1e-5 * f64::from(k)) < 0.0);
+    let (mut below, mut above) = (0.1, 0.4);
+    assert!(solved(below) && !solved(above));
+    for _ in 0..40 {
+        let middle = 0.5 * (below + above);
+        if solved(middle) { below = middle } else { above = middle }
+    }
+    let (potential, still) = (coupled([a, c, d, e]), EnergyForm::zero(2));
+    for largest in [0.3, 0.5] {
+        let curve = two_modes(second, &potential, &still).backbone(FIRST, largest);
+        let last = curve.points.last().unwrap();
+        println!("fold at {below}, end at {last:?}");
+        assert_eq!(curve.end, BackboneEnd::AtResonance(met(1)));
+        assert!((last.amplitude / below - 1.0).abs() < 5e-3, "{last:?} {below}");
+    }
 }
 
 fn blade() -> BladeBending {
