@@ -223,6 +223,10 @@ impl<'a> Balance<'a> {
         for _ in 0..ITERATIONS {
             let (tangent, residual) = self.equations(&motion, amplitude, scale);
             let step = tangent.partial_piv_lu().solve(&residual);
+            // A tangent that is singular, exactly at a resonance.
+            if !step.is_all_finite() {
+                return None;
+            }
             let mut size = 0.0f64;
             for (h, harmonic) in motion.harmonics.iter_mut().enumerate() {
                 for (j, p) in harmonic.iter_mut().enumerate() {
@@ -234,9 +238,6 @@ impl<'a> Balance<'a> {
             let change = step[(m * (2 * most + 1), 0)];
             motion.omega_squared -= change * self.linear;
             size = size.max(change.abs());
-            if !size.is_finite() {
-                return None;
-            }
             if size < CONVERGED {
                 return Some(motion);
             }

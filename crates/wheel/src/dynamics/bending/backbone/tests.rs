@@ -198,6 +198,18 @@ fn a_curve_ends_at_a_resonance_beyond_which_it_turns_back() {
     }
 }
 
+#[test]
+fn a_curve_in_resonance_from_rest_on_ends_there() {
+    // ω₀² p₁²p₂ with ω₂ = 2ω₀: the second mode takes part with ±1/√8 however small the motion is (Nayfeh and Mook), so that no curve begins at the
+    // linear mode. A third off, one does.
+    let cubic = Mat::from_fn(2, 3, |j, a| if (j, a) == (1, 0) { LINEAR * LINEAR } else { 0.0 });
+    let (potential, still) = (EnergyForm::new(&cubic, &Mat::zeros(3, 3)), EnergyForm::zero(2));
+    let curve = |second: f64| two_modes(second, &potential, &still).backbone(FIRST, 0.1);
+    let tuned = curve(2.0);
+    assert_eq!((tuned.end, tuned.points.len()), (BackboneEnd::AtResonance(met(2)), 1));
+    assert_eq!(curve(2.67).end, BackboneEnd::LargestAmplitude);
+}
+
 fn blade() -> BladeBending {
     let mut numbers = Numbers(23);
     let count = products(COORDINATES).count();
