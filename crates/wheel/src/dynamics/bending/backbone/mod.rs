@@ -123,7 +123,7 @@ impl<'a> Follower<'a> {
         BackboneEnd::LargestAmplitude
     }
 
-    /// Goes on to an amplitude; stays where it is on failure.
+    /// Goes on to a modal amplitude, which the point has for its own; stays where it is on failure.
     fn reach(&mut self, amplitude: f64) -> Result<BackbonePoint, BackboneEnd> {
         let guess = self.guess(amplitude);
         let mut harmonics = self.harmonics;
