@@ -6,6 +6,7 @@ WORKDIR /src
 # Dependencies first: they change less often than we do.
 COPY Cargo.toml Cargo.lock build.rs ./
 COPY crates/analysis/Cargo.toml crates/analysis/
+COPY crates/fit/Cargo.toml crates/fit/
 COPY crates/mesh/Cargo.toml crates/mesh/
 COPY crates/model/Cargo.toml crates/model/
 COPY crates/numerics/Cargo.toml crates/numerics/

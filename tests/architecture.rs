@@ -7,16 +7,17 @@ use syn::visit::Visit;
 use syn::{ItemMod, ItemUse, UseTree};
 
 /// Crates of the workspace and those of its own that each may use: arrows point one way.
-const CRATES: [(&str, &[&str]); 9] = [
+const CRATES: [(&str, &[&str]); 10] = [
     ("crates/numerics", &[]),
     ("crates/wheel", &["numerics"]),
     ("crates/solid", &[]),
     ("crates/mesh", &["solid"]),
     ("crates/model", &["mesh", "numerics", "solid", "wheel"]),
     ("crates/analysis", &["numerics", "solid", "wheel"]),
+    ("crates/fit", &["model", "numerics", "wheel"]),
     ("crates/plot", &["analysis", "wheel"]),
     ("crates/script", &[]),
-    (".", &["analysis", "mesh", "model", "numerics", "plot", "script", "solid", "wheel"]),
+    (".", &["analysis", "fit", "mesh", "model", "numerics", "plot", "script", "solid", "wheel"]),
 ];
 
 /// Crates that nothing below the service knows: HTTP, SQL, async, dates.
