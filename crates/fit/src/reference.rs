@@ -1,7 +1,7 @@
 //! Point at which families are named, and the modes of other points that have their shapes.
 //!
 //! Families are named by rank at rest and followed from there to the speed of every target, as everywhere in the program. From the reference to
-//! another wheel of the same mesh they are followed by the modal assurance with the masses of both,
+//! another wheel they are followed by the modal assurance with the masses of both,
 //!
 //! ```text
 //! MAC = |φ_aᴴ M_a φ_b| · |φ_aᴴ M_b φ_b|,   φ_aᴴ M_a φ_a = φ_bᴴ M_b φ_b = 1
@@ -35,7 +35,7 @@ impl<'a> Reference<'a> {
     /// # Errors
     /// Message where the point is no wheel.
     pub(crate) fn new(problem: &'a Problem, point: &[f64]) -> Result<Self, String> {
-        Self::of(problem, point.to_vec(), modes_at(problem, point)?)
+        Self::of(problem, point.to_vec(), modes_at(problem, point, point)?)
     }
 
     /// Reference at a starting point without a free unit, which is then the one that fits best there.
@@ -43,7 +43,7 @@ impl<'a> Reference<'a> {
     /// # Errors
     /// Message where the point is no wheel.
     pub(crate) fn at_start(problem: &'a Problem, start: &[f64]) -> Result<Self, String> {
-        let modes = modes_at(problem, start)?;
+        let modes = modes_at(problem, start, start)?;
         if !problem.is_free() {
             return Self::of(problem, start.to_vec(), modes);
         }
@@ -90,20 +90,13 @@ impl<'a> Reference<'a> {
         self.rows(&self.modes, &self.point)
     }
 
-    /// Frequencies of the targets of the wheel of another reference.
-    ///
-    /// # Errors
-    /// Message where the stiffness is not positive definite at a speed.
-    pub(crate) fn rows_of(&self, other: &Self) -> Result<Vec<Row>, String> {
-        self.rows(&other.modes, &other.point)
-    }
-
-    /// Frequencies of the targets at a point, kept in `memo`.
+    /// Frequencies of the targets at a point, on a mesh with the degrees of freedom of the reference's; kept in `memo`.
     ///
     /// # Errors
     /// Message where the point is no wheel.
     pub(crate) fn evaluate(&self, memo: &Memo<'_>, point: &[f64]) -> Result<Vec<Row>, String> {
-        let compute = || modes_at(self.problem, point).and_then(|modes| self.rows(&modes, point));
+        let compute =
+            || modes_at(self.problem, point, &self.point).and_then(|modes| self.rows(&modes, point));
         let outcome =
             memo.outcome(&self.point, point, || compute().map_or_else(Outcome::Failed, Outcome::Rows));
         match outcome {
@@ -114,10 +107,8 @@ impl<'a> Reference<'a> {
 
     fn rows(&self, modes: &FreeModes, point: &[f64]) -> Result<Vec<Row>, String> {
         let unit = self.problem.unit_hz(point);
-        let products: Vec<[Mat<c64>; 2]> = (self.modes.shapes.iter().zip(&modes.shapes))
-            .map(|(a, b)| products(a, b))
-            .collect::<Option<_>>()
-            .ok_or("the mesh has another number of nodes than at the start")?;
+        let shapes = self.modes.shapes.iter().zip(&modes.shapes);
+        let products: Vec<[Mat<c64>; 2]> = shapes.map(|(a, b)| products(a, b)).collect();
         let row = |(goal, followed): (&Goal, &Mat<c64>)| {
             let at = modes.shapes.iter().position(|shapes| shapes.nodal_diameter == goal.nodal_diameter);
             let [with_own, with_other] = &products[at.ok_or("nodal diameter without modes")?];
@@ -167,8 +158,7 @@ fn unit_at_rest(problem: &Problem, modes: &FreeModes) -> Result<f64, String> {
     Ok(sum / weights)
 }
 
-/// Products V_aᴴM_aV_b and V_aᴴM_bV_b; none where the meshes differ.
-fn products(a: &FreeShapes, b: &FreeShapes) -> Option<[Mat<c64>; 2]> {
-    (a.displacement.nrows() == b.displacement.nrows())
-        .then(|| [a.momentum.adjoint() * &b.displacement, a.displacement.adjoint() * &b.momentum])
+/// Products V_aᴴM_aV_b and V_aᴴM_bV_b.
+fn products(a: &FreeShapes, b: &FreeShapes) -> [Mat<c64>; 2] {
+    [a.momentum.adjoint() * &b.displacement, a.displacement.adjoint() * &b.momentum]
 }

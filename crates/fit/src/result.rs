@@ -5,9 +5,10 @@ use rubmap_model::impeller::ImpellerParameters;
 use serde::{Deserialize, Serialize};
 
 use crate::error::FitError;
-use crate::evaluation::{Evaluation, Keeper, Memo};
+use crate::evaluation::{Evaluation, Keeper, Memo, Row};
 use crate::identify::Knowledge;
-use crate::problem::Problem;
+use crate::problem::{Goal, Problem};
+use crate::request::Target;
 use crate::search::{End, derivatives, search};
 
 /// Result of a fit.
@@ -100,7 +101,7 @@ pub struct StartResult {
     pub weighted_rms: Option<f64>,
     /// Number of iterations.
     pub iterations: usize,
-    /// Number of times that families were named: more than 1 where their order changed.
+    /// Number of legs of the search: more than 1 where the order of families, or the end of the clamp on the mesh, changed.
     pub legs: usize,
     /// Reason why the start is no wheel.
     pub failure: Option<String>,
@@ -139,7 +140,7 @@ pub fn fit(problem: &Problem, known: Vec<Evaluation>, keeper: &dyn Keeper) -> Re
         Err(_) => Knowledge { singular_values: Vec::new(), deviations: vec![None; point.len()] },
     };
     let unit = problem.unit_hz(point);
-    let targets = targets(problem, best).map_err(|message| failure(&message))?;
+    let targets = targets(problem, &memo, best).map_err(|message| failure(&message))?;
     let largest = targets.iter().fold(0.0f64, |largest, row| largest.max(row.difference_percent.abs()));
     let squares: f64 = targets.iter().map(|row| row.difference_percent.powi(2)).sum();
     let values = problem.values(point);
@@ -181,12 +182,12 @@ pub fn fit(problem: &Problem, known: Vec<Evaluation>, keeper: &dyn Keeper) -> Re
     })
 }
 
-fn targets(problem: &Problem, best: &End<'_>) -> Result<Vec<TargetResult>, String> {
+fn targets(problem: &Problem, memo: &Memo<'_>, best: &End<'_>) -> Result<Vec<TargetResult>, String> {
     let unit = problem.unit_hz(&best.end.point);
-    let followed = best.start.rows_of(&best.end)?;
+    let followed = best.start.evaluate(memo, &best.end.point)?;
     let rows = problem.goals.iter().zip(&problem.request.targets).zip(best.rows.iter().zip(followed));
-    let row = |((goal, target), (row, followed)): (_, (&crate::evaluation::Row, crate::evaluation::Row))| {
-        let (goal, target): (&crate::problem::Goal, &crate::request::Target) = (goal, target);
+    let row = |((goal, target), (row, followed)): (_, (&Row, Row))| {
+        let (goal, target): (&Goal, &Target) = (goal, target);
         let ratio = row.omega / (goal.omega * unit);
         TargetResult {
             nodal_diameter: target.nodal_diameter,

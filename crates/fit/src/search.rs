@@ -1,8 +1,8 @@
 //! Search from one starting point: least squares within the bounds, by Levenberg's and Marquardt's method (crate `rmpfit`, after MINPACK).
 //!
-//! A search has legs. In each, families have the names of its first point and are followed by shape, so that the differences are smooth. At the
-//! end of a leg families are named anew; where names changed, another leg begins there, since a target is met only by the mode that has its
-//! name.
+//! A search has legs. In each, families have the names of its first point and are followed by shape, and meshes have the degrees of freedom of
+//! the first one, so that the differences are smooth. At the end of a leg families are named anew, on a mesh of its own; where that changes
+//! anything, another leg begins there: a target is met only by the mode that has its name.
 
 use std::sync::Arc;
 
@@ -18,6 +18,9 @@ const STEP: f64 = 1e-3;
 
 /// Most legs of a search.
 const LEGS: usize = 6;
+
+/// Relative difference up to which frequencies of one wheel count as the same.
+const SAME: f64 = 1e-7;
 
 /// Weighted difference that stands for a point that is no wheel: large enough for every step there to be taken back.
 const NO_WHEEL: f64 = 1e6;
@@ -57,20 +60,25 @@ pub(crate) fn search<'a>(problem: &'a Problem, memo: &Memo<'_>, start: &[f64]) -
         let mut point = reference.point.clone();
         // An error leaves the point where the leg began.
         best.iterations += leg.mpfit(&mut point).map_or(1, |status| status.n_iter.max(1));
-        let ranks = |rows: &[Row]| rows.iter().map(|row| row.rank).collect::<Vec<usize>>();
-        let followed = ranks(&reference.evaluate(memo, &point)?);
+        let followed = reference.evaluate(memo, &point)?;
         reference = Arc::new(Reference::new(problem, &point)?);
         let rows = reference.own_rows()?;
-        let renamed = ranks(&rows) != followed;
+        let goes_on = differ(&followed, &rows);
         let weighted_rms = self::weighted_rms(problem, &point, &rows);
         if weighted_rms < best.weighted_rms {
             best = End { end: Arc::clone(&reference), rows, weighted_rms, ..best };
         }
-        if !renamed {
+        if !goes_on {
             break;
         }
     }
     Ok(best)
+}
+
+/// Whether a leg's end looks otherwise with names and mesh of its own.
+fn differ(followed: &[Row], own: &[Row]) -> bool {
+    let mut rows = followed.iter().zip(own);
+    rows.any(|(a, b)| a.rank != b.rank || (a.omega / b.omega - 1.0).abs() > SAME)
 }
 
 /// Weighted differences (f/f_target − 1)/error of all targets at a point.

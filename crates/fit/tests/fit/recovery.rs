@@ -9,6 +9,9 @@ const SPEEDS_RPM: [f64; 2] = [0.0, 24_000.0];
 /// Values sought: some 10 % away from those at which the search begins.
 const SOUGHT: [(&str, f64); 3] = [("axial_length", 66.0), ("rim_thickness", 7.8), ("root_thickness", 1.9)];
 
+/// Axial length of a wheel whose mesh differs from that of the start.
+const LONG: f64 = 68.0;
+
 fn bounds() -> serde_json::Value {
     json!({"axial_length": [50.0, 75.0], "rim_thickness": [5.0, 9.0], "root_thickness": [1.2, 2.4]})
 }
@@ -65,6 +68,18 @@ fn a_free_unit_is_found() {
     request.wheel = sought();
     let result = fit(&Problem::new(request).unwrap(), Vec::new(), &Kept::default()).unwrap();
     assert!((result.unit_hz.unwrap() / hz - 1.0).abs() < 1e-6, "{result:#?}");
+}
+
+/// On the mesh of the longer wheel the clamp has one more station, which changes frequencies by more than what is asked of them.
+#[test]
+fn wheels_with_another_clamp_on_the_mesh_are_recovered() {
+    let long = wheel(&json!({"contact_nodes": 8, "axial_length": LONG}));
+    let bounds = json!({"axial_length": [50.0, 90.0], "rim_thickness": [5.0, 9.0]});
+    let request = request(wheel(&json!({"contact_nodes": 8})), bounds, targets(&long, &[0.0]));
+    let result = fit(&Problem::new(request).unwrap(), Vec::new(), &Kept::default()).unwrap();
+    assert!(result.starts[0].legs > 1, "{result:#?}");
+    assert!(result.largest_percent < 1e-3, "{result:#?}");
+    assert!((result.unknowns[0].value / LONG - 1.0).abs() < 1e-4);
 }
 
 /// A unit of its own and Young's modulus scale all frequencies at rest alike.

@@ -91,3 +91,11 @@ fn numbers_that_are_none_are_refused() {
     bounds.vary.insert("rim_thickness".to_owned(), [f64::NAN, 9.0]);
     assert!(refused(bounds).contains("`vary.rim_thickness` = [NaN, 9]"));
 }
+
+#[test]
+fn the_example_of_the_documentation_is_taken() {
+    let text = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/fit.md")).unwrap();
+    let example = text.split("```json\n").nth(1).unwrap().split("```").next().unwrap();
+    let problem = FitRequest::from_json(example).and_then(Problem::new).unwrap();
+    assert_eq!((problem.variables.len(), problem.goals.len()), (3, 4));
+}

@@ -38,8 +38,12 @@ pub(super) struct Lane {
 }
 
 impl<'a> Geometry<'a> {
-    /// Geometry of parameters that are within their ranges.
-    pub(super) fn new(p: &'a ImpellerParameters) -> Self {
+    /// Geometry of parameters that are within their ranges, whose inner curve turns at the station where that of `pattern` does.
+    pub(super) fn like(p: &'a ImpellerParameters, pattern: &ImpellerParameters) -> Self {
+        Self { corner: Geometry::new(pattern).corner, ..Self::new(p) }
+    }
+
+    fn new(p: &'a ImpellerParameters) -> Self {
         let hub = TurningCurve::new(p.inlet_hub_radius, [p.outlet_radius, p.axial_length]);
         let shroud =
             TurningCurve::new(p.inlet_tip_radius, [p.outlet_radius, p.axial_length - p.outlet_blade_height]);

@@ -34,6 +34,7 @@ pub use sector_mesh::impeller_sector;
 
 use crate::assembly::{PackageFacts, to_package};
 use crate::package::raw::RawPackage;
+use sector_mesh::sector_like;
 
 /// Makes the model package of one impeller sector.
 ///
@@ -59,7 +60,20 @@ use crate::package::raw::RawPackage;
 /// # Errors
 /// [`ImpellerError`] names the parameter or the element at fault.
 pub fn generate(parameters: &ImpellerParameters) -> Result<RawPackage, ImpellerError> {
-    let sector = impeller_sector(parameters)?;
+    generate_like(parameters, parameters)
+}
+
+/// Makes the model package of one impeller sector with the degrees of freedom of the sector of `pattern`, which has the same numbers of
+/// elements: [`generate`] ends the clamp at one of the mesh's stations, another one for another shape, so that its matrices are no smooth
+/// function of the parameters.
+///
+/// # Errors
+/// [`ImpellerError`] names the parameter or the element at fault.
+pub fn generate_like(
+    parameters: &ImpellerParameters,
+    pattern: &ImpellerParameters,
+) -> Result<RawPackage, ImpellerError> {
+    let sector = sector_like(parameters, pattern)?;
     let name = format!(
         "rubmap impeller, {} sectors, outlet radius {} {}",
         parameters.sectors, parameters.outlet_radius, parameters.units.length

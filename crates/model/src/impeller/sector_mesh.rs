@@ -17,8 +17,17 @@ use crate::assembly::TipNode;
 /// # Errors
 /// [`ImpellerError::Parameter`] for a field out of range, [`ImpellerError::Jacobian`] for an element turned inside out.
 pub fn impeller_sector(parameters: &ImpellerParameters) -> Result<SectorMesh, ImpellerError> {
+    sector_like(parameters, parameters)
+}
+
+/// Meshes the sector of `parameters` with the nodes and the clamp of the mesh of `pattern`, which has the same numbers of elements.
+pub(super) fn sector_like(
+    parameters: &ImpellerParameters,
+    pattern: &ImpellerParameters,
+) -> Result<SectorMesh, ImpellerError> {
     parameters.validate()?;
-    let geometry = Geometry::new(parameters);
+    pattern.validate()?;
+    let geometry = Geometry::like(parameters, pattern);
     geometry.check_passage()?;
     let sector = mesh(&geometry);
     sector.mesh.check_jacobians()?;
