@@ -71,6 +71,14 @@ impl Problem {
             .map_err(|error| FitError::Syntax { field: "wheel".to_owned(), message: error.to_string() })?;
         count("starts", request.starts)?;
         count("iterations", request.iterations)?;
+        count("candidates", request.candidates)?;
+        if request.candidates < request.starts {
+            return Err(FitError::Value {
+                field: "candidates".to_owned(),
+                value: request.candidates.to_string(),
+                requirement: "must be at least `starts`, which are chosen among them",
+            });
+        }
         if let Some(tolerance) = request.tolerance {
             positive("tolerance", tolerance)?;
         }
@@ -156,18 +164,18 @@ impl Problem {
         Ok(parameters)
     }
 
-    /// Starting points as fractions of the bounds, without a free unit: the wheel's own values where they are within the bounds and their
+    /// Candidates for starting points as fractions of the bounds, without a free unit: the wheel's own values where they are within the bounds and their
     /// nearest bounds elsewhere, then Sobol points.
-    pub(crate) fn starts(&self) -> Vec<Vec<f64>> {
+    pub(crate) fn candidates(&self) -> Vec<Vec<f64>> {
         let own = self.variables.iter().map(|variable| {
             let value = self.wheel.pointer(&pointer(&variable.name)).and_then(Value::as_f64);
             let fraction = |value: f64| (value - variable.low) / (variable.high - variable.low);
             value.map_or(0.5, |value| fraction(value).clamp(0.0, 1.0))
         });
-        let mut starts = vec![own.collect()];
-        let others = 0..self.request.starts - 1;
-        starts.extend(others.map(|index| sobol_point(index, self.variables.len(), self.request.seed)));
-        starts
+        let mut candidates = vec![own.collect()];
+        let others = 0..self.request.candidates - 1;
+        candidates.extend(others.map(|index| sobol_point(index, self.variables.len(), self.request.seed)));
+        candidates
     }
 }
 

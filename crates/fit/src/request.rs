@@ -21,9 +21,13 @@ pub struct FitRequest {
     pub unit: Unit,
     /// Frequencies that the wheel is to have.
     pub targets: Vec<Target>,
-    /// Number of starting points, 1 to 1000: the wheel's own values, then points of Sobol's sequence in the bounds.
+    /// Number of starting points, 1 to 1000: the wheel's own values, then the best of the candidates.
     #[serde(default = "default_starts")]
     pub starts: usize,
+    /// Number of candidates among which the starting points are chosen, at least `starts` and at most 1000: the wheel's own values and points of
+    /// Sobol's sequence in the bounds.
+    #[serde(default = "default_candidates")]
+    pub candidates: usize,
     /// Seed of Sobol's sequence.
     #[serde(default)]
     pub seed: u32,
@@ -65,6 +69,10 @@ pub struct Target {
 
 fn default_starts() -> usize {
     4
+}
+
+fn default_candidates() -> usize {
+    16
 }
 
 fn default_iterations() -> usize {

@@ -9,7 +9,7 @@ use crate::evaluation::{Evaluation, Keeper, Memo, Row};
 use crate::identify::Knowledge;
 use crate::problem::{Goal, Problem};
 use crate::request::Target;
-use crate::search::{End, derivatives, search};
+use crate::search::{End, derivatives, search, starts};
 
 /// Result of a fit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -117,7 +117,7 @@ const AT_BOUND: f64 = 1e-6;
 /// [`FitError::NoStart`] where no starting point is a wheel.
 pub fn fit(problem: &Problem, known: Vec<Evaluation>, keeper: &dyn Keeper) -> Result<FitResult, FitError> {
     let memo = Memo::new(known, keeper);
-    let starts = problem.starts();
+    let starts = starts(problem);
     let indices: Vec<usize> = (0..starts.len()).collect();
     let ends: Vec<Result<End<'_>, String>> = (indices.par_iter())
         .map(|&index| {
@@ -128,7 +128,7 @@ pub fn fit(problem: &Problem, known: Vec<Evaluation>, keeper: &dyn Keeper) -> Re
         .collect();
     let reached = ends.iter().enumerate().filter_map(|(index, end)| Some((index, end.as_ref().ok()?)));
     let best = reached.min_by(|(_, a), (_, b)| a.weighted_rms.total_cmp(&b.weighted_rms));
-    let failure = |message: &str| FitError::NoStart { starts: starts.len(), message: message.to_owned() };
+    let failure = |message: &str| FitError::NoStart { starts: ends.len(), message: message.to_owned() };
     let Some((best_start, best)) = best else {
         let first = ends.first().and_then(|end| end.as_ref().err());
         return Err(failure(first.map_or("no starting point", |message| message)));

@@ -44,6 +44,26 @@ pub(crate) struct End<'a> {
     pub(crate) weighted_rms: f64,
 }
 
+/// Starting points of a fit: the wheel's own values, then those candidates whose frequencies come closest to the targets, best first; of equal
+/// ones the first. Candidates that are no wheel come last.
+pub(crate) fn starts(problem: &Problem) -> Vec<Vec<f64>> {
+    let mut candidates = problem.candidates();
+    if candidates.len() > problem.request.starts {
+        let distance = |candidate: &Vec<f64>| {
+            let reference = Reference::at_start(problem, candidate)?;
+            Ok::<f64, String>(weighted_rms(problem, &reference.point, &reference.own_rows()?))
+        };
+        let others = candidates.split_off(1);
+        let far: Vec<f64> =
+            others.par_iter().map(|candidate| distance(candidate).unwrap_or(f64::INFINITY)).collect();
+        let mut order: Vec<usize> = (0..others.len()).collect();
+        order.sort_by(|&a, &b| far[a].total_cmp(&far[b]));
+        candidates
+            .extend(order.into_iter().take(problem.request.starts - 1).map(|index| others[index].clone()));
+    }
+    candidates
+}
+
 /// Searches from `start`, without a free unit.
 ///
 /// # Errors

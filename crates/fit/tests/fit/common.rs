@@ -50,6 +50,7 @@ pub(crate) fn request(wheel: ImpellerRequest, vary: Value, targets: Vec<Target>)
         unit: Unit::HzAndRpm,
         targets,
         starts: 1,
+        candidates: 1,
         seed: 0,
         iterations: 50,
         tolerance: None,

@@ -65,6 +65,7 @@ fn errors_name_the_field() {
         (|r| r["unit"] = json!("furlongs"), &["`unit`", "hz_and_rpm"]),
         (|r| r["unit"] = json!("free"), &["2 targets for 3 unknowns", "unit"]),
         (|r| r["starts"] = json!(0), &["`starts` = 0"]),
+        (|r| r["candidates"] = json!(3), &["`candidates` = 3", "at least `starts`"]),
         (|r| r["iterations"] = json!(1001), &["`iterations` = 1001"]),
         (|r| r["tolerance"] = json!(-0.1), &["`tolerance` = -0.1"]),
         (|r| r["wheel"]["rim_thickness"] = json!(-1), &["`wheel`", "`rim_thickness` = -1"]),
