@@ -9,6 +9,7 @@ mod demo;
 mod ending;
 mod field_file;
 mod fields;
+mod fit;
 pub mod generate;
 mod groups;
 mod import;
@@ -119,6 +120,9 @@ enum Command {
     /// Make bearer tokens for a service that is not for everybody.
     #[command(subcommand)]
     Token(token::TokenCommand),
+    /// Search for the generated wheel that has given natural frequencies.
+    #[command(after_help = fit::CODES)]
+    Fit(fit::FitArgs),
     /// Make a model package from a few parameters.
     Generate(generate::GenerateArgs),
     /// Make a model package from the files of a finite-element program.
@@ -176,6 +180,7 @@ impl Cli {
             Command::Fields(args) => return fields::run(&args),
             Command::Modes(args) => return modes::run(&args),
             Command::Repeat(args) => return repeat::run(&args),
+            Command::Fit(args) => return fit::run(&args),
             Command::Check(args) => return keeping::check(args),
             Command::Serve(args) => serve::run(args)?,
             Command::Cluster(command) => cluster::run(command)?,

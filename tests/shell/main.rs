@@ -8,6 +8,7 @@ mod bad_days;
 mod codes;
 mod downloads;
 mod files;
+mod fits;
 #[path = "../api/model.rs"]
 #[expect(dead_code, reason = "shared with tests that need more of it")]
 mod model;

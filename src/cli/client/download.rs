@@ -135,7 +135,7 @@ impl Client {
 }
 
 /// Makes a temporary file, readable as other files that are made in the folder.
-fn new_file(folder: &Path) -> std::io::Result<NamedTempFile> {
+pub(in crate::cli) fn new_file(folder: &Path) -> std::io::Result<NamedTempFile> {
     use std::os::unix::fs::PermissionsExt;
     let mut builder = tempfile::Builder::new();
     builder.prefix(".rubmap-").permissions(std::fs::Permissions::from_mode(0o666)).tempfile_in(folder)

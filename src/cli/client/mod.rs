@@ -11,7 +11,7 @@ mod server;
 mod upload;
 
 pub(super) use answer::Answer;
-pub(super) use download::Target;
+pub(super) use download::{Target, new_file};
 pub(super) use error::ClientError;
 pub(super) use http::Client;
 pub(super) use job::{Job, JobError, Model};
