@@ -56,11 +56,11 @@ pub(super) fn run(args: &FitArgs) -> anyhow::Result<ExitCode> {
         rayon::ThreadPoolBuilder::new().num_threads(threads).build().context("cannot start threads")?;
     let progress = Progress::new(state, problem.request.starts, known.len(), terminal.bar("fit"));
     let result = pool.install(|| fit(&problem, known, &progress))?;
-    progress.finish()?;
     save(&args.out, "parameters.json", &serde_json::to_string_pretty(&result.parameters)?)?;
     save(&args.out, "fit.json", &serde_json::to_string_pretty(&result)?)?;
     narrate(&report::table(&result))?;
     narrate(&report::closing(&result, &args.out))?;
+    progress.finish()?;
     Ok(exit(&result))
 }
 
@@ -103,19 +103,20 @@ impl Progress {
         Self { starts, inner: Mutex::new(inner) }
     }
 
-    fn with(&self, change: impl FnOnce(&mut Inner)) {
+    /// Changes the numbers and shows them; `change` says whether the last search has ended.
+    fn with(&self, change: impl FnOnce(&mut Inner) -> bool) {
         let mut inner = self.inner.lock().unwrap_or_else(PoisonError::into_inner);
-        change(&mut inner);
+        let last = change(&mut inner);
         let Inner { evaluations, ended, best, .. } = *inner;
         let best = if best.is_finite() { format!(", best at {best:.3} errors") } else { String::new() };
         let words = format!(
             "{evaluations} evaluations, {ended} of {} starting points at their ends{best}",
             self.starts
         );
-        inner.bar.show((100 * ended / self.starts) as u64, &words, ended == self.starts);
+        inner.bar.show((100 * ended / self.starts) as u64, &words, last);
     }
 
-    /// Error of the state on disk, if there was one: the result is whole all the same, but another run could not go on from it.
+    /// Returns the first error of the state on disk: the result is complete all the same, but another run could not go on from there.
     fn finish(self) -> anyhow::Result<()> {
         let failed = self.inner.into_inner().unwrap_or_else(PoisonError::into_inner).failed;
         failed.map_or(Ok(()), |error| Err(error).context("cannot write evaluations.jsonl"))
@@ -129,6 +130,7 @@ impl Keeper for Progress {
             if let Err(error) = inner.state.append(evaluation) {
                 inner.failed.get_or_insert(error);
             }
+            false
         });
     }
 
@@ -136,6 +138,7 @@ impl Keeper for Progress {
         self.with(|inner| {
             inner.ended += 1;
             inner.best = inner.best.min(weighted_rms);
+            inner.ended == self.starts
         });
     }
 }

@@ -75,8 +75,8 @@ pub(super) fn closing(result: &FitResult, folder: &Path) -> String {
     if let (Some(first), Some(last)) = (result.singular_values.first(), result.singular_values.last()) {
         let _ = writeln!(
             text,
-            "The targets determine the best known combination of unknowns {:.3e} times better than the least known one.",
-            first / last
+            "The targets determine the best known combination of unknowns {} times better than the least known one.",
+            times(first / last)
         );
     }
     if result.above_top_speed {
@@ -86,4 +86,8 @@ pub(super) fn closing(result: &FitResult, folder: &Path) -> String {
     }
     let _ = writeln!(text, "{}", folder.join("parameters.json").display());
     text
+}
+
+fn times(ratio: f64) -> String {
+    if ratio < 1e4 { format!("{ratio:.1}") } else { format!("{ratio:.1e}") }
 }
