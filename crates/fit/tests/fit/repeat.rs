@@ -9,8 +9,8 @@ fn problem() -> Problem {
     let bounds = json!({"rim_thickness": [5.0, 9.0], "root_thickness": [1.2, 2.4]});
     let mut request = request(wheel(&json!({})), bounds, targets(&sought, &[0.0, 24_000.0]));
     request.starts = 2;
-    request.candidates = 4;
-    request.iterations = 4;
+    request.candidates = 3;
+    request.iterations = 2;
     Problem::new(request).unwrap()
 }
 
