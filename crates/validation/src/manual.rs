@@ -1,0 +1,1 @@
+//! Document of the table.

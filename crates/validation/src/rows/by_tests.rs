@@ -1,0 +1,5 @@
+//! Rows by tests of the repository.
+
+use crate::claim::Claim;
+
+pub(crate) const ROWS: &[Claim] = &[];
