@@ -1,6 +1,6 @@
 //! Claim about what the program computes.
 
-use rubmap_mesh::format::MeshFormat;
+use rubmap_mesh::MeshFormat;
 
 /// Claim, with the reference that it is held against.
 #[derive(Debug, Clone, Copy)]

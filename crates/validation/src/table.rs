@@ -2,7 +2,8 @@
 
 use crate::claim::Claim;
 use crate::rows::{
-    bending, by_tests, contact, effects, frequencies, run_up, sensitivities, steady, stress, turning,
+    bending, by_tests, contact, effects, frequencies, importers, run_up, sensitivities, steady, stress,
+    turning,
 };
 
 /// All claims, in the order of the document.
@@ -17,6 +18,7 @@ pub fn claims() -> impl Iterator<Item = &'static Claim> {
         bending::ROWS,
         stress::ROWS,
         sensitivities::ROWS,
+        importers::ROWS,
         by_tests::ROWS,
     ]
     .into_iter()
