@@ -30,3 +30,4 @@ pub mod sparse_cholesky;
 pub mod sparse_product;
 pub mod spectrum;
 pub mod vector_block;
+pub mod vectors;

@@ -1,8 +1,9 @@
 //! Real vectors side by side.
 
-use pulp::{Arch, Simd, WithSimd};
+use pulp::{Simd, WithSimd};
 
 use super::aligned::Aligned;
+use super::vectors::arch;
 
 /// Numbers taken together; see [`Panel::LANES`].
 const LANES: usize = Panel::LANES;
@@ -55,13 +56,13 @@ impl Panel {
     /// Products xᵀ y for every vector x of every panel and every vector y of this one: of each panel a row per vector of this one, with a
     /// number per vector that the panel has room for.
     pub(super) fn products(&self, panels: &[&Panel]) -> Vec<Vec<f64>> {
-        Arch::new().dispatch(Products { panels, with: self })
+        arch().dispatch(Products { panels, with: self })
     }
 
     /// Adds y ← y + Σ C_xy x over all vectors x of every panel, for every vector y of this one: `coefficients` of each panel have a row per
     /// vector that it has room for, with a number per vector that this one has room for.
     pub(super) fn add(&mut self, panels: &[&Panel], coefficients: &[Vec<f64>]) {
-        Arch::new().dispatch(Add { panels, coefficients, to: self });
+        arch().dispatch(Add { panels, coefficients, to: self });
     }
 
     /// Number of vectors there is room for.

@@ -11,7 +11,7 @@ use super::panel::Panel;
 /// column by column on the matrices of a sector).
 pub fn row_product(a: &SparseColMat<usize, f64>, x: &Panel) -> Panel {
     assert!(a.nrows() == a.ncols() && a.ncols() == x.size(), "one row of the panel per unknown");
-    pulp::Arch::new().dispatch(Product { a, x })
+    crate::vectors::arch().dispatch(Product { a, x })
 }
 
 struct Product<'a> {

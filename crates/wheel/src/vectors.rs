@@ -1,10 +1,10 @@
-//! Vectors that the processor has.
+//! Name of the vectors that the loops run on.
 
-/// Kind of the vectors that the inner loops run on, chosen as the program runs: `Scalar`, `V3` (AVX2) or `V4` (AVX-512), or the library's
+/// Kind of the vectors that the inner loops run on, chosen as the program runs ([`rubmap_numerics::vectors`]): `Scalar`, `V3` (AVX2) or `V4` (AVX-512), or the library's
 /// name for those of other processors. Another kind adds up in another order, and may round otherwise.
 pub fn vectors() -> String {
     // The name of the variant; what it holds is a proof that the processor has them.
-    let kind = format!("{:?}", pulp::Arch::new());
+    let kind = format!("{:?}", rubmap_numerics::vectors::arch());
     kind.chars().take_while(char::is_ascii_alphanumeric).collect()
 }
 

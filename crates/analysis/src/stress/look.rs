@@ -61,7 +61,7 @@ impl<'a> Look<'a> {
             })
         });
         Self {
-            arch: pulp::Arch::new(),
+            arch: rubmap_numerics::vectors::arch(),
             moving: paths.iter().map(|path| Moving::new(stress, path, (instants, padded), scale)).collect(),
             instants: padded,
             turns: turns.collect(),

@@ -31,7 +31,7 @@ impl Sums {
         let largest = reach.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
         let mut shares: Vec<f32> = reach.iter().map(|reach| (reach / largest) as f32).collect();
         shares.resize(padded, 0.0);
-        Self { arch: pulp::Arch::new(), reach: shares, largest }
+        Self { arch: rubmap_numerics::vectors::arch(), reach: shares, largest }
     }
 
     /// Sums of the `parts` of a place, `[component][part][direction]`, with the padded number of directions.

@@ -1,20 +1,21 @@
 //! Half solves with many right-hand sides at once.
 
-use pulp::{Arch, Simd, WithSimd};
+use pulp::{Simd, WithSimd};
 
 use super::factor::PartialFactor;
 use super::slab::{OwnRows, ROWS, Slab};
 use crate::panel::{Panel, add, sums};
+use crate::vectors::arch;
 
 impl PartialFactor<'_> {
     /// Computes x_I ← L⁻¹ x_I, x_F ← x_F − L_F L⁻¹ x_I for every vector of `x`.
     pub fn forward(&self, x: &mut Panel) {
-        Arch::new().dispatch(Forward { factor: self, x });
+        arch().dispatch(Forward { factor: self, x });
     }
 
     /// Computes x_I ← L⁻ᵀ (x_I − L_Fᵀ x_F) for every vector of `x`; x_F stays.
     pub fn backward(&self, x: &mut Panel) {
-        Arch::new().dispatch(Backward { factor: self, x });
+        arch().dispatch(Backward { factor: self, x });
     }
 
     /// Slabs, each with the rows after its own.

@@ -114,7 +114,7 @@ impl Stepper {
         let effects = drive.is_some() || contact.as_ref().is_some_and(Contact::is_affected);
         let repetition = simulation.repeats.map(|repeats| Repetition::new(simulation, repeats, &oscillators));
         Self {
-            arch: Arch::new(),
+            arch: rubmap_numerics::vectors::arch(),
             repetition,
             follow,
             massless: matches!(scheme, Scheme::MasslessBoundary { .. }),

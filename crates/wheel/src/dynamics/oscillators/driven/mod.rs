@@ -16,7 +16,7 @@ mod stiffening;
 mod turning;
 
 use faer::{Mat, c64};
-use pulp::{Arch, Simd, WithSimd};
+use pulp::{Simd, WithSimd};
 
 use super::super::coriolis::swing_matrix;
 use super::super::direction::Direction;
@@ -34,6 +34,7 @@ use acting::{Acting, DrivenSums, Excitation};
 use circulation::Circulation;
 use rubmap_numerics::aligned::Aligned;
 use rubmap_numerics::sector_fourier::SectorFourier;
+use rubmap_numerics::vectors::arch;
 use stiffening::Stiffening;
 use turning::Turning;
 
@@ -131,7 +132,7 @@ impl Drive {
         oscillators: &mut Oscillators,
         revolutions: f64,
     ) {
-        Arch::new().dispatch(Begin(self, oscillators));
+        arch().dispatch(Begin(self, oscillators));
         self.add_to_increments(wheel, initial, oscillators, revolutions, -1.0);
     }
 
@@ -167,7 +168,7 @@ impl Drive {
         revolutions: f64,
         sign: f64,
     ) {
-        Arch::new().dispatch(Prepare(self, oscillators, revolutions));
+        arch().dispatch(Prepare(self, oscillators, revolutions));
         self.swing.fill(0.0);
         for force in [&self.acting.excitation, &self.acting.mistuning, &self.acting.stiffening] {
             for (sum, f) in self.swing.iter_mut().zip(force.iter()) {
