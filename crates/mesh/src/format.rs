@@ -18,6 +18,9 @@ pub enum MeshFormat {
 }
 
 impl MeshFormat {
+    /// Every format.
+    pub const ALL: [Self; 5] = [Self::Inp, Self::Gmsh, Self::Nastran, Self::Ansys, Self::Vtu];
+
     /// Name of the format.
     pub fn name(self) -> &'static str {
         match self {

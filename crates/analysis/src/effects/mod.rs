@@ -23,3 +23,8 @@ pub mod mistuning;
 pub mod orbit;
 pub mod probe;
 pub mod symmetry;
+
+/// Names of all effects, as scenes have them.
+pub fn names() -> impl Iterator<Item = &'static str> {
+    table::EFFECTS.iter().map(|effect| effect.name)
+}

@@ -32,7 +32,7 @@ mod tests;
 use crate::error::{MeshFileError, MeshProblem};
 
 pub use file_matrix::{FileMatrix, MatrixRow};
-use recognise::MatrixFormat;
+pub use recognise::MatrixFormat;
 
 /// Whether a file is of a format of matrices that can be read here.
 pub(crate) fn is_matrix(bytes: &[u8]) -> bool {

@@ -9,16 +9,34 @@ use crate::lines::{Lines, words};
 
 /// Format of a matrix file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum MatrixFormat {
+pub enum MatrixFormat {
+    /// Abaqus: rows and columns by node and component.
     AbaqusLabels,
     /// Rows and columns by number, separated by commas.
     AbaqusCoordinates,
     /// Rows and columns by number, separated by blanks: of Abaqus or of CalculiX.
     Coordinates,
+    /// DMIG entries of Nastran.
     Dmig,
+    /// OUTPUT4 of Nastran, text or binary.
     Op4,
+    /// Matrix Market, as Ansys writes it.
     Market,
+    /// Harwell–Boeing, as Ansys writes it.
     Boeing,
+}
+
+impl MatrixFormat {
+    /// Every format.
+    pub const ALL: [Self; 7] = [
+        Self::AbaqusLabels,
+        Self::AbaqusCoordinates,
+        Self::Coordinates,
+        Self::Dmig,
+        Self::Op4,
+        Self::Market,
+        Self::Boeing,
+    ];
 }
 
 /// Format of a file.
