@@ -1,6 +1,10 @@
 //! Claim about what the program computes.
 
 use rubmap_mesh::MeshFormat;
+use rubmap_mesh::matrices::MatrixFormat;
+
+/// Reference of a claim that has none.
+pub const NO_REFERENCE: &str = "no independent reference yet";
 
 /// Claim, with the reference that it is held against.
 #[derive(Debug, Clone, Copy)]
@@ -29,7 +33,7 @@ pub enum Subject {
     /// Importer of meshes.
     Mesh(MeshFormat),
     /// Importer of matrices.
-    Matrices(&'static str),
+    Matrices(MatrixFormat),
 }
 
 /// Comparison of a claim with its reference.

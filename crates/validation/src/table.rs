@@ -27,23 +27,65 @@ pub fn claims() -> impl Iterator<Item = &'static Claim> {
 
 #[cfg(test)]
 mod tests {
-    use std::time::Instant;
+    use std::collections::BTreeSet;
 
-    use crate::claim::Check;
+    use rubmap_analysis::kinds::list::KINDS;
+    use rubmap_mesh::MeshFormat;
+    use rubmap_mesh::matrices::MatrixFormat;
 
-    /// Problems given to the program slightly wrong, by two in a hundred, must fail: else the limit would let an error of that size pass.
+    use crate::claim::{Check, NO_REFERENCE, Subject};
+    use crate::report::{Row, Verdict};
+
+    /// Problems given to the program wrong by two in a hundred must fail: else a limit would let an error of that size pass.
     #[test]
     fn computed_rows_hold_and_fail_where_the_problem_is_another() {
         for claim in super::claims() {
             let Check::Computed(computed) = claim.check else { continue };
-            let begun = Instant::now();
-            let [right, wrong] = [1.0, 1.02].map(|factor| (computed.error)(factor).unwrap());
+            let row = Row::of(claim);
+            let wrong = (computed.error)(1.02).unwrap();
             println!(
-                "{}: {right:.2e} {wrong:.2e} limit {:e} ({:.1?})",
-                claim.name,
-                computed.limit,
-                begun.elapsed()
+                "{}: {:?} of {:e}, wrong {wrong:.2e}, {:.2} s",
+                row.name, row.error, computed.limit, row.seconds
             );
+            assert_eq!(row.verdict, Verdict::Passed, "{row:?}");
+            assert!(
+                wrong > computed.limit,
+                "{}: {} off by 2 % goes unnoticed: {wrong:e}",
+                row.name,
+                computed.wrong
+            );
+        }
+    }
+
+    #[test]
+    fn every_effect_kind_and_importer_has_a_row() {
+        let covered: Vec<Subject> = super::claims().flat_map(|claim| claim.covers).copied().collect();
+        let effects = rubmap_analysis::effects::names().map(Subject::Effect);
+        // The service adds the generation of models to these, and asserts as much of it.
+        let kinds = KINDS.iter().map(|kind| Subject::Kind(kind.name));
+        let meshes = MeshFormat::ALL.map(Subject::Mesh).into_iter();
+        let matrices = MatrixFormat::ALL.map(Subject::Matrices).into_iter();
+        let wanted: Vec<Subject> = effects.chain(kinds).chain(meshes).chain(matrices).collect();
+        let without: Vec<_> = wanted.iter().filter(|subject| !covered.contains(subject)).collect();
+        assert!(without.is_empty(), "{without:?} without a row");
+        let generated = Subject::Kind("model_generation");
+        let unknown: Vec<_> =
+            covered.iter().filter(|subject| !wanted.contains(subject) && **subject != generated).collect();
+        assert!(unknown.is_empty(), "{unknown:?} is nothing");
+    }
+
+    #[test]
+    fn names_are_unique_and_tests_exist() {
+        let mut names = BTreeSet::new();
+        for claim in super::claims() {
+            assert!(names.insert(claim.name), "{} twice", claim.name);
+            assert_eq!(claim.reference == NO_REFERENCE, matches!(claim.check, Check::None), "{}", claim.name);
+            if let Check::Test { file, name, .. } = claim.check {
+                let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../../");
+                let source = std::fs::read_to_string(format!("{root}{file}")).unwrap();
+                let (before, _) = source.split_once(&format!("fn {name}()")).expect(name);
+                assert!(before.trim_end().ends_with("#[test]"), "{name} is no test");
+            }
         }
     }
 }
