@@ -13,6 +13,7 @@ COPY crates/numerics/Cargo.toml crates/numerics/
 COPY crates/plot/Cargo.toml crates/plot/
 COPY crates/script/Cargo.toml crates/script/build.rs crates/script/
 COPY crates/solid/Cargo.toml crates/solid/
+COPY crates/validation/Cargo.toml crates/validation/
 COPY crates/wheel/Cargo.toml crates/wheel/
 COPY fuzz/Cargo.toml fuzz/
 RUN mkdir src && echo 'fn main() {}' > src/main.rs && touch src/lib.rs \

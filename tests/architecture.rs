@@ -7,7 +7,7 @@ use syn::visit::Visit;
 use syn::{ItemMod, ItemUse, UseTree};
 
 /// Crates of the workspace and those of its own that each may use: arrows point one way.
-const CRATES: [(&str, &[&str]); 10] = [
+const CRATES: [(&str, &[&str]); 11] = [
     ("crates/numerics", &[]),
     ("crates/wheel", &["numerics"]),
     ("crates/solid", &[]),
@@ -17,7 +17,11 @@ const CRATES: [(&str, &[&str]); 10] = [
     ("crates/fit", &["model", "numerics", "wheel"]),
     ("crates/plot", &["analysis", "wheel"]),
     ("crates/script", &[]),
-    (".", &["analysis", "fit", "mesh", "model", "numerics", "plot", "script", "solid", "wheel"]),
+    ("crates/validation", &["analysis", "mesh", "model", "numerics", "solid", "wheel"]),
+    (
+        ".",
+        &["analysis", "fit", "mesh", "model", "numerics", "plot", "script", "solid", "validation", "wheel"],
+    ),
 ];
 
 /// Crates that nothing below the service knows: HTTP, SQL, async, dates.

@@ -29,6 +29,7 @@ mod stdout;
 mod study;
 mod terminal;
 mod token;
+mod validate;
 mod verb;
 mod verdict;
 
@@ -106,6 +107,8 @@ enum Command {
     Modes(modes::ModesArgs),
     /// Compute the job of an archive again and compare bit by bit.
     Repeat(repeat::RepeatArgs),
+    /// Compute what is known from elsewhere, and say how far off it is.
+    Validate(validate::ValidateArgs),
     /// Write a job as one page of HTML.
     #[command(after_help = ending::CODES)]
     Report(shell::ReportArgs),
@@ -181,6 +184,7 @@ impl Cli {
             Command::Modes(args) => return modes::run(&args),
             Command::Repeat(args) => return repeat::run(&args),
             Command::Fit(args) => return fit::run(&args),
+            Command::Validate(args) => return validate::run(&args),
             Command::Check(args) => return keeping::check(args),
             Command::Serve(args) => serve::run(args)?,
             Command::Cluster(command) => cluster::run(command)?,

@@ -5,7 +5,6 @@ use std::path::Path;
 use std::time::Instant;
 
 use rubmap_wheel::revision::REVISION;
-use rubmap_wheel::vectors::vectors;
 use serde::Serialize;
 
 use crate::claim::{Check, Claim, NO_REFERENCE};
@@ -38,18 +37,6 @@ pub struct Machine {
     pub processors: usize,
     /// Kind of vectors that the loops ran on.
     pub vectors: String,
-}
-
-impl Machine {
-    /// Machine that this program runs on.
-    pub fn this() -> Self {
-        Self {
-            system: std::env::consts::OS,
-            architecture: std::env::consts::ARCH,
-            processors: std::thread::available_parallelism().map_or(1, Into::into),
-            vectors: vectors(),
-        }
-    }
 }
 
 /// Claim with what was computed of it.
@@ -159,10 +146,10 @@ pub(crate) fn repeat(claim: &Claim) -> String {
 }
 
 impl Report {
-    /// Report of rows that this program has computed on this machine, at a date.
-    pub fn new(date: String, version: String, rows: Vec<Row>) -> Self {
+    /// Report of rows that this program has computed on a machine, at a date.
+    pub fn new(date: String, version: String, machine: Machine, rows: Vec<Row>) -> Self {
         let passed = rows.iter().all(|row| row.verdict != Verdict::Failed);
-        Self { date, version, revision: REVISION, machine: Machine::this(), passed, rows }
+        Self { date, version, revision: REVISION, machine, passed, rows }
     }
 
     /// Document of the run, in Markdown.
@@ -220,10 +207,12 @@ mod tests {
         ];
         let verdicts = rows.each_ref().map(|row| row.verdict);
         assert_eq!(verdicts, [Verdict::Passed, Verdict::Failed, Verdict::Failed, Verdict::Failed]);
-        let [passed, failed, ..] = rows.clone();
-        assert!(Report::new(String::new(), String::new(), vec![passed.clone()]).passed);
-        let report = Report::new("today".into(), "1.2.3".into(), rows.to_vec());
-        assert!(!report.passed && !Report::new(String::new(), String::new(), vec![passed, failed]).passed);
+        let report = |rows: &[Row]| {
+            let machine = Machine { system: "", architecture: "", processors: 2, vectors: "Scalar".into() };
+            Report::new("today".into(), "1.2.3".into(), machine, rows.to_vec())
+        };
+        assert!(report(&rows[..1]).passed && !report(&rows[..2]).passed);
+        let report = report(&rows);
         let text = report.markdown();
         assert!(text.contains("**Not passed**: rubmap 1.2.3"), "{text}");
         assert!(

@@ -1,6 +1,6 @@
 //! Contact: impacts, static pressure, friction, coating, and clearances that close.
 
-use std::f64::consts::{FRAC_1_SQRT_2, PI, TAU};
+use std::f64::consts::{PI, SQRT_2, TAU};
 
 use anyhow::ensure;
 use faer::{Mat, c64};
@@ -11,6 +11,7 @@ use rubmap_wheel::dynamics::effects::{Effects, Friction, FrictionLaw};
 use rubmap_wheel::dynamics::initial::InitialMode;
 use rubmap_wheel::dynamics::orbit::Orbit;
 use rubmap_wheel::dynamics::schemes::Scheme;
+use rubmap_wheel::dynamics::sector::ContactNode;
 
 use super::blade::{Blade, SPEED, relative};
 use crate::claim::{Check, Claim, Computed, Subject};
@@ -93,7 +94,7 @@ const WAVE_SPEED: f64 = 30.0;
 fn bar(elements: usize, scheme: Scheme, step: f64, duration: f64, velocity: f64) -> Blade {
     let shape = |mode: usize| {
         let alone = mode == 0 || mode == elements;
-        let end = if alone { 1.0 } else { 1.0 / FRAC_1_SQRT_2 } / LENGTH.sqrt();
+        let end = if alone { 1.0 } else { SQRT_2 } / LENGTH.sqrt();
         [end, if mode == 0 { end } else { 0.0 }, 0.0]
     };
     let omega = |mode: usize| {
@@ -215,7 +216,7 @@ fn abradable_rod(wrong: f64) -> anyhow::Result<f64> {
     let (mass, omega, clearance, radius): (f64, f64, f64, f64) = (2.5e-6, 2e4, 0.05, 0.35);
     let (modulus, yield_stress, hardening, thickness, rods, height) = (2e3, 20.0, 100.0, 1.0, 400, 4.0);
     let mut blade = Blade::new(vec![omega; 2], &[[0.0; 3]; 2]).damped(0.5);
-    let end = |z: f64, first: usize| rubmap_wheel::dynamics::sector::ContactNode {
+    let end = |z: f64, first: usize| ContactNode {
         position: [100.0, 0.0, z],
         dofs: [first, first + 1, first + 2],
         ..blade.nodes[0].clone()

@@ -153,7 +153,7 @@ const FLAP: [(f64, [f64; 2]); 4] = [
 
 fn rotating_beam(wrong: f64) -> anyhow::Result<f64> {
     let slenderness = 200.0f64;
-    // Of a square section of side 1.
+    // Square section of side 1.
     let (modulus, density) = (2e5f64, 8e-9);
     let unit = (modulus / density / 12.0).sqrt() / slenderness.powi(2);
     let material =

@@ -52,6 +52,10 @@ const TOP_LAST: Edges =
 const BY_CORNER: Edges =
     [[0, 1], [0, 3], [0, 4], [1, 2], [1, 5], [2, 3], [2, 6], [3, 7], [4, 5], [4, 7], [5, 6], [6, 7]];
 
+/// Corners of a hexahedron in half elements from its first one, in the order of all programs.
+const CORNERS: [[usize; 3]; 8] =
+    [[0, 0, 0], [2, 0, 0], [2, 2, 0], [0, 2, 0], [0, 0, 2], [2, 0, 2], [2, 2, 2], [0, 2, 2]];
+
 /// Length along x, width along y and depth along z of the beam, in millimetres, and the distance of its root from the axis.
 const SIZE: [f64; 3] = [120.0, 4.0, 6.0];
 const ROOT: f64 = 10.0;
@@ -66,7 +70,7 @@ struct Beam {
 impl Beam {
     fn new(edges: &Edges, unit: f64) -> Self {
         let mut nodes = BTreeMap::new();
-        // By half elements: four across each section and as many numbers along.
+        // Numbers by half elements: nine places in each section.
         let mut node = |half: [usize; 3]| {
             let id = (9 * half[0] + 3 * half[1] + half[2] + 1) as u64;
             let [x, y, z] = half.map(|k| k as f64);
@@ -77,8 +81,6 @@ impl Beam {
             );
             id
         };
-        const CORNERS: [[usize; 3]; 8] =
-            [[0, 0, 0], [2, 0, 0], [2, 2, 0], [0, 2, 0], [0, 0, 2], [2, 0, 2], [2, 2, 2], [0, 2, 2]];
         let mut element = |k: usize| {
             let mut at = |offset: [usize; 3]| node([2 * k + offset[0], offset[1], offset[2]]);
             std::array::from_fn(|place| match place.checked_sub(8) {
@@ -180,7 +182,7 @@ fn joined<T: ToString>(numbers: &[T], between: &str) -> String {
 /// Bending frequencies in hertz of the beam in a file: the lowest two.
 fn frequencies(text: &str, units: Units, material: &Material) -> anyhow::Result<[f64; 2]> {
     let file = rubmap_mesh::read(text.as_bytes(), &|name| Err(format!("no file {name}")))?;
-    // Corners of the root, and both ends of an edge of the tip; VTK counts from 0, and its nodes from 1.
+    // Numbers are those of the file, and VTK has none: nodes are found by their places.
     let near = |x: f64, y: f64, z: f64| {
         let off = |at: &[f64; 3]| (at[0] / x - 1.0).abs() + (at[1] / y - 1.0).abs() + (at[2] / z - 1.0).abs();
         file.nodes.iter().find(|(_, at)| off(at) < 1e-9).map(|(&id, _)| id)
