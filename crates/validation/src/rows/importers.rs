@@ -175,6 +175,9 @@ impl Beam {
     }
 }
 
+/// Text of the beam in a format.
+type Writer = fn(&Beam) -> String;
+
 fn joined<T: ToString>(numbers: &[T], between: &str) -> String {
     numbers.iter().map(T::to_string).collect::<Vec<_>>().join(between)
 }
@@ -232,7 +235,7 @@ fn beam_in_every_format(wrong: f64) -> anyhow::Result<f64> {
             / (1e-3 * SIZE[0]).powi(2)
     };
     let exact = [exact(SIZE[1]), exact(SIZE[2])];
-    let formats: [(&Edges, fn(&Beam) -> String); 5] = [
+    let formats: [(&Edges, Writer); 5] = [
         (&UPWARDS_LAST, Beam::inp),
         (&BY_CORNER, Beam::gmsh),
         (&TOP_LAST, Beam::nastran),
