@@ -11,7 +11,7 @@ use rubmap::dynamics::modal_wheel::{ModalWheel, RotationEffects};
 use rubmap::dynamics::reduction::{NoCheckpoints, ReducedWheel, ReductionOptions, reduce};
 use rubmap::dynamics::sector::{ContactNode, SectorModel, SectorParts, Units};
 use rubmap::dynamics::waves::{WaveFrequencies, wave_frequencies};
-use rubmap::package::raw::{Axis, Frame, Manifest, ManifestContact, RawDof, RawMatrix, RawNode, RawPackage};
+use rubmap::package::raw::RawMatrix;
 use rubmap::package::to_sector;
 use serde_json::json;
 
@@ -34,78 +34,6 @@ fn close(found: &[f64], expected: &[f64], tolerance: f64) {
     assert_eq!(found.len(), expected.len());
     for (a, b) in found.iter().zip(expected) {
         assert!((a / b - 1.0).abs() < tolerance, "{found:?} {expected:?}");
-    }
-}
-
-fn lower(row: u32, column: u32, value: f64) -> (u32, u32, f64) {
-    (row, column, value)
-}
-
-/// Package of two masses on isotropic springs in the plane of rotation: m(ẍ − 2Ωẏ − Ω²x) + kx = 0.
-fn two_masses(frame: Frame) -> RawPackage {
-    let masses = [2e-6, 3e-6];
-    let squares = SQUARES;
-    let diagonal = |of: &dyn Fn(usize, u32) -> f64| -> Vec<(u32, u32, f64)> {
-        (0..6).map(|row| lower(row, row, of(row as usize / 3, row % 3))).collect()
-    };
-    let matrix = |entries| RawMatrix { size: 6, entries };
-    let stiffness = |speed: f64| {
-        let softening = |component| if component == 2 { 0.0 } else { speed * speed };
-        matrix(diagonal(&|node, c| masses[node] * (squares[node][c as usize] - softening(c))))
-    };
-    let speeds = [0.0, 500.0, 1000.0];
-    RawPackage {
-        manifest: Manifest {
-            name: "two masses".into(),
-            sectors: 1,
-            units: Units { length: "mm".into(), force: "N".into(), time: "s".into(), mass: "t".into() },
-            axis: Axis { origin: [0.0; 3], direction: [0.0, 0.0, 1.0] },
-            speeds_rad_s: speeds.to_vec(),
-            frame,
-            mass: "m.mtx".into(),
-            stiffness: vec!["k0.mtx".into(), "k1.mtx".into(), "k2.mtx".into()],
-            gyroscopic: Some("g.mtx".into()),
-            nodes: "nodes.csv".into(),
-            dofs: "dofs.csv".into(),
-            cyclic: Vec::new(),
-            contact: vec![ManifestContact { node: 1, normal: [0.0, 0.0, 1.0] }],
-            mesh: None,
-        },
-        nodes: vec![
-            RawNode { id: 1, position: [30.0, 40.0, 0.0] },
-            RawNode { id: 2, position: [-10.0, 25.0, 5.0] },
-        ],
-        dofs: (1..=2).flat_map(|node| (1..=3).map(move |component| RawDof { node, component })).collect(),
-        mass: matrix(diagonal(&|node, _| masses[node])),
-        stiffness: speeds.map(stiffness).to_vec(),
-        // The matrix is the same in x, y as in r, θ: 2m [e_z×].
-        gyroscopic: Some(matrix(vec![lower(1, 0, 2.0 * masses[0]), lower(4, 3, 2.0 * masses[1])])),
-        elements: None,
-    }
-}
-
-/// Squares ω0² of the two masses in each direction.
-const SQUARES: [[f64; 3]; 2] = [[4e6, 4e6, 1.21e6], [9e6, 9e6, 4.41e6]];
-
-#[test]
-fn a_rotating_mass_has_its_frequencies_shifted_by_the_speed() {
-    for frame in [Frame::Cartesian, Frame::Cylindrical] {
-        let sector = to_sector(two_masses(frame)).unwrap();
-        let speeds = [0.0, 100.0, 400.0, 730.0, 1000.0];
-        let request = json!({"model": "m", "modes_per_speed": 3, "families": 6, "coriolis": true,
-            "speeds": {"values": speeds, "unit": "rad_s"}});
-        let found = campbell(&sector, 3, request);
-        let waves = found.waves.expect("asked for");
-        assert_eq!(waves.forward_hz, waves.backward_hz, "one sector stands");
-        for (row, speed) in waves.forward_hz.iter().zip(speeds) {
-            let mut expected: Vec<f64> = SQUARES
-                .iter()
-                .flat_map(|[plane, _, z]| [plane.sqrt() - speed, plane.sqrt() + speed, z.sqrt()])
-                .map(|omega| omega / TAU)
-                .collect();
-            expected.sort_by(f64::total_cmp);
-            close(&row[0], &expected, 1e-11);
-        }
     }
 }
 

@@ -1,13 +1,9 @@
-//! Runs in parts against runs in one; one degree of freedom through resonance against Duhamel's integral, as Lewis has it.
+//! Runs in parts against runs in one. The passage of a resonance is a row of `rubmap_validation`.
 
 mod euler;
 
-use std::f64::consts::TAU;
-
 use faer::{Mat, c64};
 
-use super::profile::SpeedProfile;
-use super::segments::{Cutting, Segment};
 use crate::dynamics::casing::{Casing, Lobes};
 use crate::dynamics::clearance_drift::ClearanceDrift;
 use crate::dynamics::contact::disc::disc_directions;
@@ -17,7 +13,7 @@ use crate::dynamics::effects::{Effects, Friction, FrictionLaw};
 use crate::dynamics::euler::{EulerForce, SpeedRate, StraightRate};
 use crate::dynamics::excitation::EngineOrderExcitation;
 use crate::dynamics::initial::InitialMode;
-use crate::dynamics::integrate::{Outcome, Part, SensorRow, Simulation, Stretch};
+use crate::dynamics::integrate::{Outcome, Part, SensorRow, Simulation};
 use crate::dynamics::modal_wheel::{ModalHarmonic, ModalWheel};
 use crate::dynamics::numbers::Numbers;
 use crate::dynamics::oscillators::ModalDamping;
@@ -255,120 +251,5 @@ fn untouched<'a>(
         repeats: None,
         detail: None,
         states: None,
-    }
-}
-
-/// Oscillator of one degree of freedom and mass 1.
-struct Oscillator {
-    omega: f64,
-    zeta: f64,
-    order: u32,
-}
-
-impl Oscillator {
-    fn wheel(&self, speed_rad_s: f64) -> ModalWheel {
-        let contact = Mat::from_fn(3, 1, |row, _| c64::from(if row == 2 { 1.0 } else { 0.0 }));
-        let harmonic =
-            ModalHarmonic { harmonic: 0, single: true, omega: vec![self.omega], contact, gyroscopic: None };
-        ModalWheel { speed_rad_s, sectors: 1, repeats: 1, harmonics: vec![harmonic] }
-    }
-
-    /// Runs the segments, one after the other, from rest; returns displacements at the samples.
-    fn run_up(&self, segments: &[Segment], samples: usize) -> Vec<f64> {
-        let nodes = &nodes()[..1];
-        let excitation = [EngineOrderExcitation {
-            order: self.order,
-            directions: vec![Direction { node: 0, components: [0.0, 0.0, 1.0] }],
-            amplitude: 1.0,
-            phase_rad: 0.0,
-            ramp_revolutions: 0.0,
-        }];
-        let damping = ModalDamping { modal_ratio: self.zeta, family_ratios: Vec::new(), ranks: Vec::new() };
-        let (mut state, mut found) = (Vec::new(), Vec::new());
-        for segment in segments {
-            let wheel = self.wheel(segment.speed_rad_s);
-            let effects = Effects { excitation: &excitation, ..Effects::default() };
-            let stretch: Stretch = Simulation {
-                sensors: &[SensorRow {
-                    direction: Direction { node: 0, components: [0.0, 0.0, 1.0] },
-                    sector: 0,
-                }],
-                ..untouched(&wheel, nodes, &damping, effects, &state, 16 * samples, samples)
-            }
-            .stretch(Part { first_sample: segment.first_sample, samples: segment.samples }, &|_| true);
-            assert_eq!(stretch.ended, None);
-            found.extend_from_slice(&stretch.displacement[0]);
-            state = stretch.end;
-        }
-        found
-    }
-
-    /// Response of ẍ + 2ζωẋ + ω²x = cos(n(Ω₀t + at²/2)) from rest, at ascending instants: Duhamel's integral by the trapezoidal rule in the
-    /// frame that turns with the free motion (Lewis, Trans. ASME 54 (1932) 253–261, has it in closed form for no damping).
-    fn duhamel(&self, start: f64, rate: f64, instants: &[f64]) -> Vec<f64> {
-        let (decay, free) = (self.zeta * self.omega, self.omega * (1.0 - self.zeta * self.zeta).sqrt());
-        let pole = c64::new(-decay, free);
-        let force = |t: f64| (f64::from(self.order) * (start * t + 0.5 * rate * t * t)).cos();
-        let (mut sum, mut now) = (c64::ZERO, 0.0);
-        let mut at = Vec::with_capacity(instants.len());
-        for &instant in instants {
-            // Simpson's rule on ∫ e^{p(T − t)} f(t) dt.
-            let pieces = 64;
-            let h = (instant - now) / f64::from(2 * pieces);
-            let mut part = c64::ZERO;
-            for piece in 0..=2 * pieces {
-                let t = now + h * f64::from(piece);
-                let weight = if piece == 0 || piece == 2 * pieces {
-                    1.0
-                } else if piece % 2 == 1 {
-                    4.0
-                } else {
-                    2.0
-                };
-                let x = pole * (instant - t);
-                part += c64::new(x.re.exp() * x.im.cos(), x.re.exp() * x.im.sin())
-                    * (weight * h / 3.0 * force(t));
-            }
-            let x = pole * (instant - now);
-            sum = sum * c64::new(x.re.exp() * x.im.cos(), x.re.exp() * x.im.sin()) + part;
-            now = instant;
-            at.push(sum.im / free);
-        }
-        at
-    }
-}
-
-/// Oscillator that passes a resonance fast and slowly, upwards and downwards: off by what the tolerance of the angle allows, and as much
-/// less as the tolerance is.
-#[test]
-fn one_degree_of_freedom_passes_resonance_as_lewis_has_it() {
-    let oscillator = Oscillator { omega: 600.0, zeta: 0.002, order: 3 };
-    let samples = 96;
-    for (from, to, rate) in [(150.0, 260.0, 220.0), (150.0, 260.0, 1500.0), (260.0, 150.0, -220.0)] {
-        let profile = SpeedProfile::linear(&[(0.0, from), ((to - from) / rate, to)]);
-        let errors: Vec<f64> = [16e-3, 4e-3, 1e-3]
-            .into_iter()
-            .map(|tolerance_rad| {
-                let cutting = Cutting {
-                    samples_per_revolution: samples,
-                    tolerance_rad,
-                    frame_revolutions: 64,
-                    band_ratio: 10.0,
-                    most_segments: 100_000,
-                };
-                let segments = cutting.segments(&profile).unwrap();
-                let found = oscillator.run_up(&segments, samples);
-                let instants: Vec<f64> = (1..=found.len())
-                    .map(|sample| {
-                        let angle = TAU * sample as f64 / samples as f64;
-                        (-from + (from * from + 2.0 * rate * angle).sqrt()) / rate
-                    })
-                    .collect();
-                let exact = oscillator.duhamel(from, rate, &instants);
-                let scale = exact.iter().fold(0.0f64, |most, x| most.max(x.abs()));
-                found.iter().zip(&exact).fold(0.0f64, |most, (a, b)| most.max((a - b).abs())) / scale
-            })
-            .collect();
-        assert!(errors[2] < 4e-3 && errors[2] < 0.4 * errors[1], "{errors:?}");
     }
 }
