@@ -16,7 +16,10 @@ const GROUPS: [(&str, &[&str]); 4] = [
     ),
     (
         "Without a service",
-        &["demo", "study", "case", "fields", "modes", "repeat", "validate", "fit", "generate", "import", "init"],
+        &[
+            "demo", "study", "case", "fields", "modes", "repeat", "validate", "fit", "generate", "import",
+            "init",
+        ],
     ),
     ("Running a service", &["serve", "worker", "migrate", "copy", "token", "backup", "check"]),
     ("This program", &["completions", "man", "help"]),
