@@ -48,8 +48,8 @@ pub enum FitError {
     },
     /// Two targets for the frequency of one mode at one speed.
     #[error(
-        "`targets[{first}]` and `targets[{second}]` contradict each other: nodal diameter {nodal_diameter}, family {family} at speed {speed} \
-         is to have both {first_frequency} and {second_frequency}, {percent:.3} % apart; give one of them"
+        "`targets[{first}]` and `targets[{second}]` are of one mode at one speed (nodal diameter {nodal_diameter}, family {family}, speed \
+         {speed}), with frequencies {first_frequency} and {second_frequency}, {percent:.3} % apart; give one of them, with their mean"
     )]
     SameMode {
         /// Index of the first of the targets.
@@ -81,8 +81,8 @@ pub enum FitError {
         /// Names of the unknowns.
         names: String,
     },
-    /// Bounds in which no starting point is a wheel.
-    #[error("none of the {starts} starting points is a wheel; at the first one: {message}")]
+    /// Bounds in which no starting point gives a valid wheel.
+    #[error("none of the {starts} starting points gives a valid wheel; at the first one: {message}")]
     NoStart {
         /// Number of starting points.
         starts: usize,

@@ -1,4 +1,4 @@
-//! Evaluations of a fit: frequencies of the targets at one point, kept so that none is computed twice.
+//! Evaluations of a fit: frequencies of the targets at one point, kept for searches that go on later.
 
 use std::collections::HashMap;
 use std::sync::{Mutex, PoisonError};
@@ -36,7 +36,7 @@ pub struct Evaluation {
 pub enum Outcome {
     /// Rows of the targets, in their order.
     Rows(Vec<Row>),
-    /// Reason why the point is no wheel.
+    /// Reason why the point gives no valid wheel.
     Failed(String),
 }
 
@@ -45,7 +45,7 @@ pub trait Keeper: Sync {
     /// Takes an evaluation that was computed; called from any thread, in any order.
     fn evaluated(&self, evaluation: &Evaluation);
 
-    /// Takes the end of the search from starting point `start`, from 0, and the mean square of its weighted differences, as a root.
+    /// Takes the end of the search from starting point `start`, from 0, and the root mean square of its weighted differences.
     fn ended(&self, start: usize, weighted_rms: f64);
 }
 

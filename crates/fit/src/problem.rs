@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use rubmap_model::impeller::ImpellerParameters;
-use rubmap_numerics::sampling::{MOST_DIMENSIONS, sobol_point};
+use rubmap_numerics::sampling::sobol_point;
 use rubmap_numerics::sector_fourier::harmonic_count;
 use serde_json::Value;
 
@@ -80,15 +80,15 @@ impl Problem {
             });
         }
         if let Some(tolerance) = request.tolerance {
-            positive("tolerance", tolerance)?;
+            relative("tolerance", tolerance)?;
         }
         let variables = request
             .vary
             .iter()
             .map(|(name, &bounds)| variable(&wheel, name, bounds))
             .collect::<Result<Vec<_>, _>>()?;
-        if variables.is_empty() || variables.len() > MOST_DIMENSIONS {
-            let requirement = "must name at least one parameter of the generator, and not more than it has";
+        if variables.is_empty() {
+            let requirement = "must name at least one parameter of the generator";
             return Err(FitError::Value {
                 field: "vary".to_owned(),
                 value: format!("{} parameters", variables.len()),
@@ -98,7 +98,7 @@ impl Problem {
         let goals = (request.targets.iter().enumerate())
             .map(|(index, target)| goal(&request, &parameters, index, target))
             .collect::<Result<Vec<_>, _>>()?;
-        refuse_contradictions(&request.targets)?;
+        refuse_same_modes(&request.targets)?;
         let problem = Self { request, variables, goals, wheel };
         let names: Vec<String> = problem.unknowns();
         if problem.goals.len() < names.len() {
@@ -150,7 +150,7 @@ impl Problem {
     /// Parameters of the wheel with other values of those that vary.
     ///
     /// # Errors
-    /// Message of the generator where they are no wheel.
+    /// Message of the generator where they give no valid wheel.
     pub(crate) fn parameters(&self, values: &[f64]) -> Result<ImpellerParameters, String> {
         let mut wheel = self.wheel.clone();
         for (variable, &value) in self.variables.iter().zip(values) {
@@ -246,7 +246,7 @@ fn goal(
         });
     }
     positive(&field("frequency"), target.frequency)?;
-    positive(&field("error"), target.error)?;
+    relative(&field("error"), target.error)?;
     let speed = match request.unit {
         Unit::HzAndRpm => target.speed * TAU / 60.0,
         Unit::Free => target.speed * TAU,
@@ -266,7 +266,7 @@ fn goal(
     })
 }
 
-fn refuse_contradictions(targets: &[Target]) -> Result<(), FitError> {
+fn refuse_same_modes(targets: &[Target]) -> Result<(), FitError> {
     for (second, b) in targets.iter().enumerate() {
         let same =
             |a: &Target| (a.nodal_diameter, a.family, a.speed) == (b.nodal_diameter, b.family, b.speed);
@@ -292,6 +292,15 @@ fn positive(field: &str, value: f64) -> Result<(), FitError> {
         return Ok(());
     }
     let requirement = "must be a finite number above 0";
+    Err(FitError::Value { field: field.to_owned(), value: value.to_string(), requirement })
+}
+
+/// Checks a relative error: 1 would be 100 %.
+fn relative(field: &str, value: f64) -> Result<(), FitError> {
+    if value > 0.0 && value <= 0.5 {
+        return Ok(());
+    }
+    let requirement = "is relative (0.01 is 1 %): must lie above 0 and not exceed 0.5";
     Err(FitError::Value { field: field.to_owned(), value: value.to_string(), requirement })
 }
 

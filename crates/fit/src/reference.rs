@@ -12,7 +12,7 @@
 use faer::{Mat, c64};
 use rubmap_wheel::dynamics::families::{FamilyWalk, assignment::assign};
 use rubmap_wheel::dynamics::modal_wheel::natural_modes;
-use rubmap_wheel::dynamics::reduction::{FreeModes, FreeShapes};
+use rubmap_wheel::dynamics::reduction::{FreeInterfaceModes, FreeInterfaceShapes};
 
 use crate::evaluation::{Memo, Outcome, Row};
 use crate::problem::{Goal, Problem};
@@ -24,7 +24,7 @@ pub(crate) struct Reference<'a> {
     /// Point, with a free unit.
     pub(crate) point: Vec<f64>,
     /// Modes of the wheel at the point.
-    modes: FreeModes,
+    modes: FreeInterfaceModes,
     /// Coordinates of the shapes of the families at the speed of every target.
     followed: Vec<Mat<c64>>,
 }
@@ -33,7 +33,7 @@ impl<'a> Reference<'a> {
     /// Reference at a point, with a free unit.
     ///
     /// # Errors
-    /// Message where the point is no wheel.
+    /// Message where the point gives no valid wheel.
     pub(crate) fn new(problem: &'a Problem, point: &[f64]) -> Result<Self, String> {
         Self::of(problem, point.to_vec(), modes_at(problem, point, point)?)
     }
@@ -41,7 +41,7 @@ impl<'a> Reference<'a> {
     /// Reference at a starting point without a free unit, which is then the one that fits best there.
     ///
     /// # Errors
-    /// Message where the point is no wheel.
+    /// Message where the point gives no valid wheel.
     pub(crate) fn at_start(problem: &'a Problem, start: &[f64]) -> Result<Self, String> {
         let modes = modes_at(problem, start, start)?;
         if !problem.is_free() {
@@ -67,7 +67,7 @@ impl<'a> Reference<'a> {
         Self::of(problem, with(unit), modes)
     }
 
-    fn of(problem: &'a Problem, point: Vec<f64>, modes: FreeModes) -> Result<Self, String> {
+    fn of(problem: &'a Problem, point: Vec<f64>, modes: FreeInterfaceModes) -> Result<Self, String> {
         let unit = problem.unit_hz(&point);
         let families = |goal: &Goal| {
             let speed = goal.speed * unit;
@@ -93,8 +93,11 @@ impl<'a> Reference<'a> {
     /// Frequencies of the targets at a point, on a mesh with the degrees of freedom of the reference's; kept in `memo`.
     ///
     /// # Errors
-    /// Message where the point is no wheel.
+    /// Message where the point gives no valid wheel.
     pub(crate) fn evaluate(&self, memo: &Memo<'_>, point: &[f64]) -> Result<Vec<Row>, String> {
+        if point == self.point {
+            return self.own_rows();
+        }
         let compute =
             || modes_at(self.problem, point, &self.point).and_then(|modes| self.rows(&modes, point));
         let outcome =
@@ -105,7 +108,7 @@ impl<'a> Reference<'a> {
         }
     }
 
-    fn rows(&self, modes: &FreeModes, point: &[f64]) -> Result<Vec<Row>, String> {
+    fn rows(&self, modes: &FreeInterfaceModes, point: &[f64]) -> Result<Vec<Row>, String> {
         let unit = self.problem.unit_hz(point);
         let shapes = self.modes.shapes.iter().zip(&modes.shapes);
         let products: Vec<[Mat<c64>; 2]> = shapes.map(|(a, b)| products(a, b)).collect();
@@ -145,7 +148,7 @@ impl<'a> Reference<'a> {
 const UNIT_STEPS: usize = 6;
 
 /// Logarithm of the free unit in Hz that fits best without rotation.
-fn unit_at_rest(problem: &Problem, modes: &FreeModes) -> Result<f64, String> {
+fn unit_at_rest(problem: &Problem, modes: &FreeInterfaceModes) -> Result<f64, String> {
     let (mut sum, mut weights) = (0.0, 0.0);
     for goal in &problem.goals {
         let (omega, _) =
@@ -159,6 +162,6 @@ fn unit_at_rest(problem: &Problem, modes: &FreeModes) -> Result<f64, String> {
 }
 
 /// Products V_aᴴM_aV_b and V_aᴴM_bV_b.
-fn products(a: &FreeShapes, b: &FreeShapes) -> [Mat<c64>; 2] {
+fn products(a: &FreeInterfaceShapes, b: &FreeInterfaceShapes) -> [Mat<c64>; 2] {
     [a.momentum.adjoint() * &b.displacement, a.displacement.adjoint() * &b.momentum]
 }

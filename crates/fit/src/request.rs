@@ -91,7 +91,7 @@ impl FitRequest {
     pub fn from_json(text: &str) -> Result<Self, FitError> {
         let reader = &mut serde_json::Deserializer::from_str(text);
         serde_path_to_error::deserialize(reader).map_err(|error| FitError::Syntax {
-            field: error.path().to_string(),
+            field: Some(error.path().to_string()).filter(|path| path != ".").unwrap_or("request".to_owned()),
             message: error.inner().to_string(),
         })
     }

@@ -16,7 +16,7 @@ use crate::search::{End, derivatives, search, starts};
 pub struct FitResult {
     /// Whether all targets are met within their tolerances.
     pub met: bool,
-    /// Root of the mean square of the differences, %.
+    /// Root mean square of the differences, %.
     pub rms_percent: f64,
     /// Largest magnitude of a difference, %.
     pub largest_percent: f64,
@@ -60,11 +60,12 @@ pub struct TargetResult {
     pub met: bool,
     /// Rank of the mode in its nodal diameter at the target's speed, from 1.
     pub rank: usize,
-    /// Modal assurance of the family's shape at the starting point with the mode that has it now.
-    pub assurance: f64,
+    /// Modal assurance of the family's shape at the starting point with the mode that has it now; none where the starting point's mesh is not
+    /// valid for the wheel found.
+    pub assurance: Option<f64>,
     /// Rank at which the family's shape at the starting point is found now, from 1: another than `rank` where the order of families changed on
     /// the way, and the target was given to another shape.
-    pub rank_by_shape: usize,
+    pub rank_by_shape: Option<usize>,
 }
 
 /// Unknown and what was found.
@@ -76,6 +77,8 @@ pub struct VariableResult {
     pub value: f64,
     /// Standard deviation of the value if every target has its `error`; none where the targets do not determine the value.
     pub standard_deviation: Option<f64>,
+    /// Lower and upper bound; none for a free unit.
+    pub bounds: Option<[f64; 2]>,
     /// Bound at which the value lies: the targets would have it beyond.
     pub at: Option<Bound>,
 }
@@ -95,15 +98,15 @@ pub enum Bound {
 pub struct StartResult {
     /// Values of the parameters at the start, in the order of their names.
     pub from: Vec<f64>,
-    /// Values of the parameters at the end; none where the start is no wheel.
+    /// Values of the parameters at the end; none where the start gives no valid wheel.
     pub to: Option<Vec<f64>>,
-    /// Root of the mean square of the weighted differences at the end: 1 where targets are missed by their errors.
+    /// Root mean square of the weighted differences at the end: 1 where targets are missed by their errors.
     pub weighted_rms: Option<f64>,
     /// Number of iterations.
     pub iterations: usize,
     /// Number of legs of the search: more than 1 where the order of families, or the end of the clamp on the mesh, changed.
     pub legs: usize,
-    /// Reason why the start is no wheel.
+    /// Reason why the start gives no valid wheel.
     pub failure: Option<String>,
 }
 
@@ -114,7 +117,7 @@ const AT_BOUND: f64 = 1e-6;
 /// derivatives run in parallel on the current rayon pool; no bit of the result depends on their number, nor on what was known.
 ///
 /// # Errors
-/// [`FitError::NoStart`] where no starting point is a wheel.
+/// [`FitError::NoStart`] where no starting point gives a valid wheel.
 pub fn fit(problem: &Problem, known: Vec<Evaluation>, keeper: &dyn Keeper) -> Result<FitResult, FitError> {
     let memo = Memo::new(known, keeper);
     let starts = starts(problem);
@@ -136,11 +139,11 @@ pub fn fit(problem: &Problem, known: Vec<Evaluation>, keeper: &dyn Keeper) -> Re
     let point = &best.end.point;
     let knowledge = match derivatives(problem, &memo, &best.end, point) {
         Ok(columns) => Knowledge::of(&columns),
-        // No wheel on either side of the end: nothing is known.
+        // Without a valid wheel on either side of the end nothing is known.
         Err(_) => Knowledge { singular_values: Vec::new(), deviations: vec![None; point.len()] },
     };
     let unit = problem.unit_hz(point);
-    let targets = targets(problem, &memo, best).map_err(|message| failure(&message))?;
+    let targets = targets(problem, &memo, best);
     let largest = targets.iter().fold(0.0f64, |largest, row| largest.max(row.difference_percent.abs()));
     let squares: f64 = targets.iter().map(|row| row.difference_percent.powi(2)).sum();
     let values = problem.values(point);
@@ -182,12 +185,12 @@ pub fn fit(problem: &Problem, known: Vec<Evaluation>, keeper: &dyn Keeper) -> Re
     })
 }
 
-fn targets(problem: &Problem, memo: &Memo<'_>, best: &End<'_>) -> Result<Vec<TargetResult>, String> {
+fn targets(problem: &Problem, memo: &Memo<'_>, best: &End<'_>) -> Vec<TargetResult> {
     let unit = problem.unit_hz(&best.end.point);
-    let followed = best.start.evaluate(memo, &best.end.point)?;
-    let rows = problem.goals.iter().zip(&problem.request.targets).zip(best.rows.iter().zip(followed));
-    let row = |((goal, target), (row, followed)): (_, (&Row, Row))| {
-        let (goal, target): (&Goal, &Target) = (goal, target);
+    let followed = best.start.evaluate(memo, &best.end.point).ok();
+    let rows = problem.goals.iter().zip(&problem.request.targets).zip(&best.rows).enumerate();
+    let row = |(index, ((goal, target), row)): (usize, ((&Goal, &Target), &Row))| {
+        let followed = followed.as_ref().map(|rows| rows[index]);
         let ratio = row.omega / (goal.omega * unit);
         TargetResult {
             nodal_diameter: target.nodal_diameter,
@@ -199,11 +202,11 @@ fn targets(problem: &Problem, memo: &Memo<'_>, best: &End<'_>) -> Result<Vec<Tar
             tolerance_percent: 100.0 * goal.tolerance,
             met: (ratio - 1.0).abs() <= goal.tolerance,
             rank: row.rank + 1,
-            assurance: followed.assurance,
-            rank_by_shape: followed.rank + 1,
+            assurance: followed.map(|followed| followed.assurance),
+            rank_by_shape: followed.map(|followed| followed.rank + 1),
         }
     };
-    Ok(rows.map(row).collect())
+    rows.map(row).collect()
 }
 
 fn unknowns(problem: &Problem, point: &[f64], knowledge: &Knowledge) -> Vec<VariableResult> {
@@ -213,6 +216,7 @@ fn unknowns(problem: &Problem, point: &[f64], knowledge: &Knowledge) -> Vec<Vari
             name: variable.name.clone(),
             value: values[index],
             standard_deviation: knowledge.deviations[index].map(|s| s * (variable.high - variable.low)),
+            bounds: Some([variable.low, variable.high]),
             at: match point[index] {
                 at if at <= AT_BOUND => Some(Bound::Low),
                 at if at >= 1.0 - AT_BOUND => Some(Bound::High),
@@ -223,7 +227,8 @@ fn unknowns(problem: &Problem, point: &[f64], knowledge: &Knowledge) -> Vec<Vari
     if problem.is_free() {
         let value = problem.unit_hz(point);
         let standard_deviation = knowledge.deviations.last().copied().flatten().map(|s| s * value);
-        unknowns.push(VariableResult { name: "unit".to_owned(), value, standard_deviation, at: None });
+        let name = "unit".to_owned();
+        unknowns.push(VariableResult { name, value, standard_deviation, bounds: None, at: None });
     }
     unknowns
 }

@@ -22,8 +22,8 @@ const LEGS: usize = 6;
 /// Relative difference up to which frequencies of one wheel count as the same.
 const SAME: f64 = 1e-7;
 
-/// Weighted difference that stands for a point that is no wheel: large enough for every step there to be taken back.
-const NO_WHEEL: f64 = 1e6;
+/// Weighted difference that stands for a point without a valid wheel: large enough for every step there to be taken back.
+const INVALID: f64 = 1e6;
 
 /// Change of cost and unknowns, relative, at which a leg ends.
 const CONVERGED: f64 = 1e-10;
@@ -40,12 +40,12 @@ pub(crate) struct End<'a> {
     pub(crate) iterations: usize,
     /// Number of legs.
     pub(crate) legs: usize,
-    /// Root of the mean square of the weighted differences.
+    /// Root mean square of the weighted differences.
     pub(crate) weighted_rms: f64,
 }
 
 /// Starting points of a fit: the wheel's own values, then those candidates whose frequencies come closest to the targets, best first; of equal
-/// ones the first. Candidates that are no wheel come last.
+/// ones the first. Candidates without a valid wheel come last.
 pub(crate) fn starts(problem: &Problem) -> Vec<Vec<f64>> {
     let mut candidates = problem.candidates();
     if candidates.len() > problem.request.starts {
@@ -67,7 +67,7 @@ pub(crate) fn starts(problem: &Problem) -> Vec<Vec<f64>> {
 /// Searches from `start`, without a free unit.
 ///
 /// # Errors
-/// Message where the starting point is no wheel.
+/// Message where the starting point gives no valid wheel.
 pub(crate) fn search<'a>(problem: &'a Problem, memo: &Memo<'_>, start: &[f64]) -> Result<End<'a>, String> {
     let start = Arc::new(Reference::at_start(problem, start)?);
     let rows = start.own_rows()?;
@@ -77,12 +77,18 @@ pub(crate) fn search<'a>(problem: &'a Problem, memo: &Memo<'_>, start: &[f64]) -
     while best.legs < LEGS && best.iterations < problem.request.iterations {
         best.legs += 1;
         let mut leg = Leg::new(problem, memo, &reference, problem.request.iterations - best.iterations);
-        let mut point = reference.point.clone();
-        // An error leaves the point where the leg began.
-        best.iterations += leg.mpfit(&mut point).map_or(1, |status| status.n_iter.max(1));
-        let followed = reference.evaluate(memo, &point)?;
-        reference = Arc::new(Reference::new(problem, &point)?);
-        let rows = reference.own_rows()?;
+        // The library leaves its point behind where derivatives fail; the leg has it.
+        best.iterations += leg.mpfit(&mut reference.point.clone()).map_or(1, |status| status.n_iter.max(1));
+        let point = leg.best.1;
+        let named_anew = || {
+            let followed = reference.evaluate(memo, &point)?;
+            let next = Reference::new(problem, &point)?;
+            let rows = next.own_rows()?;
+            Ok::<_, String>((followed, next, rows))
+        };
+        // A mesh of its own may be invalid there: what was found before stands.
+        let Ok((followed, next, rows)) = named_anew() else { break };
+        reference = Arc::new(next);
         let goes_on = differ(&followed, &rows);
         let weighted_rms = self::weighted_rms(problem, &point, &rows);
         if weighted_rms < best.weighted_rms {
@@ -114,10 +120,10 @@ fn weighted_rms(problem: &Problem, point: &[f64], rows: &[Row]) -> f64 {
 }
 
 /// Derivatives of the weighted differences at a point, one column per unknown: central differences of the frequencies, one-sided at bounds and
-/// beside points that are no wheel; the free unit's in closed form.
+/// beside points without a valid wheel; the free unit's in closed form.
 ///
 /// # Errors
-/// Message where the point, or all around it, is no wheel.
+/// Message where the point, or both points beside it, give no valid wheel.
 pub(crate) fn derivatives(
     problem: &Problem,
     memo: &Memo<'_>,
@@ -166,6 +172,8 @@ struct Leg<'a> {
     reference: &'a Reference<'a>,
     bounds: Vec<MPPar>,
     config: MPConfig,
+    /// Best point so far, with the root mean square of its weighted differences.
+    best: (f64, Vec<f64>),
 }
 
 impl<'a> Leg<'a> {
@@ -192,13 +200,15 @@ impl<'a> Leg<'a> {
             max_iter: iterations,
             ..MPConfig::new()
         };
-        Self { problem, memo, reference, bounds, config }
+        Self { problem, memo, reference, bounds, config, best: (f64::INFINITY, reference.point.clone()) }
     }
 
-    fn fill(&self, point: &[f64], deviates: &mut [f64]) {
-        match self.reference.evaluate(self.memo, point) {
-            Ok(rows) => deviates.copy_from_slice(&differences(self.problem, point, &rows)),
-            Err(_) => deviates.fill(NO_WHEEL),
+    fn fill(&mut self, point: &[f64], deviates: &mut [f64]) {
+        let Ok(rows) = self.reference.evaluate(self.memo, point) else { return deviates.fill(INVALID) };
+        deviates.copy_from_slice(&differences(self.problem, point, &rows));
+        let weighted_rms = weighted_rms(self.problem, point, &rows);
+        if weighted_rms < self.best.0 {
+            self.best = (weighted_rms, point.to_vec());
         }
     }
 }

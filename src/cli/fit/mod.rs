@@ -29,8 +29,8 @@ Exit codes:
 pub(super) struct FitArgs {
     /// JSON file: the wheel, the parameters that vary and their bounds, and the frequencies that it is to have
     request: PathBuf,
-    /// Folder for the result (parameters.json for `generate --parameters`, fit.json) and for what is computed on the way; made if missing. The
-    /// same command goes on there after it was ended
+    /// Folder for the result (parameters.json for `generate --parameters`, fit.json) and for stored evaluations; made if missing. The same
+    /// command resumes an interrupted fit
     #[arg(long, default_value = "./rubmap-fit")]
     out: PathBuf,
     /// Threads that compute [default: one per core]
@@ -91,7 +91,7 @@ struct Inner {
     evaluations: usize,
     /// Number of starting points that have come to their end.
     ended: usize,
-    /// Root of the mean square of the weighted differences at the best end.
+    /// Root mean square of the weighted differences at the best end.
     best: f64,
     /// First error of the state on disk.
     failed: Option<std::io::Error>,
@@ -108,11 +108,8 @@ impl Progress {
         let mut inner = self.inner.lock().unwrap_or_else(PoisonError::into_inner);
         let last = change(&mut inner);
         let Inner { evaluations, ended, best, .. } = *inner;
-        let best = if best.is_finite() { format!(", best at {best:.3} errors") } else { String::new() };
-        let words = format!(
-            "{evaluations} evaluations, {ended} of {} starting points at their ends{best}",
-            self.starts
-        );
+        let best = if best.is_finite() { format!(", best weighted rms {best:.3}") } else { String::new() };
+        let words = format!("{evaluations} evaluations, {ended} of {} searches finished{best}", self.starts);
         inner.bar.show((100 * ended / self.starts) as u64, &words, last);
     }
 

@@ -1,7 +1,7 @@
 //! State of a fit on disk: a line of JSON for the request, and one for every evaluation that is done.
 
 use std::collections::BTreeMap;
-use std::fs::{self, File, OpenOptions};
+use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, Seek, Write};
 use std::path::Path;
 
@@ -47,8 +47,17 @@ impl State {
         let mut options = OpenOptions::new();
         let file = options.read(true).write(true).create(true).truncate(false).open(&path);
         let mut file = file.with_context(|| format!("cannot open {place}"))?;
-        if file.try_lock().is_err() {
-            bail!("another fit is at work in {}: wait for its end, or give another folder", folder.display());
+        match file.try_lock() {
+            Ok(()) => {}
+            Err(TryLockError::WouldBlock) => {
+                bail!(
+                    "another fit is at work in {}: wait for its end, or give another folder",
+                    folder.display()
+                )
+            }
+            Err(TryLockError::Error(error)) => {
+                return Err(error).with_context(|| format!("cannot lock {place}"));
+            }
         }
         let text = fs::read(&path).with_context(|| format!("cannot read {place}"))?;
         let head = Head::of(request);

@@ -5,8 +5,6 @@ use std::f64::consts::TAU;
 use faer::linalg::solvers::Solve;
 use faer::{Mat, c64};
 
-use super::UNRESOLVED;
-
 use super::free_wheel::{FreeMode, FreeModes, FreeWheel};
 use crate::dynamics::bending::{Derivatives, Motion};
 
@@ -19,6 +17,9 @@ const ITERATIONS: usize = 12;
 /// Distance of a motion from the extrapolated one, over the linear motion, above which it belongs to another branch: a quarter of the 1/√27 with
 /// which a mode takes part amid a resonance with the third harmonic.
 const STRAY_MOTION: f64 = 0.05;
+
+/// Truncation, relative, above which a curve ends.
+pub(super) const UNRESOLVED: f64 = 1e-3;
 
 /// Distance of a frequency from the extrapolated one, over the linear one, above which its motion belongs to another branch: the largest truncation
 /// of a curve.

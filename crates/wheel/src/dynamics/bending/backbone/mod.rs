@@ -19,7 +19,7 @@ mod response;
 
 use std::ops::RangeInclusive;
 
-use balance::{Balance, Series};
+use balance::{Balance, Series, UNRESOLVED};
 pub use end::{BackboneEnd, Resonance};
 pub use free_wheel::{FreeMode, FreeModes, FreeWheel};
 
@@ -28,9 +28,6 @@ const HARMONICS: RangeInclusive<usize> = 4..=16;
 
 /// Change of the frequency by twice as many harmonics, relative, above which twice as many are taken.
 const TRUNCATION: f64 = 1e-6;
-
-/// Truncation, relative, above which a curve ends.
-const UNRESOLVED: f64 = 1e-3;
 
 /// Number of steps to the largest amplitude, unless shorter ones are needed.
 const STEPS: f64 = 32.0;

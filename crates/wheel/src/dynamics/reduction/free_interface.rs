@@ -1,4 +1,4 @@
-//! Lowest modes of a few nodal diameters of the full sector, contact DOF free: matrices small enough to be solved at any speed.
+//! Free-interface modes: the lowest of a few nodal diameters of the full sector, in matrices small enough to be solved at any speed.
 //!
 //! The basis V of a nodal diameter spans its lowest modes at every given speed. At these speeds the Ritz values of
 //!
@@ -30,18 +30,18 @@ const TOLERANCE: f64 = 1e-6;
 /// Fraction of the largest singular value below which directions of the joint basis are dropped.
 const DEPENDENT: f64 = 1e-5;
 
-/// Lowest modes of a few nodal diameters of a full sector, at any speed.
+/// Lowest modes of a few nodal diameters of a full sector, with free contact DOF, at any speed.
 #[derive(Debug, Clone)]
-pub struct FreeModes {
+pub struct FreeInterfaceModes {
     /// Matrices in the unknowns of the nodal diameters that were asked for; others have no unknowns, and the list of contact nodes is empty.
     pub wheel: ReducedWheel,
     /// Shapes of the unknowns, by nodal diameter as asked for.
-    pub shapes: Vec<FreeShapes>,
+    pub shapes: Vec<FreeInterfaceShapes>,
 }
 
 /// Shapes of the unknowns of one nodal diameter, by which modes of two sectors with the same mesh can be compared.
 #[derive(Debug, Clone)]
-pub struct FreeShapes {
+pub struct FreeInterfaceShapes {
     /// Nodal diameter i.
     pub nodal_diameter: usize,
     /// Displacement V of the own DOF, `n × unknowns`, mass-orthonormal.
@@ -50,16 +50,16 @@ pub struct FreeShapes {
     pub momentum: Mat<c64>,
 }
 
-/// Finds the lowest `count` modes of each of `nodal_diameters` of `sector`, which has no nodes on its axis, at its given speeds. Deterministic
+/// Finds the lowest `count` modes of each of `nodal_diameters` of `sector`, which has no nodes on its axis, at the speeds of its stiffness matrices. Deterministic
 /// for any number of threads.
 ///
 /// # Errors
-/// [`ReductionError::Model`] where the stiffness of a nodal diameter is not positive definite, or a search does not converge.
-pub fn free_modes(
+/// [`ReductionError::Model`] where the mass or the stiffness of a nodal diameter is not positive definite, or a search does not converge.
+pub fn free_interface_modes(
     sector: &SectorModel,
     nodal_diameters: &[usize],
     count: usize,
-) -> Result<FreeModes, ReductionError> {
+) -> Result<FreeInterfaceModes, ReductionError> {
     let matrices: Vec<_> = std::iter::once(&sector.mass).chain(&sector.stiffness).collect();
     let untied = UntiedSector::new(sector, &matrices);
     let mass = untied.assemble(&[(1.0, &sector.mass)]);
@@ -97,7 +97,7 @@ pub fn free_modes(
             let rows: Vec<usize> = (0..sector.own_dofs()).map(|dof| untied.tied_row(tie, dof).0).collect();
             Mat::from_fn(rows.len(), tied.ncols(), |dof, column| tied[(rows[dof], column)])
         };
-        shapes.push(FreeShapes {
+        shapes.push(FreeInterfaceShapes {
             nodal_diameter: tie.harmonic,
             displacement: by_dof(&basis),
             momentum: by_dof(&momentum),
@@ -116,7 +116,7 @@ pub fn free_modes(
         },
         comparison: Vec::new(),
     };
-    Ok(FreeModes { wheel, shapes })
+    Ok(FreeInterfaceModes { wheel, shapes })
 }
 
 fn reduced(harmonic: usize, mass: Mat<c64>, coefficients: Vec<Mat<c64>>) -> ReducedHarmonic {
