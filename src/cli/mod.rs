@@ -107,7 +107,7 @@ enum Command {
     Modes(modes::ModesArgs),
     /// Compute the job of an archive again and compare bit by bit.
     Repeat(repeat::RepeatArgs),
-    /// Compute what is known from elsewhere, and say how far off it is.
+    /// Compare computed results with reference solutions: error, limit and verdict of each.
     Validate(validate::ValidateArgs),
     /// Write a job as one page of HTML.
     #[command(after_help = ending::CODES)]

@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use anyhow::{Context, bail};
 use clap::{Args, ValueEnum};
-use rubmap_validation::claim::Claim;
+use rubmap_validation::claim::{Check, Claim};
 use rubmap_validation::manual::manual;
 use rubmap_validation::report::{Machine, Report, Row, Verdict};
 use rubmap_validation::table::claims;
@@ -56,6 +56,14 @@ pub(super) fn run(args: &ValidateArgs) -> anyhow::Result<ExitCode> {
     if asked.is_empty() {
         bail!("there is no row {:?}: see docs/validation.md", args.only.as_deref().unwrap_or_default());
     }
+    if let [claim] = asked[..]
+        && !matches!(claim.check, Check::Computed(_))
+    {
+        bail!("{} is not computed by the program: see docs/validation.md for its test", claim.name);
+    }
+    if let Some(out) = &args.out {
+        std::fs::create_dir_all(out).with_context(|| format!("cannot make {}", out.display()))?;
+    }
     let mut rows = Vec::new();
     for claim in asked {
         let row = Row::of(claim);
@@ -66,7 +74,6 @@ pub(super) fn run(args: &ValidateArgs) -> anyhow::Result<ExitCode> {
     let report = Report::new(date, crate::version::LINE.to_owned(), this_machine(), rows);
     narrate(&summary(&report))?;
     if let Some(out) = &args.out {
-        std::fs::create_dir_all(out).with_context(|| format!("cannot make {}", out.display()))?;
         let files = [
             ("validation.json", serde_json::to_string_pretty(&report)? + "\n"),
             ("validation.md", report.markdown()),
@@ -99,23 +106,15 @@ fn line(row: &Row) -> String {
     match (row.error, row.limit, &row.failure) {
         (Some(error), Some(limit), _) => format!("{name:42} {error:8.1e} of {limit:.0e}  {verdict}"),
         (_, _, Some(failure)) => format!("{name:42} {verdict}: {failure}"),
-        _ if row.verdict == Verdict::ByATest => format!("{name:42} {verdict}: {}", row.repeat),
+        _ if row.verdict == Verdict::ByTest => format!("{name:42} {verdict}: {}", row.repeat),
         _ => format!("{name:42} {verdict}"),
     }
 }
 
 /// Sentence that ends the run.
 fn summary(report: &Report) -> String {
-    let count = |verdict: Verdict| report.rows.iter().filter(|row| row.verdict == verdict).count();
     let seconds: f64 = report.rows.iter().map(|row| row.seconds).sum();
-    format!(
-        "{} passed, {} failed, {} by tests, {} without a reference, in {seconds:.1} s on vectors {}",
-        count(Verdict::Passed),
-        count(Verdict::Failed),
-        count(Verdict::ByATest),
-        count(Verdict::NoReference),
-        report.machine.vectors
-    )
+    format!("{}, in {seconds:.1} s on vectors {}", report.counts(), report.machine.vectors)
 }
 
 #[cfg(test)]

@@ -50,6 +50,15 @@ pub enum Check {
         /// Limit that the test asserts, and its reason.
         limit: &'static str,
     },
+    /// Comparison of the program with itself by a test of the repository: consistency, no agreement with others.
+    Consistency {
+        /// File of the test, from the root of the repository.
+        file: &'static str,
+        /// Name of the test.
+        name: &'static str,
+        /// Limit that the test asserts, and its reason.
+        limit: &'static str,
+    },
     /// No independent reference yet.
     None,
 }

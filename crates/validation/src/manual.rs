@@ -8,19 +8,19 @@ use crate::table::claims;
 
 const HEAD: &str = "# Validation
 
-What the program claims, and what each claim is held against. `rubmap validate` computes the first table on your machine in some seconds, row by row,
+Claims of the program, each with the reference that it is held against. `rubmap validate` computes the first table on your machine in some seconds, row by row,
 and ends with the code 1 if one fails; `--out FOLDER` leaves the run there as `validation.json` and `validation.md`, with date, version, machine, kind
 of vectors and every error. `--vectors scalar` computes the same on scalars. `--only NAME` computes one row.
 
 References of that table share no code with what they judge. Each problem can be given to the program slightly wrong: a test multiplies the number
-in the column *found if off by 2 %* by 1.02 and asserts that the row fails, so that no limit is loose. Another test asserts that every effect of a
+in the column *number that is tried 2 % off* by 1.02 and asserts that the row fails. Another test asserts that every effect of a
 scene, every kind of job and every importer has a row in one of the tables.
 
 `rubmap validate --manual` prints this page.
 
 ## Computed by the program
 
-| row | claim | reference | quantity | limit and its reason | found if off by 2 % |
+| row | claim | reference | quantity | limit and its reason | number that is tried 2 % off |
 |---|---|---|---|---|---|
 ";
 
@@ -30,6 +30,15 @@ const TESTS: &str = "
 Tests against CalculiX (`ccx`) and against the file of a commercial solver are skipped, saying so, where those are not there.
 
 | row | claim | reference | quantity | limit and its reason | how to repeat |
+|---|---|---|---|---|---|
+";
+
+const CONSISTENCY: &str = "
+## Consistency of the program with itself
+
+These have no reference but the program: they show that it says the same in two ways, not that it agrees with others.
+
+| row | claim | held against | quantity | limit and its reason | how to repeat |
 |---|---|---|---|---|---|
 ";
 
@@ -52,6 +61,12 @@ pub fn manual() -> String {
     text += TESTS;
     for claim in claims() {
         if let Check::Test { limit, .. } = claim.check {
+            line(&mut text, claim, &[limit, &format!("`{}`", repeat(claim))]);
+        }
+    }
+    text += CONSISTENCY;
+    for claim in claims() {
+        if let Check::Consistency { limit, .. } = claim.check {
             line(&mut text, claim, &[limit, &format!("`{}`", repeat(claim))]);
         }
     }

@@ -75,7 +75,7 @@ pub enum Verdict {
     /// Error beyond its limit, or a computation that failed.
     Failed,
     /// Claim that a test of the repository computes.
-    ByATest,
+    ByTest,
     /// Claim without an independent reference.
     NoReference,
 }
@@ -86,7 +86,7 @@ impl Verdict {
         match self {
             Self::Passed => "passed",
             Self::Failed => "FAILED",
-            Self::ByATest => "by a test",
+            Self::ByTest => "by test",
             Self::NoReference => NO_REFERENCE,
         }
     }
@@ -105,7 +105,9 @@ impl Row {
                 };
                 (verdict, error, Some(computed.limit), computed.reason, failure)
             }
-            Check::Test { limit, .. } => (Verdict::ByATest, None, None, limit, None),
+            Check::Test { limit, .. } | Check::Consistency { limit, .. } => {
+                (Verdict::ByTest, None, None, limit, None)
+            }
             Check::None => (Verdict::NoReference, None, None, "", None),
         };
         Self {
@@ -128,7 +130,7 @@ impl Row {
 pub(crate) fn repeat(claim: &Claim) -> String {
     match claim.check {
         Check::Computed(_) => format!("rubmap validate --only {}", claim.name),
-        Check::Test { file, name, .. } => {
+        Check::Test { file, name, .. } | Check::Consistency { file, name, .. } => {
             // A suite is a folder or a file of `tests`, or a crate.
             let mut parts = file.split('/');
             let suite = match (parts.next(), parts.next()) {
@@ -152,14 +154,29 @@ impl Report {
         Self { date, version, revision: REVISION, machine, passed, rows }
     }
 
+    /// Numbers of rows by verdict, in words.
+    pub fn counts(&self) -> String {
+        let count = |verdict: Verdict| self.rows.iter().filter(|row| row.verdict == verdict).count();
+        format!(
+            "{} passed, {} failed, {} by tests of the repository, {} without a reference",
+            count(Verdict::Passed),
+            count(Verdict::Failed),
+            count(Verdict::ByTest),
+            count(Verdict::NoReference)
+        )
+    }
+
     /// Document of the run, in Markdown.
     pub fn markdown(&self) -> String {
         let Machine { system, architecture, processors, vectors } = &self.machine;
         let passed = if self.passed { "Passed" } else { "**Not passed**" };
         let mut text = format!(
-            "# Validation\n\n{passed}: rubmap {} (numerics {}) on {}, {system} on {architecture}, {processors} processors, vectors {vectors}.\n\n\
-             | claim | reference | quantity | error | limit and its reason | verdict | how to repeat |\n|---|---|---|---|---|---|---|\n",
-            self.version, self.revision, self.date
+            "# Validation\n\n{passed}, {}: rubmap {} (revision {} of the numerics) on {}, {system} on {architecture}, {processors} processors, vectors {vectors}.\n\n\
+             | row | claim | reference | quantity | error | limit and its reason | verdict | how to repeat |\n|---|---|---|---|---|---|---|---|\n",
+            self.counts(),
+            self.version,
+            self.revision,
+            self.date
         );
         for row in &self.rows {
             let error =
@@ -167,6 +184,7 @@ impl Report {
             let limit = row.limit.map_or_else(String::new, |limit| format!("{limit:.0e}: "));
             let repeat = if row.repeat.is_empty() { String::new() } else { format!("`{}`", row.repeat) };
             let cells = [
+                row.name,
                 row.claim,
                 row.reference,
                 row.quantity,
@@ -214,7 +232,7 @@ mod tests {
         assert!(report(&rows[..1]).passed && !report(&rows[..2]).passed);
         let report = report(&rows);
         let text = report.markdown();
-        assert!(text.contains("**Not passed**: rubmap 1.2.3"), "{text}");
+        assert!(text.contains("**Not passed**, 1 passed, 3 failed, 0 by tests of the repository, 0 without a reference: rubmap 1.2.3"), "{text}");
         assert!(
             text.contains("\\|x\\|") && text.contains("no modes") && text.contains("1e-3: round-off"),
             "{text}"

@@ -80,7 +80,7 @@ mod tests {
         for claim in super::claims() {
             assert!(names.insert(claim.name), "{} twice", claim.name);
             assert_eq!(claim.reference == NO_REFERENCE, matches!(claim.check, Check::None), "{}", claim.name);
-            if let Check::Test { file, name, .. } = claim.check {
+            if let Check::Test { file, name, .. } | Check::Consistency { file, name, .. } = claim.check {
                 let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../../");
                 let source = std::fs::read_to_string(format!("{root}{file}")).unwrap();
                 let (before, _) = source.split_once(&format!("fn {name}()")).expect(name);

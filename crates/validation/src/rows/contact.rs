@@ -40,7 +40,7 @@ pub(crate) const ROWS: &[Claim] = &[
             error: impact_oscillator,
             wrong: "natural frequency",
             limit: 2e-3,
-            reason: "in contact the blade swings a thousand times as fast: the stop gives way for so long",
+            reason: "the stop is elastic: contact lasts about a thousandth of a period",
         }),
     },
     Claim {
@@ -51,7 +51,7 @@ pub(crate) const ROWS: &[Claim] = &[
         quantity: "relative error of the mean force over the revolution after the closing",
         check: Check::Computed(Computed {
             error: closing_clearance,
-            wrong: "way of the wall",
+            wrong: "displacement of the wall",
             limit: 1e-6,
             reason: "the closing leaves a vibration, which damping has taken away",
         }),
@@ -72,7 +72,7 @@ pub(crate) const ROWS: &[Claim] = &[
     Claim {
         name: "abradable-rod",
         covers: &[Subject::Effect("abradable")],
-        claim: "A blade wears an abradable coating until its force no longer makes it yield.",
+        claim: "A blade wears an abradable coating until the stress in it falls to its yield stress.",
         reference: "closed form: spring against an elastic–plastic rod with linear hardening, k(δ − x) = A(σ_Y + EK/(E + K)(x/t − σ_Y/E))",
         quantity: "relative error of the depth x after five revolutions",
         check: Check::Computed(Computed {

@@ -32,7 +32,7 @@ pub(crate) const ROWS: &[Claim] = &[
     Claim {
         name: "mistuned-pair",
         covers: &[Subject::Effect("mistuning"), Subject::Effect("initial")],
-        claim: "Two blades of other stiffness beat.",
+        claim: "Two blades of different stiffness beat.",
         reference: "closed form: λ = (ω0² + ω1²)/2 ± √((ω1² − ω0²)²/4 + (ω0ω1δ)²) for deviations δ and −δ",
         quantity: "largest error of both blades over two revolutions, over the amplitude",
         check: Check::Computed(Computed {

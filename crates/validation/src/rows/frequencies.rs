@@ -8,7 +8,6 @@ use rubmap_model::impeller::{AnnulusParameters, CantileverParameters, Material, 
 use rubmap_model::package::raw::RawPackage;
 use rubmap_model::package::to_sector;
 use rubmap_wheel::dynamics::modal_wheel::natural_frequencies;
-
 use rubmap_wheel::dynamics::reduction::{NoCheckpoints, ReducedWheel, ReductionOptions, reduce};
 use rubmap_wheel::dynamics::sector::{ContactNode, CyclicMatrix, SectorModel, SectorParts, Units};
 
@@ -58,7 +57,7 @@ pub(crate) const ROWS: &[Claim] = &[
     Claim {
         name: "annular-plate",
         covers: &[Subject::Kind("model_generation")],
-        claim: "A disk clamped at its bore vibrates with nodal diameters and circles as a plate.",
+        claim: "A disk clamped at its bore has the frequencies of a plate by nodal diameter.",
         reference: "Kirchhoff's plate: zeros of the determinant of Bessel functions, b/a = 0.3, ν = 0.3",
         quantity: "largest relative error of nodal diameters 0 to 3 without nodal circle",
         check: Check::Computed(Computed {

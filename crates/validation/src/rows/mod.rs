@@ -11,5 +11,4 @@ pub(crate) mod run_up;
 pub(crate) mod sensitivities;
 pub(crate) mod steady;
 pub(crate) mod stress;
-
 pub(crate) mod turning;
