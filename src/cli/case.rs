@@ -80,7 +80,15 @@ async fn play(args: &CaseArgs, client: &Client, body: Value) -> anyhow::Result<(
     let point = &histories.point;
     if point.status != PointStatus::Completed {
         let reason = point.message.as_deref().unwrap_or("the reason is not known");
-        bail!("{:.1} rad/s could not be computed: {reason}; nothing is drawn", point.speed_rad_s);
+        let names = DRAWINGS.map(|(name, _)| format!("{name}.svg"));
+        for name in names.iter().map(String::as_str).chain(["trajectories.svg", "histories.csv"]) {
+            // Of an earlier run in the same folder.
+            let _ = std::fs::remove_file(out.join(name));
+        }
+        bail!(
+            "{:.1} rad/s could not be computed: {reason}; histories.json says so, nothing is drawn",
+            point.speed_rad_s
+        );
     }
     client.save(&format!("{path}?format=csv"), &out.join("histories.csv")).await?;
     for (name, what) in DRAWINGS {
