@@ -2,13 +2,14 @@
 
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 use rubmap_model::impeller::ImpellerParameters;
+use rubmap_wheel::revision::VERSION;
 use serde::{Deserialize, Serialize};
 
 use crate::error::FitError;
 use crate::evaluation::{Evaluation, Keeper, Memo, Row};
 use crate::identify::Knowledge;
 use crate::problem::{Goal, Problem};
-use crate::request::Target;
+use crate::request::{FitRequest, Target};
 use crate::search::{End, derivatives, search, starts};
 
 /// Result of a fit.
@@ -37,6 +38,10 @@ pub struct FitResult {
     pub starts: Vec<StartResult>,
     /// Parameters of the wheel that was found, as `rubmap generate --parameters` reads them.
     pub parameters: ImpellerParameters,
+    /// Request of the fit, with its defaults.
+    pub request: FitRequest,
+    /// Version of the program.
+    pub version: String,
 }
 
 /// Target and what was found.
@@ -182,6 +187,8 @@ pub fn fit(problem: &Problem, known: Vec<Evaluation>, keeper: &dyn Keeper) -> Re
         best_start,
         starts: starts.iter().zip(&ends).map(start).collect(),
         parameters,
+        request: problem.request.clone(),
+        version: VERSION.to_owned(),
     })
 }
 
